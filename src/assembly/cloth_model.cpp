@@ -1,0 +1,77 @@
+#include "assembly/cloth_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile {
+namespace {
+
+// uv of the hinge's edge, seen from one of its triangles: x1 - x0.
+Vec2 edge_in_pattern(const ClothMesh& mesh, Index triangle, Index x0, Index x1) {
+  const auto t = static_cast<std::size_t>(triangle);
+  Vec2 ends[2] = {Vec2::Zero(), Vec2::Zero()};
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (mesh.triangles[t][c] == x0) ends[0] = mesh.uv[t][c];
+    if (mesh.triangles[t][c] == x1) ends[1] = mesh.uv[t][c];
+  }
+  return ends[1] - ends[0];
+}
+
+BendRest hinge_rest(const ClothModel& model, std::span<const Fabric> fabrics, const Hinge& hinge, bool paper_scaling) {
+  double rigidity = 0, tau = 0, length = 0, area[2];
+  for (int side = 0; side < 2; ++side) {
+    const auto t = static_cast<std::size_t>(hinge.triangle[static_cast<std::size_t>(side)]);
+    const Fabric& fabric = fabrics[fabrics.size() == 1 ? 0 : static_cast<std::size_t>(model.mesh.panel[t])];
+    const Vec2 along = edge_in_pattern(model.mesh, hinge.triangle[static_cast<std::size_t>(side)], hinge.particle[0], hinge.particle[1]);
+    // The paper weighs by the edge's own direction; the fibres that bend run across it (docs/deviations.md#bend-direction).
+    const Vec2 direction = paper_scaling ? along : Vec2(-along.y(), along.x());
+    rigidity += 0.5 * directional_rigidity(direction, fabric.bend_u_N_m, fabric.bend_v_N_m);
+    tau += 0.5 * fabric.bend_damping_s;
+    length += 0.5 * along.norm();
+    area[side] = material_frame(model.mesh.uv[t]).area_m2;
+  }
+  BendRest rest;
+  rest.kappa_N_m = paper_scaling ? rigidity : rigidity * bend_weight(length, area[0], area[1]);
+  rest.tau_s = tau;
+  return rest;
+}
+
+}  // namespace
+
+ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const ModelOptions& options) {
+  ClothModel model;
+  model.gravity_m_per_s2 = options.gravity_m_per_s2;
+  model.damping_jacobian = options.damping_jacobian;
+  model.topology = build_topology(mesh.particle_count, mesh.triangles);
+  model.mesh = std::move(mesh);
+
+  const auto particles = static_cast<std::size_t>(model.mesh.particle_count);
+  const std::size_t triangles = model.mesh.triangles.size();
+  model.mass_kg.assign(particles, 0);
+  model.thickness_m.assign(particles, 0);
+  model.friction.assign(particles, 0);
+  model.membrane.resize(triangles);
+  model.stiffness.resize(triangles);
+  for (std::size_t t = 0; t < triangles; ++t) {
+    const Fabric& fabric = fabrics[fabrics.size() == 1 ? 0 : static_cast<std::size_t>(model.mesh.panel[t])];
+    const MaterialFrame frame = material_frame(model.mesh.uv[t]);
+    model.membrane[t].alpha = frame.alpha;
+    model.membrane[t].beta = frame.beta;
+    model.membrane[t].scale2 = options.paper_scaling ? frame.area_m2 * frame.area_m2 : frame.area_m2;
+    model.stiffness[t] = {fabric.stretch_u_N_per_m, fabric.stretch_v_N_per_m, fabric.shear_N_per_m, fabric.stretch_damping_s,
+                          fabric.shear_damping_s};
+    for (const Index corner : model.mesh.triangles[t]) {
+      const auto p = static_cast<std::size_t>(corner);
+      model.mass_kg[p] += fabric.density_kg_per_m2 * frame.area_m2 / 3;
+      model.thickness_m[p] = std::max(model.thickness_m[p], fabric.thickness_m);
+      model.friction[p] = std::max(model.friction[p], fabric.friction);
+    }
+  }
+  model.bend.reserve(model.topology.hinges.size());
+  for (const Hinge& hinge : model.topology.hinges) {
+    model.bend.push_back(hinge_rest(model, fabrics, hinge, options.paper_scaling));
+  }
+  return model;
+}
+
+}  // namespace toile

@@ -1,0 +1,43 @@
+// assembly/cloth_model.hpp: a cloth as the integrator sees it: particles, elements, masses.  Built once, then constant.
+#pragma once
+#include "material/bend.hpp"
+#include "material/fabric.hpp"
+#include "material/membrane.hpp"
+#include "mesh/cloth_mesh.hpp"
+#include "mesh/topology.hpp"
+
+#include <span>
+#include <vector>
+
+namespace toile {
+
+struct ClothState {                      // copy to save, assign to restore
+  Vec3s x, v;                            // m, m/s
+};
+
+struct ModelOptions {
+  Vec3 gravity_m_per_s2{0, -9.81, 0};
+  bool paper_scaling = false;            // conditions scaled by area and bend without geometry, as printed in 1998
+  DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
+};
+
+struct ClothModel {
+  ClothMesh mesh;
+  Topology topology;
+  std::vector<MembraneRest> membrane;              // [triangle]
+  std::vector<MembraneStiffness> stiffness;        // [triangle]
+  std::vector<BendRest> bend;                      // [hinge]
+  std::vector<double> mass_kg;                     // [particle]
+  std::vector<double> thickness_m;                 // [particle] contact distance of two layers
+  std::vector<double> friction;                    // [particle]
+  Vec3 gravity_m_per_s2{0, -9.81, 0};
+  DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
+
+  Index particle_count() const { return mesh.particle_count; }
+};
+
+// `fabric_of_panel` has one entry, or one per panel of the mesh.  Hinges on a seam take the mean of both sides.
+// Masses: a third of each triangle's density * area goes to each corner.   Rest angles are zero; set model.bend[h].theta_0 after.
+ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabric_of_panel, const ModelOptions& options = {});
+
+}  // namespace toile

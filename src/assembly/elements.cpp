@@ -1,0 +1,210 @@
+#include "assembly/elements.hpp"
+
+#include "core/parallel.hpp"
+
+#include <algorithm>
+
+namespace toile {
+namespace {
+
+constexpr std::size_t grain = 512;  // elements per block of work
+
+template <class Parts>
+std::vector<std::int32_t> offsets(const Parts& keyed, std::size_t key_count) {
+  std::vector<std::int32_t> begin(key_count + 1, 0);
+  for (const auto& part : keyed) ++begin[static_cast<std::size_t>(part.first) + 1];
+  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  return begin;
+}
+
+}  // namespace
+
+Elements::Elements(const ClothModel& model)
+    : triangles_(model.mesh.triangles),
+      hinges_(model.topology.hinges),
+      membrane_(triangles_.size()),
+      bend_(hinges_.size()),
+      combined_(triangles_.size()),
+      triangle_force_(triangles_.size()),
+      hinge_force_(hinges_.size()) {
+  std::vector<std::pair<Index, Index>> links;
+  for (const Triangle& t : triangles_) {
+    for (std::size_t k = 0; k < 3; ++k) links.emplace_back(t[k], t[(k + 1) % 3]);
+  }
+  for (const Hinge& hinge : hinges_) links.emplace_back(hinge.particle[2], hinge.particle[3]);
+  pattern_ = std::make_shared<const BlockPattern>(model.particle_count(), std::move(links));
+  for (const MembraneRest& rest : model.membrane) {
+    alpha_.push_back(rest.alpha);
+    beta_.push_back(rest.beta);
+  }
+  for (const BendRest& rest : model.bend) {
+    kappa_.push_back(rest.kappa_N_m);
+    tau_.push_back(rest.tau_s);
+  }
+  add_incidence(model);
+}
+
+void Elements::add_incidence(const ClothModel& model) {
+  // Who adds to which block, in element order: (key, part), sorted by key only (stable).
+  std::vector<std::pair<Slot, TrianglePart>> in_triangles;
+  std::vector<std::pair<Slot, HingePart>> in_hinges;
+  std::vector<std::pair<Index, std::pair<Index, std::uint8_t>>> at_triangles, at_hinges;
+  const auto by_key = [](const auto& p, const auto& q) { return p.first < q.first; };
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for (std::uint8_t a = 0; a < 3; ++a) {
+      at_triangles.push_back({triangles_[t][a], {static_cast<Index>(t), a}});
+      for (std::uint8_t b = 0; b < 3; ++b) {
+        const Index i = triangles_[t][a], j = triangles_[t][b];
+        if (i < j) in_triangles.push_back({pattern_->slot(i, j), {static_cast<Index>(t), a, b}});
+      }
+    }
+  }
+  for (std::size_t h = 0; h < hinges_.size(); ++h) {
+    for (std::uint8_t a = 0; a < 4; ++a) {
+      at_hinges.push_back({hinges_[h].particle[a], {static_cast<Index>(h), a}});
+      for (std::uint8_t b = 0; b < 4; ++b) {
+        const Index i = hinges_[h].particle[a], j = hinges_[h].particle[b];
+        if (i < j) in_hinges.push_back({pattern_->slot(i, j), {static_cast<Index>(h), a, b}});
+      }
+    }
+  }
+  std::stable_sort(in_triangles.begin(), in_triangles.end(), by_key);
+  std::stable_sort(in_hinges.begin(), in_hinges.end(), by_key);
+  std::stable_sort(at_triangles.begin(), at_triangles.end(), by_key);
+  std::stable_sort(at_hinges.begin(), at_hinges.end(), by_key);
+  const auto slots = static_cast<std::size_t>(pattern_->block_count());
+  const auto particles = static_cast<std::size_t>(model.particle_count());
+  triangle_begin_ = offsets(in_triangles, slots);
+  hinge_begin_ = offsets(in_hinges, slots);
+  particle_triangle_begin_ = offsets(at_triangles, particles);
+  particle_hinge_begin_ = offsets(at_hinges, particles);
+  for (const auto& part : in_triangles) triangle_parts_.push_back(part.second);
+  for (const auto& part : in_hinges) hinge_parts_.push_back(part.second);
+  for (const auto& part : at_triangles) particle_triangles_.push_back(part.second);
+  for (const auto& part : at_hinges) particle_hinges_.push_back(part.second);
+}
+
+void Elements::evaluate(const ClothModel& model, const ClothState& state) {
+  const auto& [x, v] = state;
+  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
+    std::array<Vec3, 3> corner_x, corner_v;
+    for (std::size_t c = 0; c < 3; ++c) {
+      corner_x[c] = x[static_cast<std::size_t>(triangles_[t][c])];
+      corner_v[c] = v[static_cast<std::size_t>(triangles_[t][c])];
+    }
+    membrane_[t] = membrane_response(model.membrane[t], model.stiffness[t], corner_x, corner_v, model.damping_jacobian);
+  });
+  parallel_for(hinges_.size(), grain, [&](std::size_t h) {
+    std::array<Vec3, 4> corner_x, corner_v;
+    for (std::size_t c = 0; c < 4; ++c) {
+      corner_x[c] = x[static_cast<std::size_t>(hinges_[h].particle[c])];
+      corner_v[c] = v[static_cast<std::size_t>(hinges_[h].particle[c])];
+    }
+    bend_[h] = bend_response(model.bend[h], corner_x, corner_v);
+  });
+}
+
+double Elements::energy_J() const {
+  double energy = 0;
+  for (const MembraneResponse& response : membrane_) energy += response.energy_J;
+  for (const BendResponse& response : bend_) energy += response.energy_J;
+  return energy;
+}
+
+int Elements::degenerate_hinges() const {
+  return static_cast<int>(std::count_if(bend_.begin(), bend_.end(), [](const BendResponse& r) { return r.degenerate; }));
+}
+
+void Elements::gather(std::span<Vec3> f, double sign) const {
+  parallel_for(f.size(), grain, [&](std::size_t i) {
+    Vec3 sum = Vec3::Zero();
+    for (auto k = particle_triangle_begin_[i]; k < particle_triangle_begin_[i + 1]; ++k) {
+      const auto [t, corner] = particle_triangles_[static_cast<std::size_t>(k)];
+      sum += triangle_force_[static_cast<std::size_t>(t)][corner];
+    }
+    for (auto k = particle_hinge_begin_[i]; k < particle_hinge_begin_[i + 1]; ++k) {
+      const auto [h, corner] = particle_hinges_[static_cast<std::size_t>(k)];
+      sum += hinge_force_[static_cast<std::size_t>(h)][corner];
+    }
+    f[i] += sign * sum;
+  });
+}
+
+void Elements::forces(std::span<Vec3> f) const {
+  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
+    const MembraneResponse& r = membrane_[t];
+    const Vec3 u = r.P_u + r.Q_u, v = r.P_v + r.Q_v;
+    for (Eigen::Index c = 0; c < 3; ++c) triangle_force_[t][static_cast<std::size_t>(c)] = alpha_[t][c] * u + beta_[t][c] * v;
+  });
+  parallel_for(hinges_.size(), grain, [&](std::size_t h) {
+    const double moment = bend_[h].moment + bend_[h].damping;
+    for (std::size_t c = 0; c < 4; ++c) hinge_force_[h][c] = moment * bend_[h].g[c];
+  });
+  std::fill(f.begin(), f.end(), Vec3::Zero());
+  gather(f, -1);
+}
+
+void Elements::subtract_stiffness(std::span<const Vec3> displacement, std::span<Vec3> f) const {
+  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
+    Vec3 y_u = Vec3::Zero(), y_v = Vec3::Zero();
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const Vec3& y = displacement[static_cast<std::size_t>(triangles_[t][static_cast<std::size_t>(c)])];
+      y_u += alpha_[t][c] * y;
+      y_v += beta_[t][c] * y;
+    }
+    const FMatrix& K = membrane_[t].K;
+    const Vec3 u = K.uu * y_u + K.uv * y_v, v = K.uv.transpose() * y_u + K.vv * y_v;
+    for (Eigen::Index c = 0; c < 3; ++c) triangle_force_[t][static_cast<std::size_t>(c)] = alpha_[t][c] * u + beta_[t][c] * v;
+  });
+  parallel_for(hinges_.size(), grain, [&](std::size_t h) {
+    double angle = 0;
+    for (std::size_t c = 0; c < 4; ++c) {
+      angle += bend_[h].g[c].dot(displacement[static_cast<std::size_t>(hinges_[h].particle[c])]);
+    }
+    for (std::size_t c = 0; c < 4; ++c) hinge_force_[h][c] = (kappa_[h] * angle) * bend_[h].g[c];
+  });
+  gather(f, -1);
+}
+
+template <class T>
+void Elements::assemble(double h_s, BlockMatrix<T>& A) {
+  const double h2 = h_s * h_s;
+  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
+    const FMatrix &K = membrane_[t].K, &D = membrane_[t].D;
+    combined_[t] = {h2 * K.uu + h_s * D.uu, h2 * K.uv + h_s * D.uv, h2 * K.vv + h_s * D.vv};
+  });
+  parallel_for(static_cast<std::size_t>(pattern_->block_count()), grain, [&](std::size_t s) {
+    Mat3 block = Mat3::Zero();
+    for (auto k = triangle_begin_[s]; k < triangle_begin_[s + 1]; ++k) {
+      const auto [triangle, a, b] = triangle_parts_[static_cast<std::size_t>(k)];
+      const auto t = static_cast<std::size_t>(triangle);
+      const FMatrix& H = combined_[t];
+      const double alpha_a = alpha_[t][a], alpha_b = alpha_[t][b], beta_a = beta_[t][a], beta_b = beta_[t][b];
+      block += alpha_a * alpha_b * H.uu + alpha_a * beta_b * H.uv + beta_a * alpha_b * H.uv.transpose() + beta_a * beta_b * H.vv;
+    }
+    for (auto k = hinge_begin_[s]; k < hinge_begin_[s + 1]; ++k) {
+      const auto [hinge, a, b] = hinge_parts_[static_cast<std::size_t>(k)];
+      const auto h = static_cast<std::size_t>(hinge);
+      block += ((h2 + h_s * tau_[h]) * kappa_[h] * bend_[h].g[a]) * bend_[h].g[b].transpose();
+    }
+    A.off_diagonal(static_cast<Slot>(s)) = Block<T>::from(block);
+  });
+  A.update_diagonal();
+}
+
+void Elements::stretch(std::span<const Vec3> x, std::span<Vec2> w) const {
+  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
+    Vec3 w_u = Vec3::Zero(), w_v = Vec3::Zero();
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const Vec3& x_c = x[static_cast<std::size_t>(triangles_[t][static_cast<std::size_t>(c)])];
+      w_u += alpha_[t][c] * x_c;
+      w_v += beta_[t][c] * x_c;
+    }
+    w[t] = Vec2(w_u.norm(), w_v.norm());
+  });
+}
+
+template void Elements::assemble(double, BlockMatrix<float>&);
+template void Elements::assemble(double, BlockMatrix<double>&);
+
+}  // namespace toile

@@ -1,0 +1,184 @@
+// body/collision_body.cpp: which part of a file is the body, and how large it is.
+#include "body/collision_body.hpp"
+
+#include "core/error.hpp"
+#include "mesh/check.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+namespace toile {
+
+namespace {
+
+constexpr double shortest_body_m = 0.5, tallest_body_m = 2.5;
+constexpr double part_share = 0.1;  // of the largest part's volume; smaller parts are eyes, teeth, buttons
+
+std::size_t z(Index i) { return static_cast<std::size_t>(i); }
+
+double metres(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::dm:
+      return 0.1;
+    case LengthUnit::cm:
+      return 0.01;
+    case LengthUnit::automatic:
+    case LengthUnit::m:
+      break;
+  }
+  return 1.0;
+}
+
+bool is_body_name(std::string_view name) {
+  constexpr std::string_view wanted = "body";
+  return std::equal(name.begin(), name.end(), wanted.begin(), wanted.end(),
+                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+}
+
+// The triangles whose group or object is called body; empty when nothing is.
+std::vector<Triangle> named_body(const ObjMesh& mesh) {
+  const auto belongs = [&](const std::vector<Index>& of, const std::vector<std::string>& names, std::size_t t) {
+    return t < of.size() && is_body_name(names[z(of[t])]);
+  };
+  std::vector<Triangle> kept;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (belongs(mesh.group, mesh.group_names, t) || belongs(mesh.object, mesh.object_names, t))
+      kept.push_back(mesh.triangles[t]);
+  return kept;
+}
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<Index>(i);
+  }
+  Index find(Index i) {
+    while (parent_[z(i)] != i) i = parent_[z(i)] = parent_[z(parent_[z(i)])];
+    return i;
+  }
+  void join(Index a, Index b) {
+    a = find(a);
+    b = find(b);
+    parent_[z(std::max(a, b))] = std::min(a, b);  // the smallest vertex stands for the part
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+// The triangles of the closed parts that are large enough; all triangles when no part is closed, so that the check of the
+// whole can say where it is open.
+std::vector<Triangle> closed_parts(const ObjMesh& mesh) {
+  struct Part {
+    double volume = 0;
+    bool closed = true;
+  };
+  DisjointSets sets(mesh.positions.size());
+  for (const Triangle& t : mesh.triangles) {
+    sets.join(t[0], t[1]);
+    sets.join(t[0], t[2]);
+  }
+  std::vector<Part> parts(mesh.positions.size());  // at the vertex that stands for the part
+  std::vector<std::pair<Index, Index>> directed;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 &a = mesh.positions[z(t[0])], &b = mesh.positions[z(t[1])], &c = mesh.positions[z(t[2])];
+    const Vec3& root = mesh.positions[z(sets.find(t[0]))];  // near the part: the volume keeps its digits
+    parts[z(sets.find(t[0]))].volume += (a - root).dot((b - root).cross(c - root)) / 6.0;
+    for (std::size_t k = 0; k < 3; ++k) directed.emplace_back(t[k], t[(k + 1) % 3]);
+  }
+  std::sort(directed.begin(), directed.end());
+  for (std::size_t i = 0; i < directed.size(); ++i) {
+    const auto [a, b] = directed[i];
+    const bool once = i == 0 || directed[i - 1] != directed[i];
+    if (!once || !std::binary_search(directed.begin(), directed.end(), std::pair{b, a}))
+      parts[z(sets.find(a))].closed = false;
+  }
+  double largest = 0;
+  for (const Part& p : parts)
+    if (p.closed) largest = std::max(largest, std::abs(p.volume));
+  if (largest == 0) return mesh.triangles;
+  std::vector<Triangle> kept;
+  for (const Triangle& t : mesh.triangles) {
+    const Part& p = parts[z(sets.find(t[0]))];
+    if (p.closed && std::abs(p.volume) >= part_share * largest) kept.push_back(t);
+  }
+  return kept;
+}
+
+// "dm", "cm", or nothing when no unit makes a body of this height.
+std::optional<LengthUnit> unit_that_fits(double height) {
+  for (const LengthUnit unit : {LengthUnit::dm, LengthUnit::cm}) {
+    const double h = height * metres(unit);
+    if (h >= shortest_body_m && h <= tallest_body_m) return unit;
+  }
+  return std::nullopt;
+}
+
+std::string number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+[[noreturn]] void fail_height(std::string_view file, double height) {
+  std::string advice = "no unit of m, dm, cm fits: say which one is meant with --body-unit";
+  if (const auto unit = unit_that_fits(height)) {
+    advice = std::string("pass --body-unit ") + (*unit == LengthUnit::dm ? "dm" : "cm") + " if the body is " +
+             number("%.2f m", height * metres(*unit)) + " tall";
+  }
+  throw InputError(file, "body height", "0.5 to 2.5 m when coordinates are taken as metres (" + advice + ")",
+                   number("%.4g m", height));
+}
+
+// Before any arithmetic on them: every index in range, every coordinate finite.
+void check_input(const ObjMesh& mesh, std::string_view file) {
+  if (mesh.triangles.empty()) throw InputError(file, "body", "a closed surface", "no faces");
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (Index v : mesh.triangles[i]) {
+      if (v < 0 || z(v) >= mesh.positions.size())
+        throw InputError(file, "triangle " + std::to_string(i),
+                         "an index below " + std::to_string(mesh.positions.size()), std::to_string(v));
+      if (!mesh.positions[z(v)].allFinite())
+        throw InputError(file, "vertex " + std::to_string(v), "finite coordinates", "infinity or not a number");
+    }
+}
+
+}  // namespace
+
+CollisionBody make_collision_body(const ObjMesh& mesh, std::string_view file, LengthUnit unit) {
+  check_input(mesh, file);
+  std::vector<Triangle> kept = named_body(mesh);
+  if (kept.empty()) kept = closed_parts(mesh);
+
+  CollisionBody body;
+  body.name = std::filesystem::path(file).stem().string();
+  std::vector<Index> map(mesh.positions.size(), -1);
+  for (const Triangle& t : kept)
+    for (Index v : t) map[z(v)] = 0;
+  for (std::size_t i = 0; i < map.size(); ++i)
+    if (map[i] == 0) {
+      map[i] = static_cast<Index>(body.positions.size());
+      body.positions.push_back(metres(unit) * mesh.positions[i]);
+    }
+  for (const Triangle& t : kept) body.triangles.push_back({map[z(t[0])], map[z(t[1])], map[z(t[2])]});
+  check_closed(file, body.positions, body.triangles);
+
+  const auto [low, high] = std::minmax_element(body.positions.begin(), body.positions.end(),
+                                               [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); });
+  body.height_m = high->y() - low->y();
+  if (unit == LengthUnit::automatic && !(body.height_m >= shortest_body_m && body.height_m <= tallest_body_m))
+    fail_height(file, body.height_m);
+  return body;
+}
+
+CollisionBody from_mannequin(const Mannequin& mannequin) {
+  return {mannequin.positions, mannequin.triangles, "mannequin", mannequin.measurements_m.height};
+}
+
+}  // namespace toile

@@ -1,0 +1,151 @@
+// The body's vertices and ridges against the cloth's faces and edges.
+#include "contact/bucket_order.hpp"
+#include "contact/proximity_memory.hpp"
+#include "core/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile {
+namespace {
+
+constexpr double touching_m = 1e-9;  // nearer than this the body's own normal is the direction
+
+using Memory = ProximityWorkspace::Memory;
+
+class BodyQuery {
+ public:
+  BodyQuery(const ClothTopology& cloth, std::span<const Vec3> x, const BodySurface& body,
+            const ProximityOptions& options, const Memory& memory)
+      : cloth_(cloth), around_(cloth, x, options.range_m), body_(body), options_(options), memory_(memory) {}
+
+  void walk(TreeTask task, Memory::Found& found) const {
+    const TriangleTree& bodies = body_.tree_now();
+    memory_.tree.visit_cross(bodies, task, [&](Index a, Index b) {
+      const unsigned owned = body_.owned_ridges(b), edges = static_cast<unsigned>(cloth_.owned(a)) >> 3,
+                     ridges = owned >> 3;
+      const Triangle& corners = body_.triangle(b);
+      const OuterBox &box_a = memory_.tree.triangle_box(a), &box_b = bodies.triangle_box(b);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if ((owned >> k & 1u) && bodies.particle_box(corners[k]).overlaps(box_a)) meet_vertex(corners[k], a, found);
+      }
+      if (edges == 0 || ridges == 0) return;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!(edges >> k & 1u)) continue;
+        const Index e = cloth_.triangle_edges(a)[k];
+        OuterBox box = memory_.tree.particle_box(cloth_.edge(e).a);
+        box.include(memory_.tree.particle_box(cloth_.edge(e).b));
+        if (!box.overlaps(box_b)) continue;
+        for (std::size_t l = 0; l < 3; ++l) {
+          if (ridges >> l & 1u) {
+            meet_edges(e, box, body_.topology().triangle_edges[static_cast<std::size_t>(b)][l], found);
+          }
+        }
+      }
+    });
+  }
+
+ private:
+  const Vec3& body_x(Index vertex) const { return body_.positions()[static_cast<std::size_t>(vertex)]; }
+
+  // Sets normal and gap of a record; `between` leads from the body's point to the cloth's point.  False: too far, or on
+  // neither side.
+  bool set_gap(BodyContact& record, const Vec3& between, const Vec3& out) const {
+    const double distance = between.norm();
+    if (!(distance > touching_m)) {
+      record.normal = out;
+      record.gap_m = between.dot(out);
+      return out.squaredNorm() > 0;
+    }
+    const double cosine = between.dot(out) / distance;
+    if (std::fabs(cosine) < doubtful_cosine) return false;
+    const double side = cosine > 0 ? 1 : -1;
+    record.normal = side / distance * between;
+    record.gap_m = side * distance;
+    return distance < (cosine > 0 ? options_.range_m : options_.depth_m);
+  }
+
+  // Is the cloth's point inside the body, with its nearest way out on the side of this normal?
+  bool confirmed(const BodyContact& record, const Vec3& cloth_point) const {
+    if (!(record.gap_m < -touching_m)) return true;
+    const BodyPoint nearest = body_.nearest(cloth_point, 2 * options_.depth_m);
+    return nearest.triangle >= 0 && nearest.gap_m < 0 && nearest.normal.dot(record.normal) > 0;
+  }
+
+  void meet_vertex(Index vertex, Index t, Memory::Found& found) const {
+    const Triangle& c = cloth_.triangle(t);
+    const Vec3 &p = body_x(vertex), &origin = around_.x(c[0]);
+    const double reach = std::max(options_.range_m, options_.depth_m);
+    if (std::fabs(memory_.face_normals[static_cast<std::size_t>(t)].dot(p - origin)) >= reach) return;
+    const VertexTriangle at = closest_vertex_triangle(p, origin, around_.x(c[1]), around_.x(c[2]));
+    if (at.feature != Feature::face || !(at.distance2 < reach * reach)) return;
+    const Vec3& b = at.barycentric;
+    const Vec3 point = b[0] * around_.x(c[0]) + b[1] * around_.x(c[1]) + b[2] * around_.x(c[2]);
+    BodyContact record{ContactKind::vertex_face, c, {b[0], b[1], b[2]}, {vertex, -1}, 0, {}, 0};
+    if (!set_gap(record, point - p, body_.vertex_normal(vertex)) || !confirmed(record, point)) return;
+    found.vertex_keys.emplace_back(vertex, t);
+    found.body_vertices.push_back(record);
+  }
+
+  void meet_edges(Index cloth_edge, const OuterBox& box, Index body_edge, Memory::Found& found) const {
+    const Edge &e = cloth_.edge(cloth_edge), &f = body_.topology().edges[static_cast<std::size_t>(body_edge)];
+    OuterBox other = body_.tree_now().particle_box(f.a);
+    other.include(body_.tree_now().particle_box(f.b));
+    if (!box.overlaps(other)) return;
+    const Vec3 &p0 = around_.x(e.a), &p1 = around_.x(e.b), &q0 = body_x(f.a), &q1 = body_x(f.b);
+    EdgeEdge at;
+    if (!interior_edge_edge(p0, p1, q0, q1, at)) return;
+    const Vec3 point = p0 + at.s * (p1 - p0);
+    BodyContact record{ContactKind::edge_edge, {e.a, e.b, -1}, {1 - at.s, at.s, 0}, {f.a, f.b}, at.t, {}, 0};
+    if (!set_gap(record, point - q0 - at.t * (q1 - q0), body_.edge_normal(body_edge))) return;
+    // The region test with the direction in which the record pushes, for a penetrating pair as for a separate one.
+    for (const Index t : f.triangle) {
+      if (t < 0) continue;
+      const Triangle& c = body_.triangle(t);
+      const Vec3& opposite = body_x(c[0] + c[1] + c[2] - f.a - f.b);
+      if (Surroundings::leans(record.normal, Surroundings::inward(q0, q1, opposite))) return;
+    }
+    if (!around_.leaves_edge(cloth_edge, -record.normal) || !confirmed(record, point)) return;
+    found.edge_keys.emplace_back(body_edge, cloth_edge);
+    found.body_edges.push_back(record);
+  }
+
+  const ClothTopology& cloth_;
+  Surroundings around_;
+  const BodySurface& body_;
+  ProximityOptions options_;
+  const Memory& memory_;
+};
+
+// Appends one kind of record of all tasks, ascending by the keys.
+void append_sorted(Memory& memory, std::vector<std::pair<Index, Index>> Memory::Found::*keys,
+                   std::vector<BodyContact> Memory::Found::*records, std::size_t first_count,
+                   std::vector<BodyContact>& contacts) {
+  memory.keys.clear();
+  memory.body_records.clear();
+  for (std::size_t i = 0; i < memory.tasks.size(); ++i) {
+    const Memory::Found& found = memory.found[i];
+    memory.keys.insert(memory.keys.end(), (found.*keys).begin(), (found.*keys).end());
+    memory.body_records.insert(memory.body_records.end(), (found.*records).begin(), (found.*records).end());
+  }
+  bucket_order(memory.keys, first_count, memory.offsets, memory.order);
+  for (const Index i : memory.order) contacts.push_back(memory.body_records[static_cast<std::size_t>(i)]);
+}
+
+}  // namespace
+
+void find_body_contacts(const ClothTopology& cloth, const TriangleTree& cloth_tree, std::span<const Vec3> x,
+                        const BodySurface& body, const ProximityOptions& options, ProximityWorkspace& workspace,
+                        std::vector<BodyContact>& contacts) {
+  contacts.clear();
+  Memory& memory = workspace.memory();
+  memory.prepare(cloth, cloth_tree, x, std::max(options.range_m, options.depth_m));  // the body's boxes add nothing
+  const BodyQuery query(cloth, x, body, options, memory);
+  memory.tree.cross_tasks(body.tree_now(), memory.tasks);
+  memory.start_tasks();
+  parallel_for(memory.tasks.size(), 1, [&](std::size_t i) { query.walk(memory.tasks[i], memory.found[i]); });
+  append_sorted(memory, &Memory::Found::vertex_keys, &Memory::Found::body_vertices, body.positions().size(), contacts);
+  append_sorted(memory, &Memory::Found::edge_keys, &Memory::Found::body_edges, body.topology().edges.size(), contacts);
+}
+
+}  // namespace toile

@@ -1,0 +1,154 @@
+#include "contact/body_surface.hpp"
+
+#include "contact/distance.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace toile {
+namespace {
+
+constexpr std::size_t normal_grain = 2048;
+constexpr double touching_m = 1e-9;        // nearer than this the direction to the body is rounding
+constexpr double cancelled_normal = 1e-6;  // a sum of unit normals shorter than this says nothing (a knife's edge)
+
+Vec3 unit_or_zero(const Vec3& v) {
+  const double length = v.norm();
+  return length > 0 ? Vec3(v / length) : Vec3::Zero();
+}
+
+// arccos to 2e-8 rad, from + - * / sqrt only: the C library's differs between processors, and a weight needs no more.
+// [Abramowitz & Stegun 4.4.46]
+double arc_cosine(double x) {
+  const double y = std::min(std::fabs(x), 1.0);
+  double polynomial = -0.0012624911;
+  for (const double c :
+       {0.0066700901, -0.0170881256, 0.0308918810, -0.0501743046, 0.0889789874, -0.2145988016, 1.5707963050}) {
+    polynomial = polynomial * y + c;
+  }
+  const double angle = std::sqrt(1 - y) * polynomial;
+  return x >= 0 ? angle : 3.14159265358979324 - angle;
+}
+
+}  // namespace
+
+BodySurface::BodySurface(std::vector<Vec3> positions, std::vector<Triangle> triangles)
+    : start_(std::move(positions)),
+      end_(start_),
+      triangles_(std::move(triangles)),
+      topology_(build_topology(static_cast<Index>(start_.size()), triangles_)),
+      tree_(start_, triangles_),
+      tree_now_(tree_),
+      owned_(assign_features(start_.size(), triangles_, topology_)),
+      corners_(particle_corners(start_.size(), triangles_)) {
+  update_normals();
+}
+
+void BodySurface::set_motion(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m) {
+  for (const std::size_t count : {start.size(), end.size()}) {
+    if (count == start_.size()) continue;
+    throw InputError("", "body motion", std::to_string(start_.size()) + " vertices", std::to_string(count));
+  }
+  start_.assign(start.begin(), start.end());
+  end_.assign(end.begin(), end.end());
+  tree_.refit(start_, end_, margin_m);
+  tree_now_.refit(start_, start_, 0);
+  update_normals();
+}
+
+void BodySurface::update_normals() {
+  const auto x = [&](Index i) -> const Vec3& { return start_[static_cast<std::size_t>(i)]; };
+  face_normals_.resize(triangles_.size());
+  corner_angles_.resize(3 * triangles_.size());
+  parallel_for(triangles_.size(), normal_grain, [&](std::size_t t) {
+    const auto& [a, b, c] = triangles_[t];
+    const Vec3 side[3] = {x(b) - x(a), x(c) - x(b), x(a) - x(c)};
+    face_normals_[t] = unit_or_zero(side[0].cross(side[1]));
+    const double length[3] = {side[0].norm(), side[1].norm(), side[2].norm()};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t before = (k + 2) % 3;
+      const double product = length[k] * length[before];
+      corner_angles_[3 * t + k] = product > 0 ? arc_cosine(-side[k].dot(side[before]) / product) : 0.0;
+    }
+  });
+
+  edge_normals_.resize(topology_.edges.size());
+  ridge_.resize(topology_.edges.size());
+  const double flat_cosine = std::sqrt(1 - flat_edge_sine * flat_edge_sine);
+  parallel_for(topology_.edges.size(), normal_grain, [&](std::size_t e) {
+    const Edge& edge = topology_.edges[e];
+    const Vec3& n = face_normal(edge.triangle[0]);
+    ridge_[e] = 0;
+    edge_normals_[e] = n;
+    if (edge.triangle[1] < 0) return;
+    const Vec3& m = face_normal(edge.triangle[1]);
+    const auto opposite = [&](std::size_t side) {
+      Index sum = 0;
+      for (const Index i : triangle(edge.triangle[side])) sum += i;
+      return Vec3(x(sum - edge.a - edge.b) - x(edge.a));
+    };
+    const Vec3 to_second = opposite(1);
+    ridge_[e] = n.dot(m) < flat_cosine && n.dot(to_second) < 0;
+    const Vec3 sum = n + m;
+    // Two sides of a sheet folded onto itself: out is away from both.
+    edge_normals_[e] = unit_or_zero(sum.norm() > cancelled_normal ? sum : Vec3(-opposite(0) - to_second));
+  });
+
+  vertex_normals_.resize(start_.size());
+  parallel_for(start_.size(), normal_grain, [&](std::size_t i) {
+    Vec3 sum = Vec3::Zero(), away = Vec3::Zero();
+    for (const Index at : corners_.row(static_cast<Index>(i))) {
+      const Index t = at / 3;
+      sum += corner_angles_[static_cast<std::size_t>(at)] * face_normal(t);
+      for (const Index j : triangle(t)) away -= x(j) - start_[i];
+    }
+    vertex_normals_[i] = unit_or_zero(sum.norm() > cancelled_normal ? sum : away);
+  });
+
+  owned_ridges_.resize(triangles_.size());
+  parallel_for(triangles_.size(), normal_grain, [&](std::size_t t) {
+    unsigned bits = owned_[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!ridge_[static_cast<std::size_t>(topology_.triangle_edges[t][k])]) bits &= ~(8u << k);
+    }
+    owned_ridges_[t] = static_cast<std::uint8_t>(bits);
+  });
+}
+
+BodyPoint BodySurface::nearest(const Vec3& p, double reach_m) const {
+  const auto x = [&](Index i) -> const Vec3& { return start_[static_cast<std::size_t>(i)]; };
+  BodyPoint result;
+  VertexTriangle closest;
+  tree_now_.nearest(p, reach_m * reach_m, [&](Index t, double bound2) {
+    const Triangle& c = triangle(t);
+    const double height = face_normal(t).dot(p - x(c[0]));
+    if (height * height >= bound2) return bound2;
+    const VertexTriangle candidate = closest_vertex_triangle(p, x(c[0]), x(c[1]), x(c[2]));
+    if (!(candidate.distance2 < bound2)) return bound2;
+    closest = candidate;
+    result.triangle = t;
+    return candidate.distance2;
+  });
+  if (result.triangle < 0) return result;
+
+  const auto t = static_cast<std::size_t>(result.triangle);
+  const auto k = static_cast<std::size_t>(closest.index);
+  const Vec3& out = closest.feature == Feature::face   ? face_normals_[t]
+                    : closest.feature == Feature::edge ? edge_normal(topology_.triangle_edges[t][k])
+                                                       : vertex_normal(triangles_[t][k]);
+  result.barycentric = closest.barycentric;
+  const Vec3 from_body = p - position(result.triangle, closest.barycentric);
+  const double distance = std::sqrt(closest.distance2);
+  const double side = from_body.dot(out) < 0 ? -1.0 : 1.0;
+  result.gap_m = side * distance;
+  result.normal = distance > touching_m ? Vec3(side / distance * from_body) : out;
+  return result;
+}
+
+}  // namespace toile

@@ -1,0 +1,86 @@
+// contact/body_surface.hpp: a moving closed body: nearest point, inside or outside, where a point of it goes.
+//
+// The side of p is the sign of (p - c) . N with c the nearest point and N the angle-weighted pseudonormal of the feature that
+// c lies on: a face's normal, the sum of an edge's two face normals, the sum of a vertex's face normals weighted by
+// the angles there.                                                                     [Baerentzen & Aanaes 2005]
+//
+// Easily got wrong: the mean of the face normals, or an area weight, gives the wrong side near sharp vertices.
+#pragma once
+#include "contact/features.hpp"
+#include "contact/triangle_tree.hpp"
+#include "mesh/topology.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace toile {
+
+// The nearest point of a closed body to one point.
+struct BodyPoint {
+  Index triangle = -1;  // -1: nothing within reach
+  Vec3 barycentric = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();  // unit, out of the body: along (p - point) outside, against it inside
+  double gap_m = 0;            // signed distance: negative inside
+};
+
+// A closed, outward-wound triangle mesh.  Throws InputError (from build_topology) when an edge has three triangles or two that
+// disagree.  An open mesh is accepted, but "inside" means nothing beyond its rim: check_closed first (mesh/check.hpp).
+class BodySurface {
+ public:
+  BodySurface() = default;
+  BodySurface(std::vector<Vec3> positions, std::vector<Triangle> triangles);
+
+  // Moves the body to `end` over the coming step; `start` is where it is now.  Refits the tree with `margin_m`.
+  // Throws InputError when a length is not the number of vertices.
+  void set_motion(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
+
+  std::span<const Vec3> positions() const { return start_; }     // now
+  std::span<const Vec3> next_positions() const { return end_; }  // at the end of the step
+  std::span<const Triangle> triangles() const { return triangles_; }
+  const Triangle& triangle(Index t) const { return triangles_[static_cast<std::size_t>(t)]; }
+  const Topology& topology() const { return topology_; }
+  const TriangleTree& tree() const { return tree_; }          // boxes of the coming motion, grown by the margin
+  const TriangleTree& tree_now() const { return tree_now_; }  // boxes of the present positions, nothing added
+
+  // Nearest point of the body as it is now, within `reach_m`.
+  BodyPoint nearest(const Vec3& p, double reach_m) const;
+
+  // The material point (triangle, barycentric) now and at the end of the step; its mean velocity over a step of h
+  // seconds is (next_position - position) / h.
+  Vec3 position(Index triangle, const Vec3& barycentric) const { return point(start_, triangle, barycentric); }
+  Vec3 next_position(Index triangle, const Vec3& barycentric) const { return point(end_, triangle, barycentric); }
+
+  // Unit pseudonormals of the body as it is now.
+  const Vec3& face_normal(Index triangle) const { return face_normals_[static_cast<std::size_t>(triangle)]; }
+  const Vec3& vertex_normal(Index vertex) const { return vertex_normals_[static_cast<std::size_t>(vertex)]; }
+  const Vec3& edge_normal(Index edge) const { return edge_normals_[static_cast<std::size_t>(edge)]; }
+
+  // Features that this triangle speaks for (contact/features.hpp), of its edges only the ridges: edges that stand out of the
+  // body and bend by more than flat_edge_sine.
+  std::uint8_t owned_ridges(Index triangle) const { return owned_ridges_[static_cast<std::size_t>(triangle)]; }
+
+ private:
+  Vec3 point(const std::vector<Vec3>& x, Index triangle, const Vec3& barycentric) const {
+    const Triangle& c = triangles_[static_cast<std::size_t>(triangle)];
+    return barycentric[0] * x[static_cast<std::size_t>(c[0])] + barycentric[1] * x[static_cast<std::size_t>(c[1])] +
+           barycentric[2] * x[static_cast<std::size_t>(c[2])];
+  }
+  void update_normals();
+
+  std::vector<Vec3> start_, end_;
+  std::vector<Triangle> triangles_;
+  Topology topology_;
+  TriangleTree tree_, tree_now_;
+  std::vector<std::uint8_t> owned_, owned_ridges_;
+  IndexRows corners_;
+  std::vector<Vec3> face_normals_, vertex_normals_, edge_normals_;
+  std::vector<double> corner_angles_;  // [3 * triangle + corner], rad
+  std::vector<char> ridge_;            // [edge]
+};
+
+// Two faces that meet at an edge are flat there when the sine of their bend is below this: over an edge of length l the
+// gap then differs from what the vertices hold by less than l/40.
+inline constexpr double flat_edge_sine = 0.1;
+
+}  // namespace toile

@@ -1,0 +1,322 @@
+// The cloth against itself: candidates by a walk over the tree, then the choice of records vertex by vertex.
+#include "contact/bucket_order.hpp"
+#include "contact/proximity_memory.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile {
+namespace {
+
+constexpr std::size_t vertex_grain = 1024, triangle_grain = 4096;
+constexpr double touching_m = 1e-12;  // nearer than this the direction between two points is rounding
+
+using Memory = ProximityWorkspace::Memory;
+
+bool by_particles(const ClothContact& a, const ClothContact& b) { return a.particle < b.particle; }
+
+// One query: what is given, and the two stages.
+class ClothQuery {
+ public:
+  ClothQuery(const ClothTopology& cloth, std::span<const Vec3> x, double range_m, Memory& memory)
+      : cloth_(cloth), around_(cloth, x, range_m), range_m_(range_m), memory_(memory) {}
+
+  // Stage 1: everything within range that the owners of features meet in one task.
+  void walk(TreeTask task, Memory::Found& found) const {
+    memory_.tree.visit_self(task, [&](Index a, Index b) {
+      const unsigned owned_a = cloth_.owned(a), owned_b = cloth_.owned(b);
+      if (owned_a & 7u) meet_vertices(a, owned_a, b, found);
+      if (owned_b & 7u) meet_vertices(b, owned_b, a, found);
+      const unsigned edges_a = owned_a >> 3, edges_b = owned_b >> 3;
+      if (edges_a != 0 && edges_b != 0) meet_edges(a, edges_a, b, edges_b, found);
+    });
+  }
+
+  // Stage 2: of the candidates of one vertex (ascending by triangle) those that count.
+  void choose(Index vertex, std::span<const Index> candidates, Memory::Reported& out) const {
+    const std::size_t first_face = out.faces.size();
+    out.edge_candidates.clear();
+    out.vertex_candidates.clear();
+    for (const Index i : candidates) {
+      const Index t = memory_.keys[static_cast<std::size_t>(i)].second;
+      const VertexTriangle& at = memory_.closest[static_cast<std::size_t>(i)];
+      const auto k = static_cast<std::size_t>(at.index);
+      if (at.feature == Feature::face) {
+        add_face(vertex, t, at, out.faces);
+      } else if (at.feature == Feature::edge) {
+        out.edge_candidates.push_back(cloth_.triangle_edges(t)[k]);
+      } else {
+        out.vertex_candidates.push_back(cloth_.triangle(t)[k]);
+      }
+    }
+    std::sort(out.faces.begin() + static_cast<std::ptrdiff_t>(first_face), out.faces.end(), by_particles);
+    const auto faces = std::span(out.faces).subspan(first_face);
+
+    const std::size_t first_edge = out.edges.size();
+    sort_unique(out.edge_candidates);
+    for (const Index e : out.edge_candidates) {
+      if (!nearer(faces, cloth_.edge(e).a, cloth_.edge(e).b)) add_edge(vertex, e, out.edges);
+    }
+    const auto edges = std::span(out.edges).subspan(first_edge);
+
+    sort_unique(out.vertex_candidates);
+    for (const Index w : out.vertex_candidates) {
+      if (!nearer(faces, w, w) && !nearer(edges, w, w)) add_vertex(vertex, w, out.vertices);
+    }
+  }
+
+ private:
+  static void sort_unique(std::vector<Index>& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+
+  // Does one of these records of a vertex lie on a face or edge with both (merged) particles a and b?
+  bool nearer(std::span<const ClothContact> records, Index a, Index b) const {
+    const Index ma = cloth_.merged(a), mb = cloth_.merged(b);
+    return std::any_of(records.begin(), records.end(), [&](const ClothContact& record) {
+      bool has_a = false, has_b = false;
+      for (std::size_t k = 1; k < 4; ++k) {
+        if (record.particle[k] < 0) continue;
+        const Index m = cloth_.merged(record.particle[k]);
+        has_a = has_a || m == ma;
+        has_b = has_b || m == mb;
+      }
+      return has_a && has_b;
+    });
+  }
+
+  void meet_vertices(Index a, unsigned owned, Index b, Memory::Found& found) const {
+    const Triangle &corners = cloth_.triangle(b), &merged = cloth_.merged_triangle(b);
+    const OuterBox& box = memory_.tree.triangle_box(b);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(owned >> k & 1u)) continue;
+      const Index v = cloth_.triangle(a)[k], m = cloth_.merged_triangle(a)[k];
+      if (!memory_.tree.particle_box(v).overlaps(box)) continue;
+      if (m == merged[0] || m == merged[1] || m == merged[2]) continue;
+      const Vec3 &p = around_.x(v), &origin = around_.x(corners[0]);
+      // The distance to the plane is a lower bound, and one product.
+      if (std::fabs(memory_.face_normals[static_cast<std::size_t>(b)].dot(p - origin)) >= range_m_) continue;
+      const VertexTriangle at = closest_vertex_triangle(p, origin, around_.x(corners[1]), around_.x(corners[2]));
+      if (!(at.distance2 < range_m_ * range_m_)) continue;
+      found.vertex_keys.emplace_back(v, b);
+      found.vertices.push_back(at);
+    }
+  }
+
+  void meet_edges(Index a, unsigned edges_a, Index b, unsigned edges_b, Memory::Found& found) const {
+    const unsigned flat_a = memory_.flat[static_cast<std::size_t>(a)] >> 3u;
+    const unsigned flat_b = memory_.flat[static_cast<std::size_t>(b)] >> 3u;
+    if ((edges_a & ~flat_a) == 0 && (edges_b & ~flat_b) == 0) return;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(edges_a >> k & 1u)) continue;
+      const unsigned partners = (flat_a >> k & 1u) ? edges_b & ~flat_b : edges_b;
+      for (std::size_t l = 0; l < 3; ++l) {
+        if (partners >> l & 1u) meet_edge_pair(cloth_.triangle_edges(a)[k], cloth_.triangle_edges(b)[l], found);
+      }
+    }
+  }
+
+  void meet_edge_pair(Index first, Index second, Memory::Found& found) const {
+    if (second < first) std::swap(first, second);
+    const Edge &e = cloth_.edge(first), &f = cloth_.edge(second);
+    const TriangleTree& tree = memory_.tree;
+    if (!edge_boxes_overlap(tree.particle_box(e.a), tree.particle_box(e.b), tree.particle_box(f.a),
+                            tree.particle_box(f.b))) {
+      return;
+    }
+    const Index ea = cloth_.merged(e.a), eb = cloth_.merged(e.b), fa = cloth_.merged(f.a), fb = cloth_.merged(f.b);
+    if (ea == fa || ea == fb || eb == fa || eb == fb) return;
+    EdgeEdge at;
+    const Vec3 &p0 = around_.x(e.a), &p1 = around_.x(e.b), &q0 = around_.x(f.a), &q1 = around_.x(f.b);
+    if (!interior_edge_edge(p0, p1, q0, q1, at) || !(at.distance2 < range_m_ * range_m_)) return;
+    ClothContact record{ContactKind::edge_edge, {e.a, e.b, f.a, f.b}, {1 - at.s, at.s, -(1 - at.t), -at.t}, {}, 0};
+    const Vec3 between = p0 + at.s * (p1 - p0) - q0 - at.t * (q1 - q0);
+    if (!set_direction(record, between, [&] { return Vec3((p1 - p0).cross(q1 - q0)); })) return;
+    if (!around_.leaves_edge(second, record.normal) || !around_.leaves_edge(first, -record.normal)) return;
+    found.edge_keys.emplace_back(first, second);
+    found.edges.push_back(record);
+  }
+
+  // Gap and normal from the vector between the closest points, or from `instead` where they coincide; false when neither
+  // has a direction.
+  template <class Instead>
+  static bool set_direction(ClothContact& record, const Vec3& between, Instead&& instead) {
+    record.gap_m = between.norm();
+    if (record.gap_m > touching_m) {
+      record.normal = between / record.gap_m;
+      return true;
+    }
+    const Vec3 direction = instead();
+    const double length = direction.norm();
+    if (!(length > 0)) return false;
+    record.normal = direction / length;
+    return true;
+  }
+
+  const Vec3& face_normal(Index t) const { return memory_.face_normals[static_cast<std::size_t>(t)]; }
+
+  void add_face(Index v, Index t, const VertexTriangle& at, std::vector<ClothContact>& out) const {
+    const Triangle& c = cloth_.triangle(t);
+    const Vec3& b = at.barycentric;
+    ClothContact record{ContactKind::vertex_face, {v, c[0], c[1], c[2]}, {1, -b[0], -b[1], -b[2]}, {}, 0};
+    const Vec3 between = around_.x(v) - b[0] * around_.x(c[0]) - b[1] * around_.x(c[1]) - b[2] * around_.x(c[2]);
+    if (set_direction(record, between, [&] { return face_normal(t); })) out.push_back(record);
+  }
+
+  // The closest point is computed from the edge alone, so that it does not depend on which triangle reported it.
+  void add_edge(Index v, Index e, std::vector<ClothContact>& out) const {
+    const Edge& edge = cloth_.edge(e);
+    const Vec3 &a = around_.x(edge.a), along = around_.x(edge.b) - a, from = around_.x(v) - a;
+    const double t = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
+    ClothContact record{ContactKind::vertex_edge, {v, edge.a, edge.b, -1}, {1, -(1 - t), -t, 0}, {}, 0};
+    const auto instead = [&] {
+      Vec3 sum = face_normal(edge.triangle[0]);
+      if (edge.triangle[1] >= 0) sum += face_normal(edge.triangle[1]);
+      return sum;
+    };
+    if (set_direction(record, from - t * along, instead) && around_.leaves_edge(e, record.normal)) {
+      out.push_back(record);
+    }
+  }
+
+  // Reported from both sides, with the same bits, and made unique at the end.
+  void add_vertex(Index v, Index w, std::vector<ClothContact>& out) const {
+    const Index i = std::min(v, w), j = std::max(v, w);
+    ClothContact record{ContactKind::vertex_vertex, {i, j, -1, -1}, {1, -1, 0, 0}, {}, 0};
+    const auto instead = [&] {
+      Vec3 sum = Vec3::Zero();
+      for (const Index corner : cloth_.corners_around(j)) sum += face_normal(corner / 3);
+      return sum;
+    };
+    if (!set_direction(record, around_.x(i) - around_.x(j), instead)) return;
+    const Vec3 u = v == i ? record.normal : Vec3(-record.normal);
+    if (around_.leaves_vertex(w, u)) out.push_back(record);
+  }
+
+  const ClothTopology& cloth_;
+  Surroundings around_;
+  double range_m_;
+  Memory& memory_;
+};
+
+void mark_flat_edges(const ClothTopology& cloth, Memory& memory) {
+  const double flat_cosine = std::sqrt(1 - flat_edge_sine * flat_edge_sine);
+  memory.flat.resize(cloth.triangles().size());
+  parallel_for(cloth.triangles().size(), triangle_grain, [&](std::size_t t) {
+    unsigned bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Edge& edge = cloth.edge(cloth.triangle_edges(static_cast<Index>(t))[k]);
+      if (edge.triangle[1] < 0) continue;
+      const double cosine = memory.face_normals[static_cast<std::size_t>(edge.triangle[0])].dot(
+          memory.face_normals[static_cast<std::size_t>(edge.triangle[1])]);
+      if (cosine >= flat_cosine) bits |= 8u << k;
+    }
+    memory.flat[t] = static_cast<std::uint8_t>(bits);
+  });
+}
+
+}  // namespace
+
+ProximityWorkspace::ProximityWorkspace() : memory_(std::make_unique<Memory>()) {}
+ProximityWorkspace::~ProximityWorkspace() = default;
+ProximityWorkspace::ProximityWorkspace(ProximityWorkspace&&) noexcept = default;
+ProximityWorkspace& ProximityWorkspace::operator=(ProximityWorkspace&&) noexcept = default;
+
+void ProximityWorkspace::Memory::prepare(const ClothTopology& cloth, const TriangleTree& hierarchy,
+                                         std::span<const Vec3> x, double margin_m) {
+  if (x.size() != cloth.particle_count()) {
+    throw InputError("", "cloth positions", std::to_string(cloth.particle_count()) + " particles",
+                     std::to_string(x.size()));
+  }
+  TOILE_ASSERT(static_cast<std::size_t>(hierarchy.triangle_count()) == cloth.triangles().size());
+  if (!tree.same_hierarchy(hierarchy)) tree = hierarchy;
+  tree.refit(x, x, margin_m);
+  face_normals.resize(cloth.triangles().size());
+  parallel_for(face_normals.size(), triangle_grain, [&](std::size_t t) {
+    const Triangle& c = cloth.triangles()[t];
+    const Vec3& a = x[static_cast<std::size_t>(c[0])];
+    const Vec3 n = (x[static_cast<std::size_t>(c[1])] - a).cross(x[static_cast<std::size_t>(c[2])] - a);
+    const double length = n.norm();
+    face_normals[t] = length > 0 ? Vec3(n / length) : Vec3::Zero();
+  });
+}
+
+void ProximityWorkspace::Memory::start_tasks() {
+  if (found.size() < tasks.size()) found.resize(tasks.size());
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    found[i].vertex_keys.clear();
+    found[i].edge_keys.clear();
+    found[i].vertices.clear();
+    found[i].edges.clear();
+    found[i].body_vertices.clear();
+    found[i].body_edges.clear();
+  }
+}
+
+void find_cloth_contacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x,
+                         const ProximityOptions& options, ProximityWorkspace& workspace,
+                         std::vector<ClothContact>& contacts) {
+  contacts.clear();
+  Memory& memory = workspace.memory();
+  memory.prepare(cloth, tree, x, options.range_m / 2);
+  mark_flat_edges(cloth, memory);
+  const ClothQuery query(cloth, x, options.range_m, memory);
+
+  memory.tree.self_tasks(memory.tasks);
+  memory.start_tasks();
+  parallel_for(memory.tasks.size(), 1, [&](std::size_t i) { query.walk(memory.tasks[i], memory.found[i]); });
+
+  memory.keys.clear();
+  memory.closest.clear();
+  for (std::size_t i = 0; i < memory.tasks.size(); ++i) {
+    const Memory::Found& found = memory.found[i];
+    memory.keys.insert(memory.keys.end(), found.vertex_keys.begin(), found.vertex_keys.end());
+    memory.closest.insert(memory.closest.end(), found.vertices.begin(), found.vertices.end());
+  }
+  bucket_order(memory.keys, x.size(), memory.offsets, memory.order);
+
+  const std::size_t blocks = (x.size() + vertex_grain - 1) / vertex_grain;
+  if (memory.reported.size() < blocks) memory.reported.resize(blocks);
+  parallel_blocks(x.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
+    Memory::Reported& out = memory.reported[begin / vertex_grain];
+    out.faces.clear();
+    out.edges.clear();
+    out.vertices.clear();
+    for (std::size_t v = begin; v < end; ++v) {
+      const auto from = static_cast<std::size_t>(memory.offsets[v]),
+                 to = static_cast<std::size_t>(memory.offsets[v + 1]);
+      if (from != to) query.choose(static_cast<Index>(v), std::span(memory.order).subspan(from, to - from), out);
+    }
+  });
+
+  const auto append = [&](std::vector<ClothContact> Memory::Reported::*list) {
+    for (std::size_t b = 0; b < blocks; ++b) {
+      contacts.insert(contacts.end(), (memory.reported[b].*list).begin(), (memory.reported[b].*list).end());
+    }
+  };
+  append(&Memory::Reported::faces);
+  append(&Memory::Reported::edges);
+  const auto first_pair = static_cast<std::ptrdiff_t>(contacts.size());
+  append(&Memory::Reported::vertices);
+  std::sort(contacts.begin() + first_pair, contacts.end(), by_particles);
+  contacts.erase(std::unique(contacts.begin() + first_pair, contacts.end(),
+                             [](const ClothContact& a, const ClothContact& b) { return a.particle == b.particle; }),
+                 contacts.end());
+
+  memory.keys.clear();
+  memory.cloth_edges.clear();
+  for (std::size_t i = 0; i < memory.tasks.size(); ++i) {
+    const Memory::Found& found = memory.found[i];
+    memory.keys.insert(memory.keys.end(), found.edge_keys.begin(), found.edge_keys.end());
+    memory.cloth_edges.insert(memory.cloth_edges.end(), found.edges.begin(), found.edges.end());
+  }
+  bucket_order(memory.keys, cloth.topology().edges.size(), memory.offsets, memory.order);
+  for (const Index i : memory.order) contacts.push_back(memory.cloth_edges[static_cast<std::size_t>(i)]);
+}
+
+}  // namespace toile

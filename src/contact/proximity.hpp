@@ -1,0 +1,107 @@
+// contact/proximity.hpp: who is near whom.  Positions in, plain records out; no forces here.   (L0 and L2 of contact)
+//
+// A contact is a weighted sum of particles:  sum_i weight_i x_i [- body point] = gap * normal,  so the gap's rate is
+// normal . (sum_i weight_i v_i [- body velocity]).
+//
+// Feature ownership: every vertex-face, vertex-edge, vertex-vertex and edge-edge pair appears once, whichever triangles
+// reported it.  Edge-edge records have both parameters interior.  Of what is left, two kinds are dropped:
+//
+//   not a least distance   A vertex-edge or vertex-vertex record where the vertex also has a record with a face around that
+//                          edge or vertex, or (vertex-vertex) with an edge at that vertex: the point is nearer there.
+//   the region test        Let u be the unit vector from the feature's point to the other side.  The record counts only if
+//                          u . t <= region_tolerance for every direction t that leads from the feature into the cloth
+//                          around it: across the edge into each of its triangles, along each edge that leaves the
+//                          vertex.  For edge-edge both edges must pass.  Without it a vertex over a face also gets rows of
+//                          the edges nearby, with sideways normals that lock two sheets like gears.
+//                                                                  [the cones of offset geometric contact, Chen et al. 2025]
+//
+// Two edges that are both flat (flat_edge_sine) are not reported: between two planes the rows of their vertices
+// already hold the gap, and parallel sheets would otherwise carry three rows of edges for each of vertices.
+//
+// Easily got wrong: the region test is about the second feature only.  A vertex-face record has no test, and whether the
+// first feature's own cloth is in the way of a vertex-edge record is not asked.
+#pragma once
+#include "contact/body_surface.hpp"
+#include "contact/distance.hpp"
+#include "contact/features.hpp"
+#include "contact/triangle_tree.hpp"
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace toile {
+
+// Cosine of the angle to a direction within the cloth above which a record leans into the feature's own surroundings.
+inline constexpr double region_tolerance = 0.1;
+
+// Below this cosine between a body record's direction and the body's pseudonormal (84 degrees) its sign is doubtful.
+inline constexpr double doubtful_cosine = 0.1;
+
+enum class ContactKind : std::uint8_t { vertex_face, vertex_edge, vertex_vertex, edge_edge };
+
+// Cloth against cloth.
+//   vertex_face    (vertex, corners of the triangle)          weights (1, -b0, -b1, -b2)
+//   vertex_edge    (vertex, edge a < b, -1)                   weights (1, -(1-t), -t, 0)
+//   vertex_vertex  (smaller, larger, -1, -1)                  weights (1, -1, 0, 0)
+//   edge_edge      (edge a < b, edge a < b; smaller first)    weights (1-s, s, -(1-t), -t)
+struct ClothContact {
+  ContactKind kind;
+  std::array<Index, 4> particle;  // unused entries are -1 with weight 0
+  std::array<double, 4> weight;   // sums to 0
+  Vec3 normal;                    // unit, from the second feature to the first
+  double gap_m;  // distance, >= 0; where it is 0 the normal is the surface's and its sign means nothing
+};
+
+// A body feature against a cloth face or edge (vertices of the cloth are the constraints' business, L1).
+struct BodyContact {
+  ContactKind kind;                  // vertex_face: body vertex, cloth face;  edge_edge: cloth edge, body edge
+  std::array<Index, 3> particle;     // of the cloth; unused entries are -1 with weight 0
+  std::array<double, 3> weight;      // sums to 1
+  std::array<Index, 2> body_vertex;  // one (then -1) or the two ends of the body's edge
+  double body_parameter;             // point on the body's edge: (1-t) first + t second; 0 for a vertex
+  Vec3 normal;                       // unit, out of the body
+  double gap_m;                      // signed: negative when the body pokes through
+};
+
+struct ProximityOptions {
+  double range_m = 5e-3;   // report pairs nearer than this
+  double depth_m = 10e-3;  // body: and penetrating less than this
+};
+
+// Memory that the two queries keep between calls, so that a steady simulation allocates nothing.  One per caller.
+class ProximityWorkspace {
+ public:
+  ProximityWorkspace();
+  ~ProximityWorkspace();
+  ProximityWorkspace(ProximityWorkspace&&) noexcept;
+  ProximityWorkspace& operator=(ProximityWorkspace&&) noexcept;
+
+  struct Memory;
+  Memory& memory() { return *memory_; }
+
+ private:
+  std::unique_ptr<Memory> memory_;
+};
+
+// All contacts of the cloth with itself within range at positions x.  Features that touch (share a merged particle) are
+// skipped.  Of `tree` only the hierarchy is used, its boxes may be those of any motion.
+// The list is sorted by (kind, particles) and is the same for any number of threads.
+void find_cloth_contacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x,
+                         const ProximityOptions& options, ProximityWorkspace& workspace,
+                         std::vector<ClothContact>& contacts);
+
+// Body vertices near cloth faces and body ridges near cloth edges, at x and the body's present positions; sorted by (kind,
+// body vertices, particles).  Of `cloth_tree` only the hierarchy is used.
+//
+// The sign of the gap comes from the body's pseudonormal, so a body feature that has passed through the cloth pushes it
+// back out.  A penetrating record must be confirmed: its point of the cloth has to be inside the body, with its nearest way out
+// on the same side.  Otherwise the far side of a finger or an ear would pull cloth through it.
+// A body vertex whose nearest cloth feature is not the face's interior is left to the edge and L1 constraints, and so are
+// body edges that are flat or hollow: there the cloth's vertices hold the gap.
+void find_body_contacts(const ClothTopology& cloth, const TriangleTree& cloth_tree, std::span<const Vec3> x,
+                        const BodySurface& body, const ProximityOptions& options, ProximityWorkspace& workspace,
+                        std::vector<BodyContact>& contacts);
+
+}  // namespace toile

@@ -1,0 +1,112 @@
+// contact/proximity_memory.hpp: what the proximity queries keep between calls, and what both of them ask.  Internal.
+#pragma once
+#include "contact/proximity.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace toile {
+
+struct ProximityWorkspace::Memory {
+  using Keys = std::vector<std::pair<Index, Index>>;
+
+  // What one task of the walk finds, in the order of the walk.
+  struct Found {
+    Keys vertex_keys, edge_keys;           // features of the two sides
+    std::vector<VertexTriangle> vertices;  // cloth: by vertex_keys = (vertex, triangle)
+    std::vector<ClothContact> edges;       // cloth: by edge_keys
+    std::vector<BodyContact> body_vertices, body_edges;
+  };
+  // What one block of vertices reports.
+  struct Reported {
+    std::vector<ClothContact> faces, edges, vertices;
+    std::vector<Index> edge_candidates, vertex_candidates;
+  };
+
+  TriangleTree tree;  // the cloth's hierarchy with the query's own boxes
+  std::vector<TreeTask> tasks;
+  std::vector<Vec3> face_normals;
+  std::vector<std::uint8_t> flat;  // [triangle] bit 3 + k: edge k is flat
+  std::vector<Found> found;        // by task
+  std::vector<Reported> reported;  // by block of vertices
+  Keys keys;
+  std::vector<VertexTriangle> closest;
+  std::vector<ClothContact> cloth_edges;
+  std::vector<BodyContact> body_records;
+  std::vector<Index> offsets, order;
+
+  // Boxes of the cloth at rest in x, grown by `margin_m`; face normals; room for the tasks.
+  void prepare(const ClothTopology& cloth, const TriangleTree& hierarchy, std::span<const Vec3> x, double margin_m);
+  void start_tasks();
+};
+
+// The surroundings of the cloth's features, for the region test.  A seam's partner counts as soon as it is within
+// `range_m`: an open seam is two rims, a closed one is cloth.
+class Surroundings {
+ public:
+  Surroundings(const ClothTopology& cloth, std::span<const Vec3> x, double range_m)
+      : cloth_(cloth), x_(x), range2_(range_m * range_m) {}
+
+  const Vec3& x(Index particle) const { return x_[static_cast<std::size_t>(particle)]; }
+
+  // True where u, from a point of the edge, does not lean into one of the edge's triangles.
+  bool leaves_edge(Index edge, const Vec3& u) const {
+    for (const Index e : cloth_.merged_edges(edge)) {
+      if (e != edge && !near(edge, e)) continue;
+      const Edge& at = cloth_.edge(e);
+      for (const Index t : at.triangle) {
+        if (t < 0) continue;
+        const Triangle& c = cloth_.triangle(t);
+        if (leans(u, inward(x(at.a), x(at.b), x(c[0] + c[1] + c[2] - at.a - at.b)))) return false;
+      }
+    }
+    return true;
+  }
+
+  // True where u does not lean along one of the edges that leave the vertex.
+  bool leaves_vertex(Index vertex, const Vec3& u) const {
+    for (const Index corner : cloth_.corners_around(vertex)) {
+      const Triangle& c = cloth_.triangle(corner / 3);
+      const auto k = static_cast<std::size_t>(corner % 3);
+      if (c[k] != vertex && !near_particles(c[k], vertex)) continue;
+      const Vec3& from = x(c[k]);
+      if (leans(u, x(c[(k + 1) % 3]) - from) || leans(u, x(c[(k + 2) % 3]) - from)) return false;
+    }
+    return true;
+  }
+
+  // The part of a -> opposite across the edge a -> b: points into the triangle, within its plane; not a unit vector.
+  static Vec3 inward(const Vec3& a, const Vec3& b, const Vec3& opposite) {
+    const Vec3 along = b - a, to = opposite - a;
+    const double length2 = along.squaredNorm();
+    return length2 > 0 ? Vec3(to - to.dot(along) / length2 * along) : to;
+  }
+  static bool leans(const Vec3& u, const Vec3& t) {
+    const double product = u.dot(t);
+    return product > 0 && product * product > region_tolerance * region_tolerance * t.squaredNorm();
+  }
+
+ private:
+  bool near_particles(Index i, Index j) const { return (x(i) - x(j)).squaredNorm() < range2_; }
+  bool near(Index edge, Index other) const {
+    const Edge &e = cloth_.edge(edge), &f = cloth_.edge(other);
+    return cloth_.merged(e.a) == cloth_.merged(f.a) ? near_particles(e.a, f.a) && near_particles(e.b, f.b)
+                                                    : near_particles(e.a, f.b) && near_particles(e.b, f.a);
+  }
+
+  const ClothTopology& cloth_;
+  std::span<const Vec3> x_;
+  double range2_;
+};
+
+// Do the boxes of two edges, given by those of their ends, overlap?
+inline bool edge_boxes_overlap(const OuterBox& a, const OuterBox& b, const OuterBox& c, const OuterBox& d) {
+  OuterBox first = a, second = c;
+  first.include(b);
+  second.include(d);
+  return first.overlaps(second);
+}
+
+}  // namespace toile

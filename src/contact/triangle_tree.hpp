@@ -1,0 +1,310 @@
+// contact/triangle_tree.hpp: a tree of boxes over triangles; built once, refitted every step.      (L0 of contact)
+//
+// Four children to a node, in one array in depth-first order, so that one vector instruction looks at all four.  The tree
+// is built by splitting near the median along the longest axis of the centroids of the positions given to build it.
+// The topology of the mesh is fixed, so it is never rebuilt; only boxes change.  Queries visit nodes in a fixed order: the
+// same input gives the same list at any thread count.
+//
+// Boxes are single precision, rounded outward: half the memory traffic, and never smaller than the exact box.  At 2 m from the
+// origin the rounding adds 0.2 micrometres.  Coordinates must be below 1e30 m.
+//
+// Easily got wrong: a copy of a tree shares the original's hierarchy (cheap to hold) but has boxes of its own.
+#pragma once
+#include "core/types.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace toile {
+
+struct Box {
+  Vec3 low, high;
+  bool overlaps(const Box& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+};
+
+// A box in single precision that holds the double precision box it was made from.
+struct OuterBox {
+  std::array<float, 3> low{}, high{};
+
+  // A float at most, and one at least, as large as x.  Converting errs by half a unit in the last place;
+  // |f| 2^-23 is one to two such units, the small constant does the same for numbers near zero.
+  static float below(double x) {
+    const float f = static_cast<float>(x);
+    return f - (std::fabs(f) * 0x1p-23f + 1e-37f);
+  }
+  static float above(double x) {
+    const float f = static_cast<float>(x);
+    return f + (std::fabs(f) * 0x1p-23f + 1e-37f);
+  }
+  bool overlaps(const OuterBox& other) const {  // without branches: the outcome is unpredictable
+    const auto& a = *this;
+    const auto& b = other;
+    return static_cast<bool>(static_cast<int>(a.low[0] <= b.high[0]) & static_cast<int>(b.low[0] <= a.high[0]) &
+                             static_cast<int>(a.low[1] <= b.high[1]) & static_cast<int>(b.low[1] <= a.high[1]) &
+                             static_cast<int>(a.low[2] <= b.high[2]) & static_cast<int>(b.low[2] <= a.high[2]));
+  }
+  void include(const OuterBox& other) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = other.low[k] < low[k] ? other.low[k] : low[k];
+      high[k] = other.high[k] > high[k] ? other.high[k] : high[k];
+    }
+  }
+};
+
+// A piece of a query, cut so that pieces can be worked on by several threads: node a against node b, or (within one tree,
+// a = b) node a against itself.
+struct TreeTask {
+  Index a, b;
+};
+
+// Memory that self_pairs and cross_pairs keep between calls.
+struct PairWorkspace {
+  std::vector<TreeTask> tasks;
+  std::vector<std::vector<std::pair<Index, Index>>> found;  // by task
+  std::vector<std::pair<Index, Index>> all;
+  std::vector<Index> offsets, order;
+};
+
+// Four boxes side by side; an empty lane overlaps nothing and is infinitely far.
+struct LaneBoxes {
+  using Lanes = float __attribute__((vector_size(16)));
+  using Mask = std::int32_t __attribute__((vector_size(16)));
+  static constexpr float none = std::numeric_limits<float>::infinity();
+
+  std::array<Lanes, 3> low{all(none), all(none), all(none)}, high{all(-none), all(-none), all(-none)};
+
+  static constexpr Lanes all(float x) { return Lanes{x, x, x, x}; }
+  static Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
+
+  void set(int lane, const OuterBox& box) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k][lane] = box.low[k];
+      high[k][lane] = box.high[k];
+    }
+  }
+  OuterBox box(int lane) const {
+    return {{low[0][lane], low[1][lane], low[2][lane]}, {high[0][lane], high[1][lane], high[2][lane]}};
+  }
+  OuterBox whole() const {
+    OuterBox sum = box(0);
+    for (int lane = 1; lane < 4; ++lane) sum.include(box(lane));
+    return sum;
+  }
+  // Bit `lane` is set where the lane overlaps the box.
+  unsigned overlapping(const OuterBox& other) const {
+    const Mask hit = (low[0] <= all(other.high[0])) & (all(other.low[0]) <= high[0]) &  //
+                     (low[1] <= all(other.high[1])) & (all(other.low[1]) <= high[1]) &  //
+                     (low[2] <= all(other.high[2])) & (all(other.low[2]) <= high[2]);
+    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(hit & Mask{1, 2, 4, 8});
+    const std::uint64_t both = halves[0] | halves[1];
+    return static_cast<unsigned>(both | both >> 32) & 15u;
+  }
+  // At most the squared distances to a point in the box [below, above]: the factor covers the rounding of the sums.
+  Lanes distance2(const std::array<float, 3>& below, const std::array<float, 3>& above) const {
+    Lanes sum = all(0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Lanes out = larger(larger(low[k] - all(above[k]), all(below[k]) - high[k]), all(0));
+      sum += out * out;
+    }
+    return sum * all(1 - 1e-6f);
+  }
+};
+
+class TriangleTree {
+ public:
+  TriangleTree() = default;
+  TriangleTree(std::span<const Vec3> positions, std::span<const Triangle> triangles);
+
+  // Boxes hold every triangle at `start` and at `end` (linear motion between), grown by `margin_m`.
+  void refit(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
+
+  // Pairs (a, b) with a < b of this tree's triangles whose boxes overlap, sorted.  A pair that shares a particle is kept:
+  // its other features may still be close.
+  void self_pairs(std::vector<std::pair<Index, Index>>& pairs, PairWorkspace& workspace) const;
+  void self_pairs(std::vector<std::pair<Index, Index>>& pairs) const;
+
+  // Pairs (a of this tree, b of `other`) whose boxes overlap, sorted.
+  void cross_pairs(const TriangleTree& other, std::vector<std::pair<Index, Index>>& pairs,
+                   PairWorkspace& workspace) const;
+  void cross_pairs(const TriangleTree& other, std::vector<std::pair<Index, Index>>& pairs) const;
+
+  // Triangles whose box overlaps `box`, ascending.
+  void overlapping(const Box& box, std::vector<Index>& triangles) const;
+
+  // Visits triangles whose box is nearer to p than the bound, nearest boxes first; visit(triangle, bound2) returns the new
+  // bound (distance squared).  Returns the last bound.
+  template <class Visit>
+  double nearest(const Vec3& p, double bound2, Visit&& visit) const;
+
+  // The same walks as self_pairs and cross_pairs in pieces, unsorted, for callers that look at each pair once and keep little.
+  // visit(a, b) with a, b triangles.  Within one tree a != b, and each unordered pair comes once.
+  // The number of tasks depends on the mesh and the boxes only.
+  void self_tasks(std::vector<TreeTask>& tasks) const;
+  void cross_tasks(const TriangleTree& other, std::vector<TreeTask>& tasks) const;
+  template <class Visit>
+  void visit_self(TreeTask task, Visit&& visit) const;
+  template <class Visit>
+  void visit_cross(const TriangleTree& other, TreeTask task, Visit&& visit) const;
+
+  Index triangle_count() const { return static_cast<Index>(triangles_ ? triangles_->size() : 0); }
+  // Of the last refit: the box of the motion, grown by the margin.
+  const OuterBox& particle_box(Index particle) const { return particle_boxes_[static_cast<std::size_t>(particle)]; }
+  const OuterBox& triangle_box(Index triangle) const { return triangle_boxes_[static_cast<std::size_t>(triangle)]; }
+  // True for copies of one tree, whatever their boxes.
+  bool same_hierarchy(const TriangleTree& other) const { return triangles_ == other.triangles_; }
+
+ private:
+  static constexpr Index leaf_size = 4;
+
+  struct Node {
+    LaneBoxes boxes;
+    std::array<Index, 4> child{-1, -1, -1, -1};  // nodes, or in a leaf triangles; -1 in an empty lane
+    Index count = 0;                             // triangles below
+    bool leaf() const { return count <= leaf_size; }
+  };
+
+  const Node& node(Index i) const { return nodes_[static_cast<std::size_t>(i)]; }
+  Index build(std::span<const Vec3> centroids, std::span<Index> triangles);
+  template <class Visit, class Push>
+  static void meet(const TriangleTree& first, const TriangleTree& second, TreeTask pair, Visit&& visit, Push&& push);
+  template <class Visit, class Push>
+  void meet_itself(Index a, Visit&& visit, Push&& push) const;
+
+  std::vector<Node> nodes_;
+  std::shared_ptr<const std::vector<Triangle>> triangles_;
+  std::vector<OuterBox> triangle_boxes_, particle_boxes_;
+};
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Walks with an explicit stack.  A node with n triangles has children with at most n/4 + 8, so the depth is below 20 for any
+// 31-bit count; a pair is replaced by at most 16, and the two sides may go down one after the other: 15 * 40 + 1 entries.
+
+namespace tree_walk {
+inline constexpr std::size_t pair_stack = 640, node_stack = 96;
+// Calls body(lane) for the set bits, ascending.
+template <class Body>
+void for_lanes(unsigned bits, Body&& body) {
+  for (; bits != 0; bits &= bits - 1) body(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+}  // namespace tree_walk
+
+// One step of a walk over pairs: passes pairs of triangles to `visit` and pairs of nodes to `push`.
+template <class Visit, class Push>
+void TriangleTree::meet(const TriangleTree& first, const TriangleTree& second, TreeTask pair, Visit&& visit,
+                        Push&& push) {
+  const Node &a = first.node(pair.a), &b = second.node(pair.b);
+  unsigned any_a = 0, any_b = 0;
+  for (int i = 0; i < 4; ++i) {
+    const Index child = a.child[static_cast<std::size_t>(i)];
+    if (child < 0) break;  // lanes are filled from the front
+    const unsigned hits = b.boxes.overlapping(a.boxes.box(i));
+    if (hits == 0) continue;
+    any_b |= hits;
+    any_a |= 1u << i;
+    if (a.leaf() && b.leaf()) {
+      tree_walk::for_lanes(hits, [&](std::size_t j) { visit(child, b.child[j]); });
+    } else if (!a.leaf() && !b.leaf()) {
+      tree_walk::for_lanes(hits, [&](std::size_t j) { push(TreeTask{child, b.child[j]}); });
+    }
+  }
+  if (a.leaf() && !b.leaf()) tree_walk::for_lanes(any_b, [&](std::size_t j) { push(TreeTask{pair.a, b.child[j]}); });
+  if (!a.leaf() && b.leaf()) tree_walk::for_lanes(any_a, [&](std::size_t i) { push(TreeTask{a.child[i], pair.b}); });
+}
+
+template <class Visit, class Push>
+void TriangleTree::meet_itself(Index index, Visit&& visit, Push&& push) const {
+  const Node& a = node(index);
+  for (int i = 0; i < 4; ++i) {
+    const Index child = a.child[static_cast<std::size_t>(i)];
+    if (child < 0) break;
+    if (!a.leaf()) push(TreeTask{child, child});
+    const unsigned later = a.boxes.overlapping(a.boxes.box(i)) & ~((2u << i) - 1u);
+    tree_walk::for_lanes(later, [&](std::size_t j) {
+      if (a.leaf()) {
+        visit(child, a.child[j]);
+      } else {
+        push(TreeTask{child, a.child[j]});
+      }
+    });
+  }
+}
+
+template <class Visit>
+void TriangleTree::visit_self(TreeTask task, Visit&& visit) const {
+  std::array<TreeTask, tree_walk::pair_stack> stack;
+  std::size_t top = 0;
+  const auto push = [&](TreeTask pair) { stack[top++] = pair; };
+  push(task);
+  while (top > 0) {
+    const TreeTask pair = stack[--top];
+    if (pair.a == pair.b) {
+      meet_itself(pair.a, visit, push);
+    } else {
+      meet(*this, *this, pair, visit, push);
+    }
+  }
+}
+
+template <class Visit>
+void TriangleTree::visit_cross(const TriangleTree& other, TreeTask task, Visit&& visit) const {
+  std::array<TreeTask, tree_walk::pair_stack> stack;
+  std::size_t top = 0;
+  const auto push = [&](TreeTask pair) { stack[top++] = pair; };
+  push(task);
+  while (top > 0) {
+    const TreeTask pair = stack[--top];
+    meet(*this, other, pair, visit, push);
+  }
+}
+
+template <class Visit>
+double TriangleTree::nearest(const Vec3& p, double bound2, Visit&& visit) const {
+  if (nodes_.empty()) return bound2;
+  std::array<float, 3> below, above;
+  for (std::size_t k = 0; k < 3; ++k) {
+    below[k] = OuterBox::below(p[static_cast<Eigen::Index>(k)]);
+    above[k] = OuterBox::above(p[static_cast<Eigen::Index>(k)]);
+  }
+  struct Entry {
+    Index child;
+    float distance2;
+  };
+  std::array<Entry, tree_walk::node_stack> stack;
+  std::size_t top = 0;
+  stack[top++] = {0, 0};
+  while (top > 0) {
+    const Entry entry = stack[--top];
+    if (!(static_cast<double>(entry.distance2) < bound2)) continue;
+    const Node& at = node(entry.child);
+    const LaneBoxes::Lanes distance2 = at.boxes.distance2(below, above);
+    // The children in reach, nearest first; equal ones in the order of their lanes.
+    std::array<Entry, 4> near;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const float d = distance2[i];
+      if (!(static_cast<double>(d) < bound2)) continue;
+      std::size_t place = count++;
+      for (; place > 0 && d < near[place - 1].distance2; --place) near[place] = near[place - 1];
+      near[place] = {at.child[i], d};
+    }
+    if (at.leaf()) {
+      for (std::size_t i = 0; i < count; ++i) {
+        if (static_cast<double>(near[i].distance2) < bound2) bound2 = visit(near[i].child, bound2);
+      }
+    } else {
+      while (count > 0) stack[top++] = near[--count];
+    }
+  }
+  return bound2;
+}
+
+}  // namespace toile

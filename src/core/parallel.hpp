@@ -1,0 +1,29 @@
+// core/parallel.hpp: loops on several threads whose result does not depend on how many.
+//
+// Work is cut into blocks of a fixed size, never into "as many parts as threads".  A body that writes
+// only to its own indices, and reductions that add the blocks in order, give the same bits on 1 or 64 threads.
+#pragma once
+#include <cstddef>
+#include <functional>
+
+namespace toile {
+
+// Calls body(begin, end) for consecutive blocks of `grain` indices that cover [0, count).
+void parallel_blocks(std::size_t count, std::size_t grain,
+                     const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+// body(i) for every i in [0, count), in blocks of `grain`.
+template <class Body>
+void parallel_for(std::size_t count, std::size_t grain, Body&& body) {
+  parallel_blocks(count, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
+}
+
+// Runs `work` with at most `threads` threads (0: one per core) for the parallel loops inside it.
+void with_threads(int threads, const std::function<void()>& work);
+
+// How many threads the loops of the caller may use.
+int available_threads();
+
+}  // namespace toile

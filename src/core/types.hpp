@@ -1,0 +1,26 @@
+// core/types.hpp: the few types that every module speaks.
+//
+// World: SI units, y up, right-handed.  `Vec3s` always means one entry per particle.
+#pragma once
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace toile {
+
+using Index = std::int32_t;  // a particle, triangle, edge ...; -1 where documented means "none"
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+using Mat2 = Eigen::Matrix2d;
+using Mat3 = Eigen::Matrix3d;
+
+using Vec2s = std::vector<Vec2>;
+using Vec3s = std::vector<Vec3>;
+
+using Triangle = std::array<Index, 3>;  // counter-clockwise seen from outside
+
+}  // namespace toile

@@ -1,0 +1,394 @@
+// garment/pattern_json.cpp: the reader of pattern files (docs/pattern-format.md).
+//
+// Curvature in relative coordinates (a, b):  control = start + a e + b (-e_y, e_x),  e = end - start.
+// All lengths are divided by units_in_meter as they are read; relative coordinates have no unit.
+//
+// What is easily got wrong: stitches name edges by their number in the file.  When a loop is given out of order, its edges
+// move and the numbers do not, so both are kept.
+#include "garment/pattern.hpp"
+#include "garment/pattern_check.hpp"
+#include "io/json.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace toile {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// "..., did you mean X?"; a hostile name is cut before its distance to every candidate is taken.
+std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
+  const std::vector<std::string_view> views(candidates.begin(), candidates.end());
+  const std::string_view nearest = nearest_name(name.substr(0, 100), views.data(), views.size());
+  return nearest.empty() ? "" : "; did you mean \"" + printable(nearest) + "\"?";
+}
+
+std::string list_text(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (k > 0) text += k + 1 == names.size() ? " or " : ", ";
+    text += "\"" + names[k] + "\"";
+  }
+  return text;
+}
+
+// One of a few words; returns its number.
+std::size_t read_word(const Json& json, const std::vector<std::string>& words) {
+  if (!json.is_string()) json.fail(list_text(words), json.describe());
+  const auto found = std::find(words.begin(), words.end(), json.string());
+  if (found == words.end()) json.fail(list_text(words), json.describe() + suggestion(json.string(), words));
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+template <int size>
+Eigen::Matrix<double, size, 1> read_numbers(const Json& json) {
+  if (!json.is_array() || json.array().size() != size) {
+    json.fail("an array of " + std::to_string(size) + " numbers", json.describe());
+  }
+  Eigen::Matrix<double, size, 1> v;
+  for (int k = 0; k < size; ++k) v[k] = json.array()[static_cast<std::size_t>(k)].number();
+  return v;
+}
+
+bool read_flag(const Json& json) {  // 0 or 1; JSON's own booleans as well
+  if (json.type() == Json::Type::boolean) return json.boolean();
+  if (!json.is_number() || (json.number() != 0 && json.number() != 1)) json.fail("0 or 1", json.describe());
+  return json.number() == 1;
+}
+
+// An index below `count`.
+Index read_index(const Json& json, std::size_t count, const char* what) {
+  const std::string range = count == 0 ? std::string("none, as there is no ") + what
+                                       : std::string("the number of ") + what + ", 0 to " + std::to_string(count - 1);
+  if (!json.is_number()) json.fail(range, json.describe());
+  const double value = json.number();
+  if (!(value >= 0 && value < static_cast<double>(count) && value == std::floor(value))) {
+    json.fail(range, json.describe());
+  }
+  return static_cast<Index>(value);
+}
+
+// The file's name without folder and ending; a file called plainly "specification" has its name from the folder.
+std::string pattern_name(std::string_view path) {
+  const auto last_part = [](std::string_view p) {
+    const std::size_t slash = p.find_last_of("/\\");
+    return slash == std::string_view::npos ? p : p.substr(slash + 1);
+  };
+  std::string_view name = last_part(path);
+  std::string_view folder = path.substr(0, path.size() - name.size());
+  while (!folder.empty() && (folder.back() == '/' || folder.back() == '\\')) folder.remove_suffix(1);
+  if (name.ends_with(".json")) name.remove_suffix(5);
+  if ((name == "specification" || name == "template") && !last_part(folder).empty())
+    return std::string(last_part(folder));
+  constexpr std::string_view ending = "_specification";
+  if (name.size() > ending.size() && name.ends_with(ending)) name.remove_suffix(ending.size());
+  return std::string(name);
+}
+
+class PatternReader {
+ public:
+  explicit PatternReader(const Json& root) : root_(root) {}
+
+  Pattern read(std::string_view file) {
+    if (!root_.is_object()) root_.fail("an object with the key \"pattern\"", root_.describe());
+    pattern_.name = pattern_name(file);
+    read_properties();
+    const Json& pattern = root_.at("pattern");
+    read_panels(pattern);
+    read_stitches(pattern.at("stitches"));
+    report_faults(pattern);
+    pattern_.legacy_frame = is_legacy_frame();
+    return std::move(pattern_);
+  }
+
+ private:
+  // Where the parts of a panel stand in the file.
+  struct PanelSource {
+    const Json* panel = nullptr;
+    std::vector<Index> place_of_edge;  // number in the file -> place in Panel::edges
+  };
+
+  void read_properties() {
+    const Json* properties = root_.find("properties");
+    const Json* units = properties != nullptr ? properties->find("units_in_meter") : nullptr;
+    if (units != nullptr) {
+      pattern_.units_in_meter = units->number();
+      if (!(pattern_.units_in_meter > 0)) units->fail("a number > 0, 100 for centimetres", units->describe());
+    }
+    pattern_.units_assumed = units == nullptr;
+    if (properties == nullptr) return;
+    if (const Json* coordinates = properties->find("curvature_coords")) {
+      absolute_ = read_word(*coordinates, {"relative", "absolute"}) == 1;
+    }
+    centre_panels_ = properties->boolean_or("normalize_panel_translation", false);
+  }
+
+  double length(double file_units) const { return file_units / pattern_.units_in_meter; }
+  Vec2 length(const Vec2& p) const { return p / pattern_.units_in_meter; }
+
+  // ---- panels -------------------------------------------------------------------------------------------------------
+
+  void read_panels(const Json& pattern) {
+    const Json& panels = pattern.at("panels");
+    const auto& members = panels.object();
+    if (members.empty()) panels.fail("at least one panel", "an object without members");
+    for (const auto& [name, panel] : members) {
+      place_of_panel_.emplace(name, static_cast<Index>(panel_names_.size()));
+      panel_names_.push_back(name);
+    }
+    std::vector<std::size_t> order(members.size());
+    for (std::size_t p = 0; p < order.size(); ++p) order[p] = p;
+    if (const Json* names = pattern.find("panel_order")) order = read_order(*names);
+    for (std::size_t place = 0; place < order.size(); ++place) {
+      const auto& [name, panel] = members[order[place]];
+      place_of_panel_[name] = static_cast<Index>(place);
+      read_panel(name, panel);
+    }
+  }
+
+  std::vector<std::size_t> read_order(const Json& names) {
+    std::vector<std::size_t> order;
+    std::vector<char> listed(panel_names_.size());
+    for (const Json& name : names.array()) {
+      const std::size_t panel = at(find_panel(name));
+      if (listed[panel]) name.fail("each panel once", name.describe() + " again");
+      listed[panel] = 1;
+      order.push_back(panel);
+    }
+    for (std::size_t p = 0; p < listed.size(); ++p) {
+      if (!listed[p]) names.fail("all panels", "none called \"" + printable(panel_names_[p]) + "\"");
+    }
+    return order;
+  }
+
+  Index find_panel(const Json& name) const {
+    if (!name.is_string()) name.fail("the name of a panel", name.describe());
+    const auto found = place_of_panel_.find(name.string());
+    if (found == place_of_panel_.end()) {
+      name.fail("the name of a panel", name.describe() + suggestion(name.string(), panel_names_));
+    }
+    return found->second;
+  }
+
+  void read_panel(const std::string& name, const Json& json) {
+    if (!json.is_object()) json.fail("a panel: an object", json.describe());
+    json.allow_only({"translation", "rotation", "vertices", "edges", "label"});
+    Panel panel;
+    panel.name = name;
+    panel.label = json.string_or("label", "");
+    const Vec3 translation = read_numbers<3>(json.at("translation"));
+    panel.translation_m = translation / pattern_.units_in_meter;
+    panel.rotation_deg = read_numbers<3>(json.at("rotation"));
+    for (const Json& corner : json.at("vertices").array()) panel.corners.push_back(length(read_numbers<2>(corner)));
+    const Json& edges = json.at("edges");
+    for (const Json& edge : edges.array()) {
+      panel.edges.push_back(read_edge(panel, edge));
+      panel.edges.back().file_number = static_cast<Index>(panel.edges.size() - 1);
+    }
+    sources_.push_back({&json, order_loop(panel, edges)});
+    if (centre_panels_) centre(panel);
+    pattern_.panels.push_back(std::move(panel));
+  }
+
+  PanelEdge read_edge(const Panel& panel, const Json& json) const {
+    if (!json.is_object()) json.fail("an edge: an object", json.describe());
+    json.allow_only({"endpoints", "curvature", "label"});
+    const Json& ends = json.at("endpoints");
+    if (!ends.is_array() || ends.array().size() != 2) ends.fail("two corners: [start, end]", ends.describe());
+    PanelEdge edge;
+    edge.start = read_index(ends.array()[0], panel.corners.size(), "a corner");
+    edge.end = read_index(ends.array()[1], panel.corners.size(), "a corner");
+    if (edge.start == edge.end) ends.fail("two different corners", "corner " + std::to_string(edge.start) + " twice");
+    edge.label = json.string_or("label", "");
+    const Json* curvature = json.find("curvature");
+    if (curvature == nullptr) return edge;
+
+    const Vec2 &start = panel.corners[at(edge.start)], &end = panel.corners[at(edge.end)];
+    const auto control = [&](const Json& point) -> Vec2 {
+      const Vec2 p = read_numbers<2>(point);
+      if (absolute_) return length(p);
+      const Vec2 along = end - start;
+      return start + p.x() * along + p.y() * Vec2{-along.y(), along.x()};
+    };
+    if (curvature->is_array()) {  // before 2022 a bare pair was the only curvature
+      edge.kind = CurveKind::quadratic;
+      edge.control[0] = control(*curvature);
+      return edge;
+    }
+    if (!curvature->is_object()) {
+      curvature->fail("a curvature: {\"type\": ..., \"params\": ...} or [a, b]", curvature->describe());
+    }
+    curvature->allow_only({"type", "params"});
+    constexpr CurveKind kinds[] = {CurveKind::quadratic, CurveKind::cubic, CurveKind::circle};
+    edge.kind = kinds[read_word(curvature->at("type"), {"quadratic", "cubic", "circle"})];
+    const Json& params = curvature->at("params");
+    const std::size_t count = edge.kind == CurveKind::quadratic ? 1 : edge.kind == CurveKind::cubic ? 2 : 3;
+    if (!params.is_array() || params.array().size() != count) {
+      params.fail(edge.kind == CurveKind::circle      ? "[radius, large_arc, sweep]"
+                  : edge.kind == CurveKind::quadratic ? "one control point: [[a, b]]"
+                                                      : "two control points: [[a, b], [a, b]]",
+                  params.describe());
+    }
+    if (edge.kind == CurveKind::circle) {
+      const Json& radius = params.array()[0];
+      if (!(radius.number() > 0)) radius.fail("a radius > 0", radius.describe());
+      edge.radius_m = length(radius.number());
+      edge.large_arc = read_flag(params.array()[1]);
+      edge.sweep = read_flag(params.array()[2]);
+    } else {
+      for (std::size_t k = 0; k < count; ++k) edge.control[k] = control(params.array()[k]);
+    }
+    return edge;
+  }
+
+  // Puts the edges into the order in which they follow each other, the file's first edge first.  Returns the new place
+  // of each.
+  static std::vector<Index> order_loop(Panel& panel, const Json& json) {
+    const std::size_t count = panel.edges.size();
+    constexpr Index none = -1;
+    std::vector<Index> leaving(panel.corners.size(), none), place(count, none);
+    const auto name = [](Index edge) { return "edge " + std::to_string(edge); };
+    for (std::size_t e = 0; e < count; ++e) {
+      const Index corner = panel.edges[e].start;
+      if (leaving[at(corner)] != none) {
+        json.array()[e].fail("a closed loop, in which one edge leaves each corner",
+                             name(static_cast<Index>(e)) + " leaving corner " + std::to_string(corner) + " as " +
+                                 name(leaving[at(corner)]) + " does");
+      }
+      leaving[at(corner)] = static_cast<Index>(e);
+    }
+    std::vector<PanelEdge> ordered;
+    Index edge = 0;
+    while (ordered.size() < count && place[at(edge)] == none) {
+      place[at(edge)] = static_cast<Index>(ordered.size());
+      ordered.push_back(panel.edges[at(edge)]);
+      const Index corner = ordered.back().end, next = leaving[at(corner)];
+      if (next == none) {
+        json.array()[at(edge)].fail(
+            "a closed loop", name(edge) + " ending at corner " + std::to_string(corner) + ", where no edge begins");
+      }
+      edge = next;
+    }
+    if (edge != 0) {  // ran into the middle of its own track, as a 6 does
+      const auto last = static_cast<Index>(std::find(place.begin(), place.end(), ordered.size() - 1) - place.begin());
+      json.array()[at(last)].fail("a closed loop through edge 0",
+                                  name(last) + " ending at the beginning of " + name(edge));
+    }
+    if (ordered.size() < count) {
+      const auto left = static_cast<Index>(std::find(place.begin(), place.end(), none) - place.begin());
+      json.array()[at(left)].fail("one closed loop", name(left) + " outside of the loop that edge 0 belongs to");
+    }
+    panel.edges = std::move(ordered);
+    return place;
+  }
+
+  // "normalize_panel_translation": the corners are meant around their mean, which moves to the translation.  The panel then
+  // turns about its middle.
+  static void centre(Panel& panel) {
+    if (panel.corners.empty()) return;
+    Vec2 sum{0, 0};
+    for (const Vec2& corner : panel.corners) sum += corner;
+    const Vec2 mean = sum / static_cast<double>(panel.corners.size());
+    for (Vec2& corner : panel.corners) corner -= mean;
+    for (PanelEdge& edge : panel.edges) {
+      for (Vec2& control : edge.control) control -= mean;
+    }
+    panel.translation_m += Vec3{mean.x(), mean.y(), 0};
+  }
+
+  // ---- stitches -----------------------------------------------------------------------------------------------------
+
+  void read_stitches(const Json& stitches) {
+    stitches_ = &stitches;
+    for (const Json& json : stitches.array()) {
+      if (!json.is_array() || json.array().size() < 2 || json.array().size() > 3) {
+        json.fail("a stitch: two sides and perhaps \"right_wrong\"", json.describe());
+      }
+      Stitch stitch;
+      stitch.a = read_side(json.array()[0]);
+      stitch.b = read_side(json.array()[1]);
+      if (json.array().size() == 3) {
+        read_word(json.array()[2], {"right_wrong"});
+        stitch.right_wrong = true;
+      }
+      pattern_.stitches.push_back(stitch);
+    }
+  }
+
+  StitchSide read_side(const Json& json) const {
+    if (!json.is_object()) json.fail("one side of a stitch: {\"panel\": ..., \"edge\": ...}", json.describe());
+    json.allow_only({"panel", "edge"});
+    StitchSide side;
+    side.panel = find_panel(json.at("panel"));
+    const std::vector<Index>& place = sources_[at(side.panel)].place_of_edge;
+    const std::string what = "an edge of panel \"" + printable(pattern_.panels[at(side.panel)].name) + "\"";
+    side.edge = place[at(read_index(json.at("edge"), place.size(), what.c_str()))];
+    return side;
+  }
+
+  // ---- the whole ----------------------------------------------------------------------------------------------------
+
+  void report_faults(const Json& pattern) const {
+    const std::vector<PatternFault> faults = find_faults(pattern_);
+    if (faults.empty()) return;
+    const PatternFault& fault = faults.front();
+    const Json* json = &pattern;
+    if (fault.part == PatternFault::Part::stitch) {
+      json = &stitches_->array()[at(fault.index)];
+      if (fault.side >= 0) json = &json->array()[static_cast<std::size_t>(fault.side)];
+    } else if (fault.part != PatternFault::Part::pattern) {
+      json = sources_[at(fault.panel)].panel;
+      if (fault.part == PatternFault::Part::corner) json = &json->at("vertices").array()[at(fault.index)];
+      if (fault.part == PatternFault::Part::edge) {
+        json = &json->at("edges").array()[at(pattern_.panels[at(fault.panel)].file_number(fault.index))];
+      }
+    }
+    json->fail(fault.expected, fault.got);
+  }
+
+  // The templates of 2021 put the origin near the pelvis; GarmentCode puts it on the floor.  No key says which, so:
+  //   a garment whose middle lies below the floor can only be meant in the old frame;
+  //   a file with `parameters` (which only the templates have) is in the old frame when its top is below 0.7 m, which is
+  //   under the waist of a standing adult and above the shoulders of one whose pelvis is at 0.
+  bool is_legacy_frame() const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Panel& panel : pattern_.panels) {
+      const Mat3 rotation = panel.rotation();
+      for (const Vec2& corner : panel.corners) {
+        const double y = (rotation * Vec3{corner.x(), corner.y(), 0} + panel.translation_m).y();
+        low = std::min(low, y);
+        high = std::max(high, y);
+      }
+    }
+    constexpr double highest_top_m = 0.7;
+    const Json* parameters = root_.find("parameters");
+    const bool is_template = parameters != nullptr && parameters->is_object() && !parameters->object().empty();
+    return low + high < 0 || (is_template && high < highest_top_m);
+  }
+
+  const Json& root_;
+  Pattern pattern_;
+  bool absolute_ = false, centre_panels_ = false;
+  std::vector<std::string> panel_names_;         // in the order of the file
+  std::map<std::string, Index> place_of_panel_;  // first in the order of the file, then in Pattern::panels
+  std::vector<PanelSource> sources_;             // as Pattern::panels
+  const Json* stitches_ = nullptr;
+};
+
+}  // namespace
+
+Pattern parse_pattern(std::string_view text, std::string_view file) {
+  const Json root = Json::parse(text, file);
+  return PatternReader(root).read(file);
+}
+
+Pattern load_pattern(const std::string& path) {
+  const Json root = Json::load(path);
+  return PatternReader(root).read(path);
+}
+
+}  // namespace toile

@@ -1,0 +1,109 @@
+// garment/triangulate.cpp: from the outline to the finished mesh; see triangulate.hpp and docs/theory/meshing.md.
+#include "garment/triangulate.hpp"
+
+#include "core/error.hpp"
+#include "garment/triangulate_improve.hpp"
+#include "garment/triangulate_outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace toile {
+
+namespace {
+
+constexpr double margin_ratio = 0.6;  // lattice points keep this share of an edge from the outline
+constexpr int smoothing_sweeps = 6;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+PlanarMesh triangulate(std::span<const Vec2> outline, double edge_m) {
+  constexpr double shortest_edge_m = 64 * grid_step_m;
+  if (!(edge_m >= shortest_edge_m) || !std::isfinite(edge_m))
+    throw InputError("", "edge_m", "an edge length of at least 0.0001 m", std::to_string(edge_m));
+  const GridOutline grid = snap_outline(outline);
+  const double edge = edge_m / grid_step_m;
+  Delaunay mesh(grid.points);
+  Index face = 0;
+  for (const GridPoint& p : lattice_inside(grid.points, edge, margin_ratio * edge)) {
+    const Index v = mesh.insert(p, mesh.locate(p, face));
+    if (v != Delaunay::none) face = mesh.face_of(v);
+  }
+  smooth(mesh, smoothing_sweeps);
+  improve(mesh, edge);
+
+  PlanarMesh result;
+  result.points.assign(outline.begin(), outline.end());
+  std::vector<Index> number(mesh.points().size());
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    const Index vertex = static_cast<Index>(v);
+    if (mesh.on_outline(vertex)) {
+      number[v] = vertex;
+    } else if (mesh.alive(vertex)) {
+      number[v] = static_cast<Index>(result.points.size());
+      result.points.push_back(grid.to_metres(mesh.points()[v]));
+    }
+  }
+  for (const Delaunay::Face& f : mesh.faces())
+    if (f.alive()) result.triangles.push_back({number[at(f.corner[0])], number[at(f.corner[1])], number[at(f.corner[2])]});
+  return result;
+}
+
+PlanarMesh equilateral_sheet(double width_m, double height_m, double edge_m) {
+  const auto check = [](double value, const char* name) {
+    if (!(value > 0) || !std::isfinite(value)) throw InputError("", name, "a length greater than zero", std::to_string(value));
+  };
+  check(width_m, "width_m");
+  check(height_m, "height_m");
+  check(edge_m, "edge_m");
+  const double most = 1e6;
+  const int nx = static_cast<int>(std::clamp(std::round(width_m / edge_m), 1.0, most));
+  const int ny = static_cast<int>(std::clamp(std::round(height_m / edge_m), 1.0, most));
+  std::vector<Vec2> outline;
+  for (int i = 0; i < nx; ++i) outline.emplace_back(width_m * i / nx, 0.0);
+  for (int i = 0; i < ny; ++i) outline.emplace_back(width_m, height_m * i / ny);
+  for (int i = nx; i > 0; --i) outline.emplace_back(width_m * i / nx, height_m);
+  for (int i = ny; i > 0; --i) outline.emplace_back(0.0, height_m * i / ny);
+  return triangulate(outline, edge_m);
+}
+
+PlanarQuality planar_quality(const PlanarMesh& mesh) {
+  PlanarQuality quality;
+  std::vector<double> angles;
+  struct Edge {
+    Index a, b;
+    bool operator<(const Edge& other) const { return a != other.a ? a < other.a : b < other.b; }
+    bool operator==(const Edge&) const = default;
+  };
+  std::vector<Edge> edges;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index i = t[k], j = t[(k + 1) % 3];
+      const Vec2 u = mesh.points[at(j)] - mesh.points[at(i)], v = mesh.points[at(t[(k + 2) % 3])] - mesh.points[at(i)];
+      angles.push_back(std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)) * (180 / std::numbers::pi));
+      edges.push_back({std::min(i, j), std::max(i, j)});
+    }
+  }
+  if (angles.empty()) return quality;
+  std::sort(angles.begin(), angles.end());
+  quality.min_angle_deg = angles.front();
+  quality.p1_angle_deg = angles[angles.size() / 100];
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  double sum = 0;
+  quality.min_edge_m = std::numeric_limits<double>::infinity();
+  for (const Edge& e : edges) {
+    const double length = (mesh.points[at(e.a)] - mesh.points[at(e.b)]).norm();
+    sum += length;
+    quality.min_edge_m = std::min(quality.min_edge_m, length);
+    quality.max_edge_m = std::max(quality.max_edge_m, length);
+  }
+  quality.mean_edge_m = sum / static_cast<double>(edges.size());
+  return quality;
+}
+
+}  // namespace toile

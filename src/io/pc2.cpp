@@ -1,0 +1,137 @@
+#include "io/pc2.hpp"
+
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <system_error>
+
+#include "core/error.hpp"
+
+namespace toile {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the file is little-endian, and so must the machine be");
+
+struct Header {
+  char magic[12];
+  std::int32_t version;
+  std::int32_t points;
+  float start;
+  float rate;
+  std::int32_t samples;
+};
+static_assert(sizeof(Header) == 32 && offsetof(Header, samples) == 28);
+
+constexpr char magic[12] = "POINTCACHE2";
+
+// Bytes of one frame; fits, as points < 2^31.
+std::uint64_t frame_bytes(Index points) { return static_cast<std::uint64_t>(points) * 3 * sizeof(float); }
+
+}  // namespace
+
+Pc2Writer::Pc2Writer(const std::string& path, Index points, double start_frame, double rate)
+    : file_(path), points_(points) {
+  if (points < 0) throw InputError(printable(path), "points", "a number >= 0", std::to_string(points));
+  Header header{};
+  std::memcpy(header.magic, magic, sizeof magic);
+  header.version = 1;
+  header.points = points;
+  header.start = static_cast<float>(start_frame);
+  header.rate = static_cast<float>(rate);
+  file_.write(&header, sizeof header);
+  buffer_.resize(3 * static_cast<std::size_t>(points));
+}
+
+void Pc2Writer::append(std::span<const Vec3> positions) {
+  if (positions.size() != static_cast<std::size_t>(points_)) {
+    throw InputError(printable(file_.path()), "frame " + std::to_string(samples_),
+                     std::to_string(points_) + " positions", std::to_string(positions.size()));
+  }
+  if (samples_ == std::numeric_limits<std::int32_t>::max())
+    throw IoError(file_.path(), "more frames than PC2 can count");
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      buffer_[3 * i + axis] = static_cast<float>(positions[i][static_cast<Eigen::Index>(axis)]);
+    }
+  }
+  file_.write(buffer_.data(), buffer_.size() * sizeof(float));
+  ++samples_;
+}
+
+void Pc2Writer::commit() {
+  file_.overwrite(offsetof(Header, samples), &samples_, sizeof samples_);
+  file_.commit();
+}
+
+Pc2Reader::Pc2Reader(const std::string& path) : path_(path) {
+  std::uint64_t size = 0;
+  file_ = open_regular_file(path, size);
+  try {
+    read_header(size);
+  } catch (...) {
+    std::fclose(file_);
+    throw;
+  }
+}
+
+Pc2Reader::~Pc2Reader() { std::fclose(file_); }
+
+void Pc2Reader::read_header(std::uint64_t size_bytes) {
+  const auto refuse = [&](std::string_view place, std::string_view expected, const std::string& got) {
+    throw InputError(printable(path_), place, expected, got);
+  };
+  Header header{};
+  if (size_bytes < sizeof header) refuse("header", "32 bytes", std::to_string(size_bytes));
+  if (std::fread(&header, sizeof header, 1, file_) != 1) throw IoError(path_, "cannot read the header");
+  if (std::memcmp(header.magic, magic, sizeof magic) != 0) {
+    refuse("header", "\"POINTCACHE2\"", '"' + printable(std::string_view(header.magic, sizeof magic)) + '"');
+  }
+  if (header.version != 1) refuse("version", "1", std::to_string(header.version));
+  if (header.points < 0) refuse("points", "a number >= 0", std::to_string(header.points));
+  if (header.samples < 0) refuse("samples", "a number >= 0", std::to_string(header.samples));
+  if (!std::isfinite(header.start)) refuse("start", "a finite frame", std::to_string(header.start));
+  if (!std::isfinite(header.rate)) refuse("rate", "a finite rate", std::to_string(header.rate));
+
+  // What the header declares must be there before anything is allocated for it.  2^31 samples of 2^31 points overflow
+  // 64 bits: compare by division.
+  const std::uint64_t data = size_bytes - sizeof header;
+  const std::uint64_t frame = frame_bytes(header.points);
+  const auto samples = static_cast<std::uint64_t>(header.samples);
+  const bool fits = frame == 0 ? data == 0 : data % frame == 0 && data / frame == samples;
+  if (!fits) {
+    refuse(
+        "size",
+        std::to_string(header.samples) + " samples of " + std::to_string(header.points) + " points, as the header says",
+        std::to_string(data) + " bytes of data");
+  }
+  // Without a sample the file says nothing for its points; they must not become a buffer of 24 GB.
+  points_ = header.points;
+  samples_ = header.samples;
+  start_ = header.start;
+  rate_ = header.rate;
+  if (samples_ > 0) buffer_.resize(3 * static_cast<std::size_t>(points_));
+}
+
+void Pc2Reader::read(int frame, std::vector<Vec3>& positions) {
+  if (frame < 0 || frame >= samples_) {
+    throw InputError(
+        printable(path_), "frame",
+        samples_ > 0 ? "a frame in 0.." + std::to_string(samples_ - 1) : std::string("none, as there are none"),
+        std::to_string(frame));
+  }
+  const std::uint64_t offset = sizeof(Header) + static_cast<std::uint64_t>(frame) * frame_bytes(points_);
+  if (::fseeko(file_, static_cast<off_t>(offset), SEEK_SET) != 0 ||
+      std::fread(buffer_.data(), sizeof(float), buffer_.size(), file_) != buffer_.size()) {
+    throw IoError(path_,
+                  "cannot read frame " + std::to_string(frame) + ": " +
+                      (std::feof(file_) ? "the file has become shorter" : std::generic_category().message(errno)));
+  }
+  positions.resize(static_cast<std::size_t>(points_));
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    positions[i] = Vec3(buffer_[3 * i], buffer_[3 * i + 1], buffer_[3 * i + 2]);
+  }
+}
+
+}  // namespace toile

@@ -1,0 +1,45 @@
+// material/bend.hpp: resistance to bending across the edge shared by two triangles.             [BW98 4.3, 4.5]
+//
+//   C = theta - theta_0,   E = kappa/2 C^2,   kappa = D L^2/(A_1+A_2)   (kappa = k of 1998 with paper scaling)
+//   theta = atan2((N_A x N_B) . e/|e|, N_A . N_B)         numbering as drawn in mesh/topology.hpp
+//
+// K = kappa g g^T and D = tau kappa g g^T with g = dtheta/dx: rank one, semidefinite by construction.
+// The part (theta - theta_0) d2theta is left out, because it is indefinite at every fold.     docs/theory/bend.md
+//
+// theta jumps from pi to -pi where the two triangles pass through each other.  theta - theta_0 is never wrapped:
+// from rest to fold without such a passage it is the angle turned.
+#pragma once
+#include "core/types.hpp"
+
+namespace toile {
+
+struct BendRest {
+  double kappa_N_m = 0;  // stiffness of this hinge
+  double tau_s = 0;      // relaxation time k_d / k
+  double theta_0 = 0;    // rest angle, rad
+};
+
+struct BendResponse {
+  double theta = 0, energy_J = 0;
+  std::array<Vec3, 4> g;    // dtheta/dx_i, 1/m
+  double moment = 0;        // kappa (theta - theta_0): elastic force on i is -moment g_i
+  double damping = 0;       // tau kappa theta_dot:     damping force on i is -damping g_i
+  bool degenerate = false;  // a triangle so thin that the angle means nothing: g, moment, damping are zero
+};
+
+// x in m, v in m/s.  A hinge is degenerate when one of its four angles at the edge has a sine below 1e-4.
+BendResponse bend_response(const BendRest& rest, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& v);
+
+// theta alone, and its derivatives (not for degenerate hinges); the Hessian is what tests check forces with.
+double hinge_angle(const std::array<Vec3, 4>& x);
+std::array<Vec3, 4> hinge_angle_gradient(const std::array<Vec3, 4>& x);
+std::array<std::array<Mat3, 4>, 4> hinge_angle_hessian(const std::array<Vec3, 4>& x);
+
+// kappa per unit of bending rigidity: L^2 / (A_1 + A_2) from the rest state, capped at 20 (slivers).
+double bend_weight(double edge_length_m, double area_a_m2, double area_b_m2);
+
+// Rigidity of a hinge whose bending direction in the pattern is `across` (need not be normalised): the fibres that
+// bend run across the edge.   D = (D_u du^2 + D_v dv^2)/(du^2 + dv^2); the mean of both for a zero vector.
+double directional_rigidity(const Vec2& across, double bend_u_N_m, double bend_v_N_m);
+
+}  // namespace toile

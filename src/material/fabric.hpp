@@ -1,0 +1,32 @@
+// material/fabric.hpp: what a cloth is made of, in SI, with five presets.     Sources: docs/theory/fabrics.md
+//
+// A member has the name of its key in a scene.  Stiffness is force per width (stretch, shear) and moment per width per
+// curvature (bend), so none of them depends on the mesh.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace toile {
+
+struct Fabric {
+  std::string name = "cotton";
+  double density_kg_per_m2 = 0.15;
+  double stretch_u_N_per_m = 3000, stretch_v_N_per_m = 2000;  // warp, weft
+  double shear_N_per_m = 200;
+  double bend_u_N_m = 1e-5, bend_v_N_m = 1e-5;
+  double stretch_damping_s = 2e-3, shear_damping_s = 2e-3, bend_damping_s = 2e-3;  // k_d / k
+  double friction = 0.35;
+  double thickness_m = 2.5e-3;  // rest distance of two layers in contact, and of cloth from a body
+};
+
+std::span<const Fabric> fabric_presets();  // silk, cotton, wool, denim, knit
+
+// Throws InputError(where, place, ...) with the nearest preset when there is none of that name.
+const Fabric& fabric_preset(std::string_view name, std::string_view where, std::string_view place);
+
+// Throws InputError naming the key (place + "/" + key) of a value that is not finite, negative, or zero where it may
+// not be: density, stretch and thickness.
+void check_fabric(const Fabric& fabric, std::string_view where, std::string_view place);
+
+}  // namespace toile

@@ -1,0 +1,56 @@
+// material/membrane.hpp: stretch and shear of one triangle, ready for assembly.            [BW98 4.2, 4.3, 4.5]
+//
+//   stretch   C_u = s (|w_u| - b_u),  C_v = s (|w_v| - b_v)           E = k_u/2 C_u^2 + k_v/2 C_v^2
+//   shear     C_s = s  w_u . w_v                                      E = k_s/2 C_s^2
+//   s = sqrt(area): k is in N/m and does not depend on the mesh; s = area is the 1998 form (`paper_scaling`).
+//
+// Everything is expressed by the six numbers F = [w_u w_v] (3x2); a corner i follows by
+//   f_i = -(alpha_i P_u + beta_i P_v),
+//   K_ij = alpha_i alpha_j K_uu + alpha_i beta_j K_uv + beta_i alpha_j K_uv^T + beta_i beta_j K_vv.
+// K is the energy's Hessian projected to positive semidefinite in closed form (no eigen-solver); D its
+// Gauss-Newton part times the relaxation time tau = k_d / k of each condition.  F has no unit, so P, Q, K are in J
+// and D in J s.                                     docs/theory/stretch-and-shear.md, docs/theory/damping.md
+//
+// A thread squeezed to |w| = 0 has no direction: its stretch force and stiffness are then zero, never NaN.
+#pragma once
+#include "core/types.hpp"
+
+namespace toile {
+
+struct MembraneStiffness {
+  double k_u = 0, k_v = 0, k_shear = 0;   // N/m (N/m^3 with paper scaling)
+  double tau_stretch = 0, tau_shear = 0;  // s
+};
+
+struct MembraneRest {
+  Vec3 alpha, beta;         // 1/m, each summing to zero; see mesh/cloth_mesh.hpp
+  double scale2 = 0;        // s^2: area (default) or area^2 (paper scaling)
+  double b_u = 1, b_v = 1;  // rest stretch; < 1 pulls the cloth together (elastic)
+};
+
+// A symmetric 6x6 matrix over (w_u, w_v).
+struct FMatrix {
+  Mat3 uu, uv, vv;
+};
+
+struct MembraneResponse {
+  double energy_J = 0;
+  Vec3 w_u, w_v;  // deformation gradient's columns
+  Vec3 P_u, P_v;  // dE/dw_u, dE/dw_v: elastic
+  Vec3 Q_u, Q_v;  // the same for damping, at the velocities given
+  FMatrix K, D;   // stiffness (projected) and damping
+};
+
+// What dd/dx of damping contributes to K (docs/theory/damping.md): nothing, or the symmetric part that the paper keeps.
+enum class DampingJacobian { gauss_newton, paper };
+
+// How the energy's Hessian is made semidefinite; `none` is the true Hessian, for tests.
+enum class Projection { semidefinite, none };
+
+// x in m and v in m/s, per corner.  About 0.12 us; nothing is allocated.
+MembraneResponse membrane_response(const MembraneRest& rest, const MembraneStiffness& k, const std::array<Vec3, 3>& x,
+                                   const std::array<Vec3, 3>& v,
+                                   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton,
+                                   Projection projection = Projection::semidefinite);
+
+}  // namespace toile

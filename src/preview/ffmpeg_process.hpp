@@ -1,0 +1,43 @@
+// preview/ffmpeg_process.hpp: the program `ffmpeg` as a child that takes raw pictures and writes a film.
+//
+// No shell: names of files never become part of a command line.  The parent's signal handling is not touched: pictures go
+// through a socket, where writing to a dead child is an error value and no SIGPIPE.
+//
+// Mind: ffmpeg writes to the path that it is given; temporary names and renaming are the caller's affair.
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace toile {
+
+// The first executable file `ffmpeg` in PATH.  Throws IoError, with advice, when there is none.
+std::string find_ffmpeg();
+
+class FfmpegProcess {
+ public:
+  // Starts the encoder; `film` names the result in messages, `output` is what ffmpeg writes.  Throws IoError.
+  FfmpegProcess(const std::string& program, const std::string& film, const std::string& output, int width, int height,
+                double fps);
+  // A child that was not finished is killed.
+  ~FfmpegProcess();
+  FfmpegProcess(const FfmpegProcess&) = delete;
+  FfmpegProcess& operator=(const FfmpegProcess&) = delete;
+
+  // Blocks until the child has taken everything.  Throws IoError with the child's last line when it ended.
+  void write(std::span<const unsigned char> bytes);
+  // End of the film: waits for the child.  Throws IoError when it failed.
+  void finish();
+
+ private:
+  [[noreturn]] void fail(const std::string& what);
+  bool read_messages();
+  int wait();
+
+  std::string film_, messages_;
+  int child_ = -1;   // process id
+  int input_ = -1;   // our end of the child's standard input
+  int errors_ = -1;  // our end of the child's standard error
+};
+
+}  // namespace toile

@@ -1,0 +1,243 @@
+// preview/path_tracer.cpp: one pixel's paths.
+#include "preview/path_tracer.hpp"
+
+#include "preview/low_discrepancy.hpp"
+#include "preview/weave.hpp"
+
+#include <cmath>
+
+namespace toile {
+namespace {
+
+constexpr int bounces_of_a_path = 2;   // surfaces after the first
+constexpr float pixel_filter = 0.85f;  // half width of the tent, in pixels
+constexpr float grid_filter = 0.75f;   // the grid's box filter, in pixels; the tent adds to it
+constexpr float last_bounce = 0.6f;    // share of the sky that is assumed to reach the surface after the last
+const Vec3f ground_albedo(0.55f, 0.55f, 0.55f);
+const Vec3f background_top(0.60f, 0.62f, 0.64f);
+const Vec3f background_bottom(0.92f, 0.91f, 0.89f);
+
+// Tent distribution on [-1, 1] from a uniform number.
+float tent(float u) { return u < 0.5f ? std::sqrt(2.0f * u) - 1.0f : 1.0f - std::sqrt(2.0f - 2.0f * u); }
+
+}  // namespace
+
+struct PathTracer::Surface {
+  Vec3f position;  // on the triangle
+  Vec3f origin;    // where rays leave: on the smooth surface that the vertex normals suggest, a little off the triangle
+  Vec3f geometric, normal;  // unit, both on the side that the ray came from
+  Vec3f albedo;             // without grid detail
+  const RayMesh* mesh = nullptr;
+  std::size_t triangle = 0;
+  float b1 = 0, b2 = 0;
+};
+
+PathTracer::PathTracer(const RayScene& scene, const LightRig& light, const CameraRays& camera,
+                       const RenderOptions& options, float ground_y, const Vec3f& centre, float radius)
+    : scene_(scene),
+      light_(light),
+      camera_(camera),
+      options_(options),
+      ground_y_(ground_y),
+      radius_(std::max(radius, 1e-3f)),
+      offset_(3e-5f * std::max(radius, 1e-3f)),
+      grid_mean_(weave_mean(static_cast<float>(options.grid_m))),
+      centre_(centre) {}
+
+PathTracer::Surface PathTracer::surface_at(const RayHit& hit, const Vec3f& origin, const Vec3f& direction) const {
+  Surface s;
+  s.mesh = &scene_.mesh(hit.mesh);
+  s.triangle = hit.triangle;
+  s.b1 = hit.b1;
+  s.b2 = hit.b2;
+  const Triangle& t = s.mesh->triangles[hit.triangle];
+  const auto i0 = static_cast<std::size_t>(t[0]), i1 = static_cast<std::size_t>(t[1]),
+             i2 = static_cast<std::size_t>(t[2]);
+  const float b0 = 1.0f - hit.b1 - hit.b2;
+  const Vec3f &p0 = s.mesh->positions[i0], &p1 = s.mesh->positions[i1], &p2 = s.mesh->positions[i2];
+  s.position = b0 * p0 + hit.b1 * p1 + hit.b2 * p2;
+
+  const Vec3f normal = (p1 - p0).cross(p2 - p0);
+  const float length = normal.norm();
+  s.geometric = length > 0 ? Vec3f(normal / length) : Vec3f(-direction);
+  const bool right_side = s.geometric.dot(direction) < 0;
+  const float side = right_side ? 1.0f : -1.0f;
+  s.geometric *= side;
+  s.albedo = right_side ? s.mesh->right_side : s.mesh->wrong_side;
+  if (!s.mesh->uv.empty()) s.albedo *= grid_mean_;
+
+  const Vec3f n0 = side * s.mesh->normals[i0], n1 = side * s.mesh->normals[i1], n2 = side * s.mesh->normals[i2];
+  s.normal = b0 * n0 + hit.b1 * n1 + hit.b2 * n2;
+  const float smooth_length = s.normal.norm();
+  s.normal = smooth_length > 1e-6f ? Vec3f(s.normal / smooth_length) : s.geometric;
+  // A smooth normal that turns away from the viewer (at outlines) is bent back until it just faces it.
+  const float facing = s.normal.dot(direction) / direction.norm();
+  if (facing > -0.02f) s.normal = (s.normal - (facing + 0.02f) * direction / direction.norm()).normalized();
+  if (s.normal.dot(s.geometric) < 0.05f) s.normal = s.geometric;
+
+  // J. Hanika, Hacking the Shadow Terminator (Ray Tracing Gems II, ch. 4): rays leave from the point moved onto the tangent
+  // planes of the corners, or coarse triangles would shade themselves in bands where the light grazes them.  Limited to a
+  // share of the triangle, so that the origin cannot pass through another layer of cloth that lies close by.
+  const auto lift = [&](const Vec3f& corner, const Vec3f& n) -> Vec3f {
+    return std::max(0.0f, -(s.position - corner).dot(n)) * n;
+  };
+  Vec3f lifted = b0 * lift(p0, n0) + hit.b1 * lift(p1, n1) + hit.b2 * lift(p2, n2);
+  const float limit = 0.08f * std::sqrt(length), height = lifted.norm();
+  if (height > limit) lifted *= limit / height;
+  s.origin = s.position + lifted + (offset_ + 2e-6f * (s.position - origin).norm()) * s.geometric;
+  return s;
+}
+
+Vec3f PathTracer::albedo_of(const Surface& s, const Vec3f& direction, const Vec3f& step_x, const Vec3f& step_y) const {
+  if (!s.mesh->cloth) return s.albedo;
+  Vec3f albedo = s.albedo;
+  if (!s.mesh->uv.empty()) {
+    const Triangle& t = s.mesh->triangles[s.triangle];
+    const Vec3f& p0 = s.mesh->positions[static_cast<std::size_t>(t[0])];
+    const Vec3f e1 = s.mesh->positions[static_cast<std::size_t>(t[1])] - p0;
+    const Vec3f e2 = s.mesh->positions[static_cast<std::size_t>(t[2])] - p0;
+    const std::array<Vec2, 3>& uv = s.mesh->uv[s.triangle];
+    const Vec2f d1 = (uv[1] - uv[0]).cast<float>(), d2 = (uv[2] - uv[0]).cast<float>();
+    const Vec2 at = uv[0] + (uv[1] - uv[0]) * static_cast<double>(s.b1) + (uv[2] - uv[0]) * static_cast<double>(s.b2);
+    // A step in the triangle's plane, as weights of e1 and e2, then as a step of (u, v).
+    const float a11 = e1.squaredNorm(), a12 = e1.dot(e2), a22 = e2.squaredNorm();
+    const float determinant = a11 * a22 - a12 * a12;
+    const auto uv_step = [&](const Vec3f& step) -> Vec2f {
+      const float c1 = step.dot(e1), c2 = step.dot(e2);
+      return ((c1 * a22 - c2 * a12) * d1 + (c2 * a11 - c1 * a12) * d2) / determinant;
+    };
+    if (determinant > 0) {
+      const Vec2f across = uv_step(step_x), down = uv_step(step_y);
+      // The box around the pixel's parallelogram in (u, v) would blur slanted views too much: its diagonal is enough.
+      const Vec2f extent = grid_filter * (across.cwiseAbs2() + down.cwiseAbs2()).cwiseSqrt();
+      const float shade = weave_shade(static_cast<float>(at.x()), static_cast<float>(at.y()), extent.x(), extent.y(),
+                                      static_cast<float>(options_.grid_m));
+      if (std::isfinite(shade)) albedo *= shade / grid_mean_;
+    }
+  }
+  // Sheen: fibres that stand off the cloth catch light where it is seen edge-on.
+  const float edge = 1.0f - std::min(1.0f, std::abs(s.normal.dot(direction)) / direction.norm());
+  const float sheen = 0.30f * edge * edge * edge;
+  return albedo + sheen * (0.06f * Vec3f::Ones() + 0.94f * albedo);
+}
+
+bool PathTracer::ground_hit(const Vec3f& origin, const Vec3f& direction, float& distance) const {
+  if (direction.y() >= 0 || origin.y() <= ground_y_) return false;
+  distance = (ground_y_ - origin.y()) / direction.y();
+  return true;
+}
+
+float PathTracer::shadow_strength(const Vec3f& point) const {
+  const float away = std::hypot(point.x() - centre_.x(), point.z() - centre_.z()) / radius_;
+  return 1.0f - smoothstep(1.2f, 2.6f, away);
+}
+
+Vec3f PathTracer::background(int x, int y) const {
+  const float across = (2.0f * static_cast<float>(x) + 1.0f) / static_cast<float>(options_.width) - 1.0f;
+  const float down = (static_cast<float>(y) + 0.5f) / static_cast<float>(options_.height);
+  return mix(background_top, background_bottom, smoothstep(0.0f, 1.0f, down)) * (1.0f - 0.10f * across * across);
+}
+
+// The radiance that comes back along a bounced ray.
+template <class Sampler>
+Vec3f PathTracer::incoming(const Vec3f& origin, const Vec3f& direction, Sampler& sampler, int bounces,
+                           bool& blocked) const {
+  RayHit hit;
+  float to_ground = 0;
+  const bool ground = ground_hit(origin, direction, to_ground);
+  blocked = scene_.nearest(origin, direction, hit) && !(ground && to_ground < hit.distance);
+  if (blocked) {
+    const Surface surface = surface_at(hit, origin, direction);
+    if (bounces <= 0) return surface.albedo.cwiseProduct(last_bounce * light_.ambient());
+    return surface.albedo.cwiseProduct(illumination(surface, sampler, bounces - 1));
+  }
+  if (!ground) return light_.sky(direction);
+  // The floor as a white surface under the subject: its sun by a shadow ray, its sky unblocked but dimmer close by.
+  const Vec3f point = origin + to_ground * direction;
+  const Vec3f sky_part = 0.85f * light_.ground_from_sky();
+  const Vec3f raised(point.x(), ground_y_ + offset_, point.z());
+  if (scene_.occluded(raised, light_.sun_direction(sampler.next()))) return ground_albedo.cwiseProduct(sky_part);
+  return ground_albedo.cwiseProduct(sky_part + light_.ground_from_sun());
+}
+
+template <class Sampler>
+Vec3f PathTracer::illumination(const Surface& s, Sampler& sampler, int bounces) const {
+  Vec3f sum = Vec3f::Zero();
+  const Vec3f to_sun = light_.sun_direction(sampler.next());
+  const float cosine = s.normal.dot(to_sun);
+  if (cosine > 0 && s.origin.y() > ground_y_ && !scene_.occluded(s.origin, to_sun)) sum += cosine * light_.sun();
+
+  Vec3f direction = cosine_direction(s.normal, sampler.next());
+  // Around a smooth normal some directions point into the triangle: mirrored out of it, no light comes through the cloth.
+  const float out = direction.dot(s.geometric);
+  if (out < 0.01f) direction = (direction + (0.02f - 2.0f * out) * s.geometric).normalized();
+  bool blocked = false;
+  return sum + incoming(s.origin, direction, sampler, bounces, blocked);
+}
+
+// The light on the ground as a share of what it would get with nothing there.  What is sampled is only the difference, so an
+// open ground is exactly 1.
+template <class Sampler>
+Vec3f PathTracer::ground_light(const Vec3f& point, float strength, Sampler& sampler) const {
+  Vec3f change = Vec3f::Zero();
+  if (scene_.occluded(point, light_.sun_direction(sampler.next()))) change -= light_.ground_from_sun();
+  const Vec3f direction = cosine_direction(Vec3f(0, 1, 0), sampler.next());
+  bool blocked = false;
+  const Vec3f light = incoming(point, direction, sampler, 0, blocked);
+  if (blocked) change += light - light_.sky(direction);
+  return Vec3f::Ones() + strength * change.cwiseQuotient(light_.ground_from_sun() + light_.ground_from_sky());
+}
+
+PixelLight PathTracer::trace(int x, int y) const {
+  PixelLight pixel;
+  const Vec3f back = background(x, y);
+  const auto seed = mix_bits(static_cast<std::uint32_t>(y) * 0x10001u + static_cast<std::uint32_t>(x) + 1u);
+  const auto count = static_cast<std::uint32_t>(options_.samples);
+  float mean = 0, squares = 0;  // of the illumination's luminance, by Welford's updates
+  for (std::uint32_t i = 0; i < count; ++i) {
+    PathSampler sampler(seed, i, count);
+    const Vec2f u = sampler.next();
+    const float px = static_cast<float>(x) + 0.5f + pixel_filter * tent(u.x());
+    const float py = static_cast<float>(y) + 0.5f + pixel_filter * tent(u.y());
+    const Vec3f direction = camera_.direction(px, py);
+
+    Vec3f albedo = back, light = Vec3f::Ones();
+    RayHit hit;
+    float to_ground = 0;
+    const bool ground = ground_hit(camera_.eye, direction, to_ground);
+    if (scene_.nearest(camera_.eye, direction, hit) && !(ground && to_ground < hit.distance)) {
+      const Surface s = surface_at(hit, camera_.eye, direction);
+      // Neighbouring pixels' rays meet the plane of the triangle a step apart.
+      const auto plane_step = [&](const Vec3f& change) -> Vec3f {
+        return hit.distance * (change - (s.geometric.dot(change) / s.geometric.dot(direction)) * direction);
+      };
+      albedo =
+          albedo_of(s, direction, plane_step(camera_.step_x * camera_.right), plane_step(camera_.step_y * camera_.up));
+      light = illumination(s, sampler, bounces_of_a_path);
+      pixel.normal += s.normal;
+      pixel.position += s.position;
+    } else {
+      const Vec3f point = camera_.eye + (ground ? to_ground : 1e3f * radius_) * direction;
+      const float strength = ground ? shadow_strength(point) : 0.0f;
+      if (strength > 0) light = ground_light(Vec3f(point.x(), ground_y_ + offset_, point.z()), strength, sampler);
+      pixel.normal += Vec3f(0, 1, 0);
+      pixel.position += point;
+    }
+    pixel.radiance += albedo.cwiseProduct(light);
+    pixel.albedo += albedo;
+    pixel.illumination += light;
+    const float value = luminance(light), change = value - mean;
+    mean += change / static_cast<float>(i + 1);
+    squares += change * (value - mean);
+  }
+  const float share = 1.0f / static_cast<float>(count);
+  pixel.radiance *= share;
+  pixel.albedo *= share;
+  pixel.illumination *= share;
+  pixel.position *= share;
+  pixel.normal *= share;
+  pixel.variance = count > 1 ? squares * share / static_cast<float>(count - 1) : mean * mean;
+  return pixel;
+}
+
+}  // namespace toile

@@ -1,0 +1,61 @@
+// preview/path_tracer.hpp: light that reaches the pixels, by following paths.      [Kajiya 1986]
+//
+// All surfaces are diffuse: L = albedo * illumination, with
+//   illumination = sun * cos * visible + (mean of incoming radiance over cosine-distributed directions),
+// the sun by a shadow ray towards a point of its disc, the rest by one bounced ray per path, up to three surfaces.
+//
+// The ground is not a drawn object but a shadow on the background: background * (light that arrives / light that would arrive
+// with nothing there).  So it has no edge, no horizon and no noise where nothing shades it.
+//
+// Mind: albedo and illumination are kept apart in the result, so that smoothing the light leaves the grid of the cloth sharp.
+#pragma once
+#include "preview/camera_rays.hpp"
+#include "preview/light_rig.hpp"
+#include "preview/ray_scene.hpp"
+#include "preview/vec3f.hpp"
+
+namespace toile {
+
+// Means over a pixel's samples.
+struct PixelLight {
+  Vec3f radiance = Vec3f::Zero();      // linear, before tone mapping
+  Vec3f albedo = Vec3f::Zero();        // for the ground and the background: the background's colour
+  Vec3f illumination = Vec3f::Zero();  // radiance / albedo, per sample, then averaged
+  Vec3f normal = Vec3f::Zero();
+  Vec3f position = Vec3f::Zero();
+  float variance = 0;  // of the mean illumination's luminance
+};
+
+class PathTracer {
+ public:
+  // References are kept.  `ground_y` and the subject's `centre` and `radius` (m) are in the ray scene's coordinates.
+  PathTracer(const RayScene& scene, const LightRig& light, const CameraRays& camera, const RenderOptions& options,
+             float ground_y, const Vec3f& centre, float radius);
+
+  PixelLight trace(int x, int y) const;
+
+ private:
+  struct Surface;
+  Surface surface_at(const RayHit& hit, const Vec3f& origin, const Vec3f& direction) const;
+  Vec3f albedo_of(const Surface& surface, const Vec3f& direction, const Vec3f& step_x, const Vec3f& step_y) const;
+  Vec3f background(int x, int y) const;
+  // How much of the ground's shadow shows at a point, 0 far from the subject.
+  float shadow_strength(const Vec3f& point) const;
+  bool ground_hit(const Vec3f& origin, const Vec3f& direction, float& distance) const;
+
+  template <class Sampler>
+  Vec3f illumination(const Surface& surface, Sampler& sampler, int bounces) const;
+  template <class Sampler>
+  Vec3f ground_light(const Vec3f& point, float strength, Sampler& sampler) const;
+  template <class Sampler>
+  Vec3f incoming(const Vec3f& origin, const Vec3f& direction, Sampler& sampler, int bounces, bool& blocked) const;
+
+  const RayScene& scene_;
+  const LightRig& light_;
+  const CameraRays& camera_;
+  RenderOptions options_;
+  float ground_y_, radius_, offset_, grid_mean_;
+  Vec3f centre_;
+};
+
+}  // namespace toile

@@ -1,0 +1,98 @@
+#include "solver/linear_system.hpp"
+
+#include "core/parallel.hpp"
+
+#include <Eigen/LU>
+
+namespace toile {
+
+template <class T>
+void LinearSystem<T>::update(std::span<const ImplicitRow> rows, const ParticleConstraints& constraints) {
+  rows_ = rows;
+  constraints_ = &constraints;
+  const auto n = static_cast<std::size_t>(size());
+  diagonal_.resize(n);
+  inverse_.resize(n);
+  inverse_block_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) diagonal_[i] = A_->diagonal(static_cast<Index>(i));
+  fast_rows_.clear();
+  for (const ImplicitRow& row : rows) {
+    const Mat3 nn = row.direction * row.direction.transpose();
+    Row fast{row.particle, {}, to_lane<T>(row.direction), static_cast<T>(row.a)};
+    for (std::size_t k = 0; k < 4; ++k) {
+      fast.weight[k] = static_cast<T>(row.weight[k]);
+      if (row.particle[k] >= 0) diagonal_[static_cast<std::size_t>(row.particle[k])] += (row.a * row.weight[k] * row.weight[k]) * nn;
+    }
+    fast_rows_.push_back(fast);
+  }
+  parallel_for(n, 1024, [&](std::size_t i) {
+    const auto particle = static_cast<Index>(i);
+    if (constraints.is_free(particle)) {
+      inverse_[i] = diagonal_[i].inverse();
+    } else {
+      const Mat3& S = constraints.S(particle);
+      const double sigma = diagonal_[i].trace() / 3;
+      const Mat3 D = S * diagonal_[i] * S + sigma * (Mat3::Identity() - S);
+      inverse_[i] = S * D.inverse() * S;
+    }
+    inverse_block_[i] = Block<T>::from(inverse_[i]);
+  });
+  filter_.clear();
+  for (const Index i : constraints.constrained()) filter_.push_back(Block<T>::from(constraints.S(i)));
+}
+
+template <class T>
+void LinearSystem<T>::multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const {
+  A_->multiply(x, y);
+  for (const Row& row : fast_rows_) {
+    T sum = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (row.particle[k] < 0) continue;
+      const Lane<T> product = x[static_cast<std::size_t>(row.particle[k])] * row.direction;
+      sum += row.weight[k] * (product[0] + product[1] + product[2]);
+    }
+    sum *= row.a;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (row.particle[k] >= 0) y[static_cast<std::size_t>(row.particle[k])] += row.direction * (row.weight[k] * sum);
+    }
+  }
+  const auto constrained = constraints_->constrained();
+  for (std::size_t c = 0; c < constrained.size(); ++c) {
+    Lane<T>& y_i = y[static_cast<std::size_t>(constrained[c])];
+    y_i = filter_[c].times(y_i);
+  }
+}
+
+template <class T>
+void LinearSystem<T>::multiply_unfiltered(std::span<const Vec3> x, std::span<Vec3> y) const {
+  A_->multiply(x, y);
+  for (const ImplicitRow& row : rows_) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (row.particle[k] >= 0) sum += row.weight[k] * row.direction.dot(x[static_cast<std::size_t>(row.particle[k])]);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (row.particle[k] >= 0) y[static_cast<std::size_t>(row.particle[k])] += (row.a * row.weight[k] * sum) * row.direction;
+    }
+  }
+}
+
+template <class T>
+Eigen::MatrixXd LinearSystem<T>::to_dense() const {
+  Eigen::MatrixXd dense = A_->to_dense();
+  for (const ImplicitRow& row : rows_) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (std::size_t l = 0; l < 4; ++l) {
+        if (row.particle[k] < 0 || row.particle[l] < 0) continue;
+        dense.block<3, 3>(3 * row.particle[k], 3 * row.particle[l]) +=
+            (row.a * row.weight[k] * row.weight[l]) * row.direction * row.direction.transpose();
+      }
+    }
+  }
+  return dense;
+}
+
+template class LinearSystem<float>;
+template class LinearSystem<double>;
+
+}  // namespace toile

@@ -1,0 +1,63 @@
+// solver/linear_system.hpp: the constrained system of one step in prefiltered form.                    [BW98 5, TJM15 8]
+//
+//   A' = S (A + sum a g g^T) S + sigma (I - S)        b' = S (b - A z)         dv = z + w,  A' w = b'
+//
+// A' is an ordinary symmetric positive definite matrix, so every preconditioner works on it.  A itself is never overwritten:
+// a held particle needs all of its row for its constraint force (I - S)(A dv - b)/h.  sigma_i = trace(A_ii)/3 keeps the spectrum.
+// All vectors of the iteration stay in the range of S.
+#pragma once
+#include "assembly/block_matrix.hpp"
+#include "assembly/implicit_row.hpp"
+#include "constraint/particle_constraints.hpp"
+
+#include <span>
+#include <vector>
+
+namespace toile {
+
+template <class T>
+class LinearSystem {
+ public:
+  explicit LinearSystem(const BlockMatrix<T>& A) : A_(&A) {}
+
+  // Call when A, the rows or the constraints have changed.  The spans must outlive the solve.
+  void update(std::span<const ImplicitRow> rows, const ParticleConstraints& constraints);
+
+  const BlockMatrix<T>& A() const { return *A_; }
+  std::span<const ImplicitRow> rows() const { return rows_; }
+  const ParticleConstraints& constraints() const { return *constraints_; }
+  Index size() const { return A_->rows(); }
+
+  // y = A' x for x in the range of S.
+  void multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
+  // y = (A + sum a g g^T) x, unfiltered, in double.
+  void multiply_unfiltered(std::span<const Vec3> x, std::span<Vec3> y) const;
+
+  // G_i = S_i D_i^-1 S_i with D_i the diagonal block of A', in double and in T.
+  const Mat3& filtered_inverse(Index i) const { return inverse_[static_cast<std::size_t>(i)]; }
+  const Block<T>& filtered_inverse_block(Index i) const { return inverse_block_[static_cast<std::size_t>(i)]; }
+  // A_ii + rows, before filtering.
+  const Mat3& diagonal(Index i) const { return diagonal_[static_cast<std::size_t>(i)]; }
+
+  Eigen::MatrixXd to_dense() const;   // A + rows, unfiltered; for tests
+
+ private:
+  struct Row {                        // an ImplicitRow in the precision of the iteration
+    std::array<Index, 4> particle;
+    std::array<T, 4> weight;
+    Lane<T> direction;
+    T a;
+  };
+  const BlockMatrix<T>* A_;
+  std::span<const ImplicitRow> rows_;
+  std::vector<Row> fast_rows_;
+  const ParticleConstraints* constraints_ = nullptr;
+  std::vector<Mat3> diagonal_, inverse_;
+  std::vector<Block<T>> inverse_block_;
+  std::vector<Block<T>> filter_;      // S of the constrained particles, in their order
+};
+
+extern template class LinearSystem<float>;
+extern template class LinearSystem<double>;
+
+}  // namespace toile

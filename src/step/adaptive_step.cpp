@@ -1,0 +1,100 @@
+#include "step/adaptive_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace toile {
+namespace {
+
+constexpr int longest_wait = 40;   // accepted steps before a failed increase is tried again [BW98 7]
+
+}  // namespace
+
+FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s) {
+  FrameReport report;
+  const long base_steps = std::max(1L, std::lround(std::ceil(frame_s / options_.step_max_s - 1e-9)));
+  const double base_s = frame_s / static_cast<double>(base_steps);
+  // Time is counted in the smallest step, so that it is exact.
+  const long ticks_per_base = 1L << options_.most_halvings, ticks = base_steps * ticks_per_base;
+  const double tick_s = base_s / static_cast<double>(ticks_per_base);
+
+  for (long now = 0; now < ticks;) {
+    integrator_.prepare(state, base_s);
+    while (true) {
+      const long step_ticks = ticks_per_base >> halvings_;
+      const double h = base_s / static_cast<double>(1L << halvings_);
+      const bool at_floor = halvings_ >= options_.floor_halvings;
+      const double limit = at_floor && options_.floor_halvings < options_.most_halvings ? std::numeric_limits<double>::infinity() : options_.stretch_limit;
+      report.last = integrator_.attempt(state, t_s + static_cast<double>(now) * tick_s, h, limit, candidate_);
+      report.passes += report.last.passes;
+      report.cg_iterations += report.last.cg_iterations;
+      if (report.last) {
+        integrator_.accept(candidate_);
+        std::swap(state, candidate_);
+        now += step_ticks;
+        ++report.steps;
+        report.step_min_s = report.steps == 1 ? h : std::min(report.step_min_s, h);
+        report.step_max_s = std::max(report.step_max_s, h);
+        report.cg_max = std::max(report.cg_max, report.last.cg_iterations);
+        if (growing_) patience_ = 2;       // the increase held
+        growing_ = false;
+        ++successes_;
+        break;
+      }
+      ++report.rejected;
+      if (halvings_ >= options_.most_halvings) {
+        report.ok = false;
+        report.diagnosis = diagnose(state, report.last);
+        return report;
+      }
+      if (growing_) patience_ = std::min(2 * patience_, longest_wait);
+      growing_ = false;
+      wait_ = patience_;
+      successes_ = 0;
+      ++halvings_;
+    }
+    const long doubled = ticks_per_base >> (halvings_ - 1 < 0 ? 0 : halvings_ - 1);
+    if (halvings_ > 0 && successes_ >= wait_ && now % doubled == 0) {
+      --halvings_;
+      successes_ = 0;
+      growing_ = true;
+    }
+  }
+  return report;
+}
+
+std::string AdaptiveStep::diagnose(const ClothState& state, const StepReport& report) const {
+  char text[512];
+  std::string words = "the step collapsed below " + std::to_string(report.h_s) + " s: " + report.explain();
+  const ClothModel& model = integrator_.model();
+  Index triangle = report.worst_triangle;
+  if (triangle < 0 && report.worst_particle < 0) {   // the solver failed: show the most strained triangle of the state
+    std::vector<Vec2> w(model.mesh.triangles.size());
+    integrator_.elements().stretch(state.x, w);
+    double worst = 0;
+    for (std::size_t t = 0; t < w.size(); ++t) {
+      const double strain = (w[t] - Vec2::Ones()).cwiseAbs().maxCoeff();
+      if (strain > worst) {
+        worst = strain;
+        triangle = static_cast<Index>(t);
+      }
+    }
+  }
+  if (triangle >= 0) {
+    const Triangle& corners = model.mesh.triangles[static_cast<std::size_t>(triangle)];
+    const Vec3& x = state.x[static_cast<std::size_t>(corners[0])];
+    std::snprintf(text, sizeof text, "; triangle %d (particles %d, %d, %d) at (%.3f, %.3f, %.3f) m", triangle, corners[0], corners[1], corners[2],
+                  x.x(), x.y(), x.z());
+    words += text;
+  }
+  if (report.worst_particle >= 0) {
+    const Vec3& x = state.x[static_cast<std::size_t>(report.worst_particle)];
+    std::snprintf(text, sizeof text, "; particle %d at (%.3f, %.3f, %.3f) m", report.worst_particle, x.x(), x.y(), x.z());
+    words += text;
+  }
+  return words;
+}
+
+}  // namespace toile

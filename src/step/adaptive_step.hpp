@@ -1,0 +1,57 @@
+// step/adaptive_step.hpp: how long a step may be, from what it does to the threads.                               [BW98 7]
+//
+//   accept   while no |w_u| or |w_v| changes by more than `stretch_limit` in the step and the solve converged
+//   reject   otherwise: h <- h / 2, the state is untouched and no element is evaluated again
+//   grow     after two accepted steps try 2 h, up to h_max; after a failed increase wait 2, 4, 8 ... 40 accepted steps
+//
+// h = frame / ceil(frame / h_max) / 2^k, and a doubling waits until the time is a multiple of the longer step: every halving lands on
+// the frame boundary.
+#pragma once
+#include "step/implicit_euler.hpp"
+
+#include <string>
+#include <vector>
+
+namespace toile {
+
+struct AdaptiveOptions {
+  double step_max_s = 1.0 / 30;
+  double stretch_limit = 0.05;         // change of |w| per step
+  int most_halvings = 10;              // frame / 1024: then the run has collapsed
+  int floor_halvings = 10;             // at this many the stretch is no longer judged (sewing), only solver and finiteness
+};
+
+struct FrameReport {
+  bool ok = true;
+  int steps = 0, rejected = 0;
+  double step_min_s = 0, step_max_s = 0;
+  int cg_iterations = 0, cg_max = 0;   // summed over steps; the largest of one step
+  int passes = 0;
+  StepReport last;                     // of the last attempt: when !ok, why
+  std::string diagnosis;               // when !ok: which triangles and particles, in words
+};
+
+class AdaptiveStep {
+ public:
+  AdaptiveStep(const ClothModel& model, const StepWorld& world, const StepOptions& step, const AdaptiveOptions& options)
+      : integrator_(model, world, step), options_(options) {}
+
+  // Advances from t_s by exactly frame_s.  When the step collapses, `state` stays where it last was accepted.
+  FrameReport advance(ClothState& state, double t_s, double frame_s);
+
+  ImplicitEuler& integrator() { return integrator_; }
+  const ImplicitEuler& integrator() const { return integrator_; }
+  AdaptiveOptions& options() { return options_; }
+
+ private:
+  std::string diagnose(const ClothState& state, const StepReport& report) const;
+
+  ImplicitEuler integrator_;
+  AdaptiveOptions options_;
+  ClothState candidate_;
+  int halvings_ = 0;                   // h = base / 2^halvings
+  int successes_ = 0, wait_ = 2, patience_ = 2;
+  bool growing_ = false;               // the present h is the first try after a doubling
+};
+
+}  // namespace toile

@@ -1,0 +1,87 @@
+// step/contact_rows.hpp: implicit contact of cloth on cloth, and of body edges and vertices on cloth faces.         (L2)
+//
+//   gap after the step, linear in dv:   g(dv) = d + n . ( sum_i w_i (h (v_i + dv_i) + y_i) - body travel )
+//   active while g < r:                 E = k/2 (r - g)^2         -> one rank-one row of the system (assembly/implicit_row.hpp)
+//   k = c (m_eff + h^2 k_n) / h^2,      m_eff = 1 / sum(w_i^2/m_i),   k_n = sum w_i^2 n.K_ii n      matched to inertia and elasticity
+//   k grows while the contact lives so that the load of the last step takes a tenth of r, and never shrinks: a spring
+//   that softened under load would give back more energy than it took.
+//   friction: viscous along the surface, min(k h, mu lambda / |v_t|) with lambda and v_t of the step before.
+#pragma once
+#include "assembly/block_matrix.hpp"
+#include "assembly/cloth_model.hpp"
+#include "assembly/implicit_row.hpp"
+#include "contact/proximity.hpp"
+
+#include <span>
+#include <vector>
+
+namespace toile {
+
+struct ContactRowOptions {
+  bool cloth_cloth = true;
+  double body_share = 0.5;       // r of body rows, as part of the body's offset: they only stop what pokes between particles
+  double damping_s = 2e-3;       // relaxation time of contact springs
+  double look_ahead = 1;         // pairs farther than r + look_ahead r are left to the next step
+};
+
+class ContactRows {
+ public:
+  // `merged_particle`: of seams still open, as in contact/features.hpp; may be empty.
+  ContactRows(const ClothModel& model, const BodySurface* body, std::span<const Index> merged_particle, double body_offset_m,
+              double body_friction, const ContactRowOptions& options);
+
+  // L0: pairs near at the state's positions.
+  void detect(const ClothState& state, double h_s);
+  // Stiffness of each pair and the rows with which a step begins.  `base_h_s` is the frame's own step, before any halving.
+  void begin(const ClothState& state, double h_s, double base_h_s, std::span<const Mat3> diagonal);
+  void append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const;
+
+  struct Change {
+    int dropped = 0, added = 0, active = 0;
+  };
+  Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> y, double h_s, bool may_drop);
+  void accept(const ClothState& end_state);
+
+  int active() const;
+  std::size_t candidates() const { return pairs_.size(); }
+  double cloth_seconds = 0, body_seconds = 0;   // time spent in detect, accumulated; for reports
+
+ private:
+  struct Key {
+    ContactKind kind;
+    bool body;
+    std::array<Index, 5> feature;
+    auto operator<=>(const Key&) const = default;
+  };
+  struct Pair {
+    Key key;
+    LinearSpring spring;            // direction, particles, weights, stiffness, body travel
+    double gap_m, r_m, friction;
+    double lambda_N = 0;            // of the step before, then of this one
+    Vec3 slip_m_per_s{0, 0, 0};     // tangential velocity of the step before
+    bool active = false;
+    double predicted_m = 0;         // gap of the last update
+  };
+  struct Memory {                   // what outlives a step
+    Key key;
+    double stiffness, lambda_N;
+    Vec3 slip_m_per_s;
+  };
+  Vec3 relative_velocity(const Pair& pair, const Vec3s& v, double h_s) const;
+
+  const ClothModel* model_;
+  const BodySurface* body_;
+  double body_r_m_, body_friction_;
+  ContactRowOptions options_;
+  std::vector<double> reach_m_;                  // [particle] thickness, at most 0.45 of the shortest rest edge around it
+  ClothTopology topology_;
+  TriangleTree tree_;
+  ProximityWorkspace workspace_;
+  std::vector<ClothContact> cloth_contacts_;
+  std::vector<BodyContact> body_contacts_;
+  std::vector<Pair> pairs_;                      // sorted by key
+  std::vector<Memory> memory_;                   // sorted by key
+  double h_s_ = 0;
+};
+
+}  // namespace toile

@@ -1,0 +1,202 @@
+#include "step/implicit_euler.hpp"
+
+#include "core/stopwatch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace toile {
+
+std::string_view to_string(StepStatus status) {
+  switch (status) {
+    case StepStatus::accepted: return "accepted";
+    case StepStatus::solver_failed: return "solver_failed";
+    case StepStatus::stretched: return "stretched";
+    case StepStatus::too_fast: return "too_fast";
+    case StepStatus::not_finite: return "not_finite";
+  }
+  return "";
+}
+
+std::string StepReport::explain() const {
+  char text[256];
+  switch (status) {
+    case StepStatus::accepted:
+      std::snprintf(text, sizeof text, "accepted: h = %.3g ms, %d passes, %d CG iterations", 1e3 * h_s, passes, cg_iterations);
+      break;
+    case StepStatus::solver_failed: return "linear solver: " + pcg.explain();
+    case StepStatus::stretched:
+      std::snprintf(text, sizeof text, "h = %.3g ms: stretch of triangle %d changes by %.3g in one step", 1e3 * h_s, worst_triangle, stretch_change);
+      break;
+    case StepStatus::too_fast:
+      std::snprintf(text, sizeof text, "h = %.3g ms: particle %d is faster than the limit", 1e3 * h_s, worst_particle);
+      break;
+    case StepStatus::not_finite:
+      std::snprintf(text, sizeof text, "h = %.3g ms: position of particle %d is not finite", 1e3 * h_s, worst_particle);
+      break;
+  }
+  return text;
+}
+
+ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, const StepOptions& options)
+    : model_(&model),
+      world_(&world),
+      options_(options),
+      elements_(model),
+      A_(elements_.pattern()),
+      system_(A_),
+      pcg_(model.mesh),
+      constraints_(model.particle_count()),
+      body_(model, world.body, options.body),
+      rows_(model, world.body, world.merged_particle, options.body.offset_m, options.body.friction, options.rows) {
+  const auto n = static_cast<std::size_t>(model.particle_count());
+  for (Vec3s* vector : {&force_, &b_, &y_, &friction_, &displacement_, &reference_, &dv_, &dv_last_, &e_}) vector->assign(n, Vec3::Zero());
+  diagonal_.assign(n, Mat3::Zero());
+  stretch_.resize(model.mesh.triangles.size());
+  stretch_candidate_.resize(model.mesh.triangles.size());
+  for (std::size_t i = 0; i < n; ++i) A_.grounded(static_cast<Index>(i)) = model.mass_kg[i] * Mat3::Identity();
+}
+
+void ImplicitEuler::prepare(const ClothState& state, double base_h_s) {
+  base_h_s_ = base_h_s;
+  {
+    const Timed timed(seconds_.eval);
+    elements_.evaluate(*model_, state);
+    elements_.forces(force_);
+    for (std::size_t i = 0; i < force_.size(); ++i) force_[i] += model_->mass_kg[i] * model_->gravity_m_per_s2;
+    elements_.stretch(state.x, stretch_);
+  }
+  {
+    const Timed timed(seconds_.cloth_solid);
+    body_.detect(state, base_h_s);
+  }
+  rows_.detect(state, base_h_s);
+}
+
+void ImplicitEuler::hold_pins(const ClothState& state, double t_s, double h_s) {
+  for (const Pin& pin : world_->pins) {
+    const auto i = static_cast<std::size_t>(pin.particle);
+    const Vec3 velocity = pin.path ? Vec3((pin.path(t_s + h_s) - state.x[i]) / h_s) : Vec3::Zero();
+    const Vec3 z = velocity - state.v[i];
+    if (pin.held_directions == 3) {
+      constraints_.hold(pin.particle, z);
+    } else {
+      constraints_.hold_along(pin.particle, pin.p, pin.p.dot(z));
+      if (pin.held_directions == 2) constraints_.hold_along(pin.particle, pin.q, pin.q.dot(z));
+    }
+  }
+}
+
+StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_s, double stretch_limit, ClothState& candidate) {
+  StepReport report;
+  report.h_s = h_s;
+  const std::size_t n = force_.size();
+  {
+    const Timed timed(seconds_.eval);
+    elements_.assemble(h_s, A_);
+    for (std::size_t i = 0; i < n; ++i) {
+      diagonal_[i] = A_.diagonal(static_cast<Index>(i));
+      reference_[i] = (h_s * model_->mass_kg[i]) * model_->gravity_m_per_s2;
+      // The predictor: the last change of velocity, so that free fall is exact at any tolerance.
+      dv_[i] = h_last_s_ > 0 ? Vec3((h_s / h_last_s_) * dv_last_[i]) : Vec3(h_s * model_->gravity_m_per_s2);
+    }
+  }
+  body_.begin(state, h_s);
+  rows_.begin(state, h_s, base_h_s_, diagonal_);
+
+  for (report.passes = 1;; ++report.passes) {
+    {
+      const Timed timed(seconds_.eval);
+      constraints_.clear();
+      hold_pins(state, t_s, h_s);
+      body_.apply(state, h_s, constraints_, y_, friction_);
+      springs_.clear();
+      rows_.append_springs(state, h_s, springs_);
+      if (world_->springs) world_->springs(state, h_s, springs_);
+      implicit_rows_.clear();
+      for (const LinearSpring& spring : springs_) implicit_rows_.push_back(implicit_row(spring, h_s, state.v, y_));
+      for (std::size_t i = 0; i < n; ++i) {
+        displacement_[i] = h_s * state.v[i] + y_[i];
+        b_[i] = force_[i] + friction_[i];
+      }
+      elements_.subtract_stiffness(displacement_, b_);
+      for (std::size_t i = 0; i < n; ++i) b_[i] *= h_s;
+      for (const ImplicitRow& row : implicit_rows_) {
+        for (std::size_t k = 0; k < 4; ++k) {
+          if (row.particle[k] >= 0) b_[static_cast<std::size_t>(row.particle[k])] += (row.beta * row.weight[k]) * row.direction;
+        }
+      }
+    }
+    const Timed timed(seconds_.cg);
+    system_.update(implicit_rows_, constraints_);
+    pcg_.prepare(system_, options_.pcg);
+    report.pcg = pcg_.solve(system_, b_, reference_, options_.pcg, dv_);
+    report.cg_iterations += report.pcg.iterations;
+    if (!report.pcg) {
+      report.status = StepStatus::solver_failed;
+      return report;
+    }
+    system_.multiply_unfiltered(dv_, e_);
+    for (std::size_t i = 0; i < n; ++i) e_[i] -= b_[i];
+
+    const bool first_passes = report.passes <= 2;
+    const int body_changes = body_.update(state, dv_, e_, h_s, first_passes);
+    const ContactRows::Change change = rows_.update(state, dv_, y_, h_s, report.passes <= 4);
+    report.rows = change.active;
+    const bool settled = body_changes == 0 && 20 * (change.added + change.dropped) <= change.active;
+    if (settled || report.passes >= options_.max_passes) break;
+  }
+  report.touching = body_.touching();
+  candidate.x.resize(n);
+  candidate.v.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    candidate.v[i] = state.v[i] + dv_[i];
+    candidate.x[i] = state.x[i] + h_s * candidate.v[i] + y_[i];
+  }
+  judge(stretch_limit, candidate, report);
+  h_last_s_ = report ? h_s : h_last_s_;
+  if (report) dv_last_ = dv_;
+  return report;
+}
+
+void ImplicitEuler::judge(double stretch_limit, const ClothState& candidate, StepReport& report) {
+  for (std::size_t i = 0; i < candidate.x.size(); ++i) {
+    const double speed2 = candidate.v[i].squaredNorm();
+    if (!std::isfinite(speed2 + candidate.x[i].squaredNorm())) {
+      report.status = StepStatus::not_finite;
+      report.worst_particle = static_cast<Index>(i);
+      return;
+    }
+    if (speed2 > options_.max_speed_m_per_s * options_.max_speed_m_per_s) {
+      report.status = StepStatus::too_fast;
+      report.worst_particle = static_cast<Index>(i);
+      return;
+    }
+  }
+  const Timed timed(seconds_.eval);
+  elements_.stretch(candidate.x, stretch_candidate_);
+  for (std::size_t t = 0; t < stretch_.size(); ++t) {
+    // Only changes away from the rest length count: a thread that relaxes is not diverging, however fast.
+    const Vec2 rest(model_->membrane[t].b_u, model_->membrane[t].b_v);
+    const auto away = (stretch_candidate_[t] - rest).array().abs() > (stretch_[t] - rest).array().abs();
+    const double change = away.select((stretch_candidate_[t] - stretch_[t]).array().abs(), 0.0).maxCoeff();
+    if (change > report.stretch_change) {
+      report.stretch_change = change;
+      report.worst_triangle = static_cast<Index>(t);
+    }
+  }
+  if (report.stretch_change > stretch_limit) report.status = StepStatus::stretched;
+}
+
+void ImplicitEuler::accept(const ClothState& candidate) {
+  body_.accept();
+  rows_.accept(candidate);
+}
+
+const PhaseSeconds& ImplicitEuler::seconds() const {
+  seconds_.cloth_cloth = rows_.cloth_seconds;
+  return seconds_;
+}
+
+}  // namespace toile

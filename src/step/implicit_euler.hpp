@@ -1,0 +1,113 @@
+// step/implicit_euler.hpp: one linearised backward Euler step with contact.                                 [BW98 3, 5, 6]
+//
+//   A  = M + h D + h^2 K                      K, D positive semidefinite by construction (material/)
+//   b  = h (f - K (h v + y))                  f: elastic, damping and external forces at (x, v)
+//   A dv = b  under S, z                      v <- v + dv,   x <- x + h (v + dv) + y
+//
+//   data flow   state -> elements -> A, f          (once per state: a halved step needs no element again)
+//                     -> near pairs                 (once per state)
+//                     -> [ constraints, rows -> b -> modified PCG -> dv, e -> active set ] until consistent
+//                     -> candidate
+#pragma once
+#include "assembly/elements.hpp"
+#include "solver/modified_pcg.hpp"
+#include "step/body_constraints.hpp"
+#include "step/contact_rows.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace toile {
+
+// A particle held by the user.
+struct Pin {
+  Index particle = -1;
+  int held_directions = 3;                      // 3: held; 2: along p and q (moves on a line); 1: along p (moves in a plane)
+  Vec3 p{1, 0, 0}, q{0, 1, 0};                  // unit, orthogonal
+  std::function<Vec3(double t_s)> path;         // where it must be; empty: it stays where it is along the held directions
+};
+
+struct StepOptions {
+  PcgOptions pcg;
+  ContactRowOptions rows;
+  BodyContactOptions body;
+  int max_passes = 8;                           // of the active set
+  double max_speed_m_per_s = 100;               // beyond this the step is refused
+};
+
+// Time per phase, for reports; s.
+struct PhaseSeconds {
+  double eval = 0, cg = 0, cloth_cloth = 0, cloth_solid = 0;
+};
+
+enum class StepStatus { accepted, solver_failed, stretched, too_fast, not_finite };
+std::string_view to_string(StepStatus status);
+
+struct StepReport {                             // what happened, in numbers a log can plot
+  StepStatus status = StepStatus::accepted;
+  double h_s = 0;
+  int passes = 0, cg_iterations = 0;
+  int touching = 0, rows = 0;                   // body constraints and contact rows of the last pass
+  double stretch_change = 0;                    // max over triangles of | |w|' - |w| | away from rest
+  Index worst_triangle = -1, worst_particle = -1;
+  PcgReport pcg;                                // of the last pass
+  explicit operator bool() const { return status == StepStatus::accepted; }
+  std::string explain() const;                  // one sentence for a person
+};
+
+// Everything that acts on the cloth besides its own elements.
+struct StepWorld {
+  BodySurface* body = nullptr;
+  std::vector<Pin> pins;
+  // Extra springs (sewing, attachments) at a state, for a step of h_s.
+  std::function<void(const ClothState&, double h_s, std::vector<LinearSpring>&)> springs;
+  std::vector<Index> merged_particle;           // of seams still open: contact/proximity.hpp
+};
+
+class ImplicitEuler {
+ public:
+  ImplicitEuler(const ClothModel& model, const StepWorld& world, const StepOptions& options);
+
+  // Evaluates elements and near pairs at the state; `base_h_s` is the longest step that will be tried from it.
+  void prepare(const ClothState& state, double base_h_s);
+  // Tries a step of h_s from the prepared state (at time t_s) and writes the candidate.  The state is not touched.
+  // `stretch_limit`: largest accepted change of |w_u| or |w_v|; infinity accepts any.
+  [[nodiscard]] StepReport attempt(const ClothState& state, double t_s, double h_s, double stretch_limit, ClothState& candidate);
+  // The candidate of the last attempt becomes the state: contacts and forces are remembered.
+  void accept(const ClothState& candidate);
+
+  const Elements& elements() const { return elements_; }
+  const BodyConstraints& body_constraints() const { return body_; }
+  BodyConstraints& body_constraints() { return body_; }
+  std::span<const Vec3> constraint_impulse() const { return e_; }   // e = A dv - b of the last pass, N s
+  const PhaseSeconds& seconds() const;
+  // f + h K terms of the last assembled system, for tests.
+  const BlockMatrix<float>& A() const { return A_; }
+  const StepOptions& options() const { return options_; }
+  const ClothModel& model() const { return *model_; }
+
+ private:
+  void hold_pins(const ClothState& state, double t_s, double h_s);
+  void judge(double stretch_limit, const ClothState& candidate, StepReport& report);
+
+  const ClothModel* model_;
+  const StepWorld* world_;
+  StepOptions options_;
+  Elements elements_;
+  BlockMatrix<float> A_;
+  LinearSystem<float> system_;
+  ModifiedPcg<float> pcg_;
+  ParticleConstraints constraints_;
+  BodyConstraints body_;
+  ContactRows rows_;
+  std::vector<LinearSpring> springs_;
+  std::vector<ImplicitRow> implicit_rows_;
+  Vec3s force_, b_, y_, friction_, displacement_, reference_, dv_, dv_last_, e_;
+  std::vector<Mat3> diagonal_;
+  std::vector<Vec2> stretch_, stretch_candidate_;
+  double base_h_s_ = 0, h_last_s_ = 0;
+  mutable PhaseSeconds seconds_;
+};
+
+}  // namespace toile

@@ -1,0 +1,106 @@
+// verify/box_tree.hpp: which triangles could meet a box, and which is nearest to a point.  The judge's own tree.
+//
+// Balanced binary tree: the triangles of a node are halved at the median of their centres along the longest side of the
+// centres' box.  Boxes are closed and hold the coordinates as they are, without rounding: a triangle that touches the query
+// is always visited.
+//
+// Easily got wrong: the order of visits depends on the tree.  Callers sort what they collect.
+#pragma once
+#include "core/types.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace toile {
+
+struct Box {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = Vec3::Constant(-std::numeric_limits<double>::infinity());
+
+  void add(const Vec3& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  void add(const Box& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
+  bool meets(const Box& other) const {
+    return low.x() <= other.high.x() && other.low.x() <= high.x() && low.y() <= other.high.y() &&
+           other.low.y() <= high.y() && low.z() <= other.high.z() && other.low.z() <= high.z();
+  }
+  double squared_distance(const Vec3& p) const { return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm(); }
+};
+
+class BoxTree {
+ public:
+  // Indices must be in range and positions finite.
+  BoxTree(std::span<const Triangle> triangles, std::span<const Vec3> x);
+
+  Box bounds() const { return nodes_.empty() ? Box{} : nodes_.front().box; }
+
+  // visit(triangle) for every triangle whose box meets `box`.
+  template <class Visit>
+  void visit_meeting(const Box& box, Visit&& visit) const {
+    std::array<Index, max_depth> stack;
+    std::size_t waiting = 0;
+    if (!nodes_.empty()) stack[waiting++] = 0;
+    while (waiting > 0) {
+      const Index n = stack[--waiting];
+      const Node& node = nodes_[static_cast<std::size_t>(n)];
+      if (!node.box.meets(box)) continue;
+      if (node.count == 0) {
+        stack[waiting++] = node.next;
+        stack[waiting++] = n + 1;
+        continue;
+      }
+      for (Index k = node.next; k < node.next + node.count; ++k)
+        if (leaf_boxes_[static_cast<std::size_t>(k)].meets(box)) visit(order_[static_cast<std::size_t>(k)]);
+    }
+  }
+
+  // The least squared_distance(triangle) over all triangles; it must be the squared distance of that triangle to p.
+  template <class SquaredDistance>
+  double least_squared_distance(const Vec3& p, SquaredDistance&& squared_distance) const {
+    double best = std::numeric_limits<double>::infinity();
+    std::array<Index, max_depth> stack;
+    std::size_t waiting = 0;
+    if (!nodes_.empty()) stack[waiting++] = 0;
+    while (waiting > 0) {
+      const Index n = stack[--waiting];
+      const Node& node = nodes_[static_cast<std::size_t>(n)];
+      if (node.box.squared_distance(p) >= best) continue;
+      if (node.count == 0) {
+        Index near = n + 1, far = node.next;
+        if (nodes_[static_cast<std::size_t>(far)].box.squared_distance(p) <
+            nodes_[static_cast<std::size_t>(near)].box.squared_distance(p))
+          std::swap(near, far);
+        stack[waiting++] = far;
+        stack[waiting++] = near;
+        continue;
+      }
+      for (Index k = node.next; k < node.next + node.count; ++k)
+        best = std::min(best, static_cast<double>(squared_distance(order_[static_cast<std::size_t>(k)])));
+    }
+    return best;
+  }
+
+ private:
+  // Halving 2^31 triangles leaves at most 31 levels, each with one waiting sibling.
+  static constexpr std::size_t max_depth = 64;
+  static constexpr std::size_t leaf_size = 4;
+  struct Node {
+    Box box;
+    Index next;   // leaf: first entry of order_; inner: the second child (the first follows its parent)
+    Index count;  // leaf: entries; inner: 0
+  };
+  Box build(std::size_t first, std::size_t last, std::span<const Box> boxes, std::span<const Vec3> centres);
+
+  std::vector<Node> nodes_;
+  std::vector<Index> order_;
+  std::vector<Box> leaf_boxes_;  // as order_
+};
+
+}  // namespace toile

@@ -1,0 +1,85 @@
+// verify/verdict.cpp: see the header.
+#include "verify/verdict.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace toile {
+namespace {
+
+std::string percent(double fraction) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), "%.3g %%", 100 * fraction);
+  return text.data();
+}
+
+std::string number(double value) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
+
+std::string edges(int found, int limit, const std::vector<Crossing>& crossings, const char* through) {
+  std::string text =
+      std::to_string(found) + " edges pass through " + through + " in the last frame, limit " + std::to_string(limit);
+  if (!crossings.empty()) {
+    const Crossing& c = crossings.front();
+    text += "; the first is the edge of " + std::string(c.edge_of_body ? "body" : "cloth") + " vertices " +
+            std::to_string(c.edge[0]) + ", " + std::to_string(c.edge[1]) + " near (" + number(c.position.x()) + ", " +
+            number(c.position.y()) + ", " + number(c.position.z()) + ") m";
+  }
+  return text;
+}
+
+// Written so that NaN is an excess.
+bool within(double value, double limit) { return value <= limit; }
+
+}  // namespace
+
+bool is_measured_reason(std::string_view code) {
+  return code == reason::static_equilibrium || code == reason::cloth_body_intersection ||
+         code == reason::cloth_self_intersection || code == reason::not_finite || code == reason::stretch;
+}
+
+Verdict judge(const VerifyReport& report, const Limits& limits) {
+  Verdict verdict;
+  verdict.limits = limits;
+  const auto add = [&](std::string_view code, std::string detail) {
+    const bool known =
+        std::any_of(verdict.reasons.begin(), verdict.reasons.end(), [&](const Reason& r) { return r.code == code; });
+    if (!known) verdict.reasons.push_back({std::string(code), std::move(detail)});
+  };
+
+  if (report.frames == 0 || report.frames < report.frames_expected)
+    add(reason::unfinished,
+        std::to_string(report.frames) + " frames, expected " + std::to_string(std::max(report.frames_expected, 1)));
+  for (const std::string& code : report.reported_reasons) add(code, "reported by the run");
+  if (!report.finite)
+    add(reason::not_finite,
+        "frame " + std::to_string(report.first_bad_frame) + " has a position that is infinite or NaN");
+
+  if (report.finite && report.frames > 0) {
+    if (report.cloth_body_edges.last > limits.cloth_body_edges)
+      add(reason::cloth_body_intersection, edges(report.cloth_body_edges.last, limits.cloth_body_edges,
+                                                 report.last_body_crossings, "the other surface"));
+    if (report.cloth_cloth_edges.last > limits.cloth_cloth_edges)
+      add(reason::cloth_self_intersection,
+          edges(report.cloth_cloth_edges.last, limits.cloth_cloth_edges, report.last_cloth_crossings, "the cloth"));
+    const StretchStatistics& s = report.stretch;
+    if (!within(s.judged_p99, limits.stretch_p99) || !within(s.judged_max, limits.stretch_max))
+      add(reason::stretch, "p99 " + percent(s.judged_p99) + ", limit " + percent(limits.stretch_p99) + "; max " +
+                               percent(s.judged_max) + " at triangle " + std::to_string(s.judged_worst_triangle) +
+                               ", limit " + percent(limits.stretch_max));
+    if (limits.must_be_still && report.frames < 2)
+      add(reason::static_equilibrium, "one frame does not show whether the cloth moves");
+    else if (limits.must_be_still && !within(report.still_mm_per_s_p99, limits.still_mm_per_s))
+      add(reason::static_equilibrium, "p99 speed " + number(report.still_mm_per_s_p99) +
+                                          " mm/s in the last second, limit " + number(limits.still_mm_per_s) + " mm/s");
+  }
+  verdict.pass = verdict.reasons.empty();
+  return verdict;
+}
+
+}  // namespace toile

@@ -1,0 +1,52 @@
+// verify/verdict.hpp: pass or fail, with a code for each reason.                                    docs/reason-codes.md
+//
+// pass = the run reached its end, everything is finite, the last frame has no crossings, the cloth outside elastic is
+// stretched by at most the limits, and, where the run was to come to rest, it has.
+//
+// Easily got wrong: earlier frames may cross (a bad start that was untangled) and still pass.  Their counts are in the
+// report, for whoever wants to be stricter.
+#pragma once
+#include "verify/verify.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace toile {
+
+struct Limits {
+  int cloth_body_edges = 0, cloth_cloth_edges = 0;  // of the last frame
+  double stretch_p99 = 0.05, stretch_max = 0.10;    // of the last frame, outside elastic
+  bool must_be_still = false;                       // `dress` without motion
+  double still_mm_per_s = 5;
+};
+
+// Names that scripts may compare with.  The first three are GarmentCode's.
+namespace reason {
+inline constexpr std::string_view static_equilibrium = "static_equilibrium";
+inline constexpr std::string_view cloth_body_intersection = "cloth_body_intersection";
+inline constexpr std::string_view cloth_self_intersection = "cloth_self_intersection";
+inline constexpr std::string_view not_finite = "not_finite";
+inline constexpr std::string_view stretch = "stretch";
+inline constexpr std::string_view unfinished = "unfinished";
+}  // namespace reason
+
+// Is this code decided by measuring the files, so that the judge needs nobody's word for it?  `unfinished` is not: a run
+// that stopped early and says so is unfinished, whatever the number of frames.
+bool is_measured_reason(std::string_view code);
+
+struct Reason {
+  std::string code;
+  std::string detail;  // one line: what was measured, where, and the limit
+};
+
+struct Verdict {
+  bool pass = false;
+  std::vector<Reason> reasons;  // empty when and only when pass; each code at most once
+  Limits limits;                // what it was judged by
+};
+
+// A value that is not finite hides everything measured after it: then the codes that need the last frame are left out.
+Verdict judge(const VerifyReport& report, const Limits& limits = {});
+
+}  // namespace toile

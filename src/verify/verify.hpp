@@ -1,0 +1,85 @@
+// verify/verify.hpp: judges a finished run from its files alone, with exact arithmetic.    `toile verify DIR`
+//
+// The judge shares no code with contact: its own tree, its own predicates.  It reads positions as they were written
+// (float32, which double holds exactly) and believes nothing that report.json says about them.      docs/theory/verify.md
+//
+//   predicates.hpp   signs, exactly                      crossings.hpp    edges through triangles
+//   box_tree.hpp     candidates                          statistics.hpp   stretch, shear, gap, speed
+//   verify.hpp       a run, frame by frame               verdict.hpp      pass or fail, and why
+//
+// Easily got wrong: audit the positions that the files hold.  Rounding to float32 moves a particle by up to 6e-8 of its
+// coordinate, which can open or close a crossing; a caller that audits from memory rounds first.
+#pragma once
+#include "core/types.hpp"
+#include "mesh/cloth_mesh.hpp"
+#include "verify/crossings.hpp"
+#include "verify/predicates.hpp"
+#include "verify/statistics.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace toile {
+
+// Distinct edges that pass through a triangle.
+struct PenetrationCount {
+  int max = 0, last = 0, frames = 0;  // over frames; in the last frame; how many frames have any
+};
+
+struct VerifyReport {
+  int frames = 0;
+  int frames_expected = 0;  // 0: unknown
+  bool finite = true;
+  Index first_bad_frame = -1;  // the first with a value that is not finite; such frames are measured no further
+  bool has_body = false;
+  PenetrationCount cloth_body_edges;  // cloth edges through the body and body edges through the cloth
+  PenetrationCount cloth_cloth_edges;
+  Index first_body_crossing_frame = -1, first_cloth_crossing_frame = -1;
+  StretchStatistics stretch;      // last frame
+  GapStatistics gap;              // last frame; zero without a body
+  double still_mm_per_s_p99 = 0;  // largest per-frame p99 of the last second; zero with fewer than two frames
+  std::vector<Crossing> last_body_crossings, last_cloth_crossings;
+  bool must_be_still = false;  // from report.json: limits.still_mm_per_s is a number
+  // Reason codes of report.json that no file shows (a time limit, a crash): the judge cannot acquit of them.
+  std::vector<std::string> reported_reasons;
+};
+
+// What stays the same over the frames of a run.
+struct RunDescription {
+  ClothMesh mesh;
+  std::vector<Vec2> b;  // (b_u, b_v) per triangle; empty: 1
+  std::vector<Triangle> body_triangles;
+  Index body_particle_count = 0;
+  double fps = 30;
+};
+
+// Audits frames in their order; holds one frame.
+class RunAudit {
+ public:
+  // Throws InputError when the description contradicts itself.
+  explicit RunAudit(RunDescription run);
+
+  // `body_x` is empty when the run has no body.  Throws InputError when a size is not that of the description.
+  void add(std::span<const Vec3> x, std::span<const Vec3> body_x);
+
+  // Of the frames added so far.
+  VerifyReport report() const;
+
+ private:
+  RunDescription run_;
+  VerifyReport report_;
+  Vec3s last_x_, last_body_x_;
+  bool last_is_finite_ = false;
+  std::vector<double> speed_p99_;  // one per pair of consecutive frames
+};
+
+// Reads cloth.obj, cloth.pc2, body.obj, body.pc2 and report.json of a run; the body's files may be absent together when
+// report.json knows of no body.  Of report.json it uses `fps`, and if present `frames`, `body.vertices`, `reasons`,
+// `limits.still_mm_per_s` and `rest_stretch` {"panel": [b_u, b_v]}.
+// Throws IoError (missing, unreadable) or InputError (truncated, not what the format says, sizes that contradict each
+// other), naming the file, what was expected and what it has.
+VerifyReport verify_directory(const std::string& directory);
+
+}  // namespace toile

@@ -1,0 +1,76 @@
+#include "core/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace toile {
+namespace {
+
+std::string_view nearest(std::string_view name, const std::vector<std::string_view>& names) {
+  return nearest_name(name, names.data(), names.size());
+}
+
+TEST(InputError, ReadsAsFilePlaceExpectedGot) {
+  const InputError error("scene.json:14:22", "/cloth/0/density_kg_per_m2", "a finite number > 0", "-0.2");
+  EXPECT_STREQ(error.what(), "scene.json:14:22: /cloth/0/density_kg_per_m2: expected a finite number > 0, got -0.2");
+  EXPECT_EQ(error.code(), ExitCode::bad_input);
+}
+
+TEST(InputError, LeavesOutWhatIsNotKnown) {
+  EXPECT_STREQ(InputError("", "edge 3-7", "a", "b").what(), "edge 3-7: expected a, got b");
+  EXPECT_STREQ(InputError("a.obj", "", "a", "b").what(), "a.obj: expected a, got b");
+  EXPECT_STREQ(InputError("", "", "a", "b").what(), "expected a, got b");
+}
+
+TEST(IoError, NamesThePathAndTheReason) {
+  const IoError error("out/cloth.pc2", "cannot write: No space left on device");
+  EXPECT_STREQ(error.what(), "out/cloth.pc2: cannot write: No space left on device");
+  EXPECT_EQ(error.code(), ExitCode::io);
+}
+
+TEST(IoError, KeepsControlCharactersOfAPathOutOfTheLog) {
+  EXPECT_STREQ(IoError("a\nb\x1b[31m.obj", "x").what(), "a?b?[31m.obj: x");
+}
+
+TEST(Error, ExitCodesAreTheContractWithScripts) {
+  EXPECT_EQ(static_cast<int>(ExitCode::usage), 2);
+  EXPECT_EQ(static_cast<int>(ExitCode::bad_input), 3);
+  EXPECT_EQ(static_cast<int>(ExitCode::bad_start), 4);
+  EXPECT_EQ(static_cast<int>(ExitCode::simulation_failed), 5);
+  EXPECT_EQ(static_cast<int>(ExitCode::io), 6);
+  EXPECT_EQ(static_cast<int>(ExitCode::resource_limit), 7);
+  EXPECT_EQ(static_cast<int>(ExitCode::interrupted), 8);
+  EXPECT_EQ(static_cast<int>(ExitCode::internal), 9);
+}
+
+TEST(Printable, ReplacesControlCharactersAndKeepsTheRest) {
+  EXPECT_EQ(printable("a\tb\nc\x7f"), "a?b?c?");
+  EXPECT_EQ(printable("\xc3\xa4rmel"), "\xc3\xa4rmel");
+  EXPECT_EQ(printable(std::string_view("\0", 1)), "?");
+}
+
+TEST(Printable, CutsWhatIsTooLongForALine) {
+  EXPECT_EQ(printable(std::string(200, 'x')), std::string(200, 'x'));
+  EXPECT_EQ(printable(std::string(201, 'x')), std::string(200, 'x') + "...");
+}
+
+TEST(NearestName, IsTheOneWithTheFewestEdits) {
+  const std::vector<std::string_view> names = {"gravity_m_per_s2", "wind_m_per_s", "air_density_kg_per_m3"};
+  EXPECT_EQ(nearest("wind_m_s", names), "wind_m_per_s");
+  EXPECT_EQ(nearest("gravity", names), "gravity_m_per_s2");
+  EXPECT_EQ(nearest("airdensity_kg_per_m3", names), "air_density_kg_per_m3");
+}
+
+TEST(NearestName, CountsInsertionsDeletionsAndSubstitutionsAlike) {
+  EXPECT_EQ(nearest("silk", {"milk", "silky soft"}), "milk");   // 1 substitution against 6 insertions
+  EXPECT_EQ(nearest("kitten", {"sitting", "kit"}), "sitting");  // 3 against 3: the first wins
+  EXPECT_EQ(nearest("kitten", {"sittings", "kit"}), "kit");     // 4 against 3
+  EXPECT_EQ(nearest("", {"abc", "ab"}), "ab");
+}
+
+TEST(NearestName, IsEmptyWithoutCandidates) { EXPECT_EQ(nearest("wind", {}), ""); }
+
+}  // namespace
+}  // namespace toile

@@ -1,0 +1,124 @@
+#include "material/fabric.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace toile {
+namespace {
+
+std::string message_of(const Fabric& fabric) {
+  try {
+    check_fabric(fabric, "scene.json:14", "/cloth/0/fabric");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+struct Number {
+  const char* key;
+  double Fabric::*value;
+  bool may_be_zero;
+};
+const std::vector<Number> numbers = {
+    {"density_kg_per_m2", &Fabric::density_kg_per_m2, false},
+    {"stretch_u_N_per_m", &Fabric::stretch_u_N_per_m, false},
+    {"stretch_v_N_per_m", &Fabric::stretch_v_N_per_m, false},
+    {"shear_N_per_m", &Fabric::shear_N_per_m, true},
+    {"bend_u_N_m", &Fabric::bend_u_N_m, true},
+    {"bend_v_N_m", &Fabric::bend_v_N_m, true},
+    {"stretch_damping_s", &Fabric::stretch_damping_s, true},
+    {"shear_damping_s", &Fabric::shear_damping_s, true},
+    {"bend_damping_s", &Fabric::bend_damping_s, true},
+    {"friction", &Fabric::friction, true},
+    {"thickness_m", &Fabric::thickness_m, false},
+};
+
+TEST(Fabric, PresetsAreTheFivePromisedAndValid) {
+  std::vector<std::string> names;
+  for (const Fabric& fabric : fabric_presets()) {
+    names.push_back(fabric.name);
+    EXPECT_EQ(message_of(fabric), "");
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"silk", "cotton", "wool", "denim", "knit"}));
+}
+
+TEST(Fabric, CottonIsTheDefault) {
+  const Fabric& cotton = fabric_preset("cotton", "", "");
+  const Fabric fabric;
+  EXPECT_EQ(fabric.name, cotton.name);
+  for (const Number& number : numbers) EXPECT_EQ(fabric.*number.value, cotton.*number.value) << number.key;
+}
+
+// The table of docs/theory/fabrics.md.
+TEST(Fabric, PresetsLieInTheRangesOfTheirKindOfCloth) {
+  struct Range {
+    double low, high;
+  };
+  struct Kind {
+    const char* name;
+    Range density, stretch_u, stretch_v, shear, bend;
+    double friction;
+  };
+  const std::vector<Kind> kinds = {
+      {"silk", {0.06, 0.09}, {500, 1500}, {500, 1500}, {20, 60}, {1e-6, 3e-6}, 0.25},
+      {"cotton", {0.12, 0.15}, {3000, 3000}, {2000, 2000}, {100, 300}, {5e-6, 1e-5}, 0.35},
+      {"wool", {0.20, 0.27}, {2000, 2000}, {1200, 1200}, {60, 150}, {8e-6, 1.5e-5}, 0.40},
+      {"denim", {0.32, 0.37}, {5000, 10000}, {4000, 8000}, {400, 1000}, {3e-5, 1e-4}, 0.50},
+      {"knit", {0.16, 0.20}, {50, 400}, {30, 300}, {40, 150}, {3e-6, 1e-5}, 0.40}};
+  const auto expect_in = [](double value, Range range, const std::string& what) {
+    EXPECT_GE(value, range.low) << what;
+    EXPECT_LE(value, range.high) << what;
+  };
+  for (const Kind& kind : kinds) {
+    const Fabric& fabric = fabric_preset(kind.name, "", "");
+    const std::string name = kind.name;
+    expect_in(fabric.density_kg_per_m2, kind.density, name + " density");
+    expect_in(fabric.stretch_u_N_per_m, kind.stretch_u, name + " warp");
+    expect_in(fabric.stretch_v_N_per_m, kind.stretch_v, name + " weft");
+    expect_in(fabric.shear_N_per_m, kind.shear, name + " shear");
+    expect_in(fabric.bend_u_N_m, kind.bend, name + " bend u");
+    expect_in(fabric.bend_v_N_m, kind.bend, name + " bend v");
+    expect_in(fabric.stretch_damping_s, {1e-3, 5e-3}, name + " stretch damping");
+    expect_in(fabric.shear_damping_s, {1e-3, 5e-3}, name + " shear damping");
+    expect_in(fabric.thickness_m, {1e-3, 4e-3}, name + " thickness");
+    EXPECT_EQ(fabric.friction, kind.friction) << name;
+  }
+}
+
+TEST(Fabric, ABadValueIsNamedByItsSceneKey) {
+  for (const Number& number : numbers) {
+    for (const double bad : {-0.2, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      Fabric fabric;
+      fabric.*number.value = bad;
+      const std::string message = message_of(fabric);
+      EXPECT_NE(message.find(std::string("scene.json:14: /cloth/0/fabric/") + number.key + ": "), std::string::npos)
+          << message;
+    }
+    Fabric fabric;
+    fabric.*number.value = 0;
+    EXPECT_EQ(message_of(fabric).empty(), number.may_be_zero) << number.key;
+  }
+  Fabric fabric;
+  fabric.density_kg_per_m2 = -0.2;
+  EXPECT_EQ(message_of(fabric),
+            "scene.json:14: /cloth/0/fabric/density_kg_per_m2: expected a number above zero, got -0.2");
+}
+
+TEST(Fabric, AnUnknownNameIsAnsweredWithTheNearest) {
+  try {
+    fabric_preset("coton", "scene.json:3", "/cloth/0/fabric");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "scene.json:3: /cloth/0/fabric: expected a fabric, one of silk, cotton, wool, denim, knit; nearest is "
+                 "\"cotton\", got \"coton\"");
+  }
+}
+
+}  // namespace
+}  // namespace toile

@@ -1,0 +1,206 @@
+// The modified PCG against dense solves: solution, constraints, constraint forces, and every way in which it can end.
+#include "solver/modified_pcg.hpp"
+
+#include "assembly/elements.hpp"
+#include "support/sheets.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+namespace toile {
+namespace {
+
+constexpr std::array all = {Preconditioner::diagonal, Preconditioner::block_jacobi, Preconditioner::block_ssor, Preconditioner::block_ssor_coarse};
+
+// A crumpled cloth's system with contact-like rows, and constraints of every kind with z different from zero.
+template <class T>
+struct Problem {
+  explicit Problem(double h = 1.0 / 60, double crumple_m = 0.006) : Problem(test::equilateral_sheet(0.2, 0.2, 0.02), h, crumple_m) {}
+  Problem(const test::Sheet& sheet, double h, double crumple_m)
+      : model(build_model(sheet.mesh, std::array{Fabric{}})), elements(model), A(elements.pattern()), system(A), constraints(model.particle_count()) {
+    ClothState state{test::crumpled(sheet.x, crumple_m, 1), {}};
+    test::Random random(2);
+    for (std::size_t i = 0; i < state.x.size(); ++i) state.v.push_back(random.vector(0.3));
+    elements.evaluate(model, state);
+    for (Index i = 0; i < A.rows(); ++i) A.grounded(i) = model.mass_kg[static_cast<std::size_t>(i)] * Mat3::Identity();
+    elements.assemble(h, A);
+    const auto n = static_cast<std::size_t>(A.rows());
+    b.resize(n);
+    reference.assign(n, Vec3::Zero());
+    for (std::size_t i = 0; i < n; ++i) {
+      reference[i] = h * model.mass_kg[i] * Vec3(0, -9.81, 0);
+      b[i] = reference[i] + model.mass_kg[i] * random.vector(1);
+    }
+    constraints.hold(0, Vec3(0.1, -0.2, 0.3));
+    constraints.hold_along(5, Vec3(1, 2, 2) / 3, 0.25);
+    constraints.hold_along(9, Vec3(0, 1, 0), -0.5);
+    constraints.hold_along(9, Vec3(0.6, 0.8, 0), 0.125);
+    rows.push_back({{12, 30, 31, 40}, {1, -0.5, -0.25, -0.25}, Vec3(0, 1, 0), 0.02, 0});
+    rows.push_back({{50, 60, -1, -1}, {1, -1, 0, 0}, Vec3(1, 0, 0), 0.5, 0});
+    system.update(rows, constraints);
+  }
+  // Exact: minimise over dv = z + S w with a dense KKT system; also the constraint impulse.
+  void dense(Eigen::VectorXd& dv, Eigen::VectorXd& e) const {
+    const Eigen::MatrixXd M = system.to_dense();
+    const Eigen::Index n = M.rows();
+    Eigen::MatrixXd S = Eigen::MatrixXd::Identity(n, n);
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(n), rhs(n);
+    for (Index i = 0; i < A.rows(); ++i) {
+      S.block<3, 3>(3 * i, 3 * i) = constraints.S(i);
+      z.segment<3>(3 * i) = constraints.z(i);
+      rhs.segment<3>(3 * i) = b[static_cast<std::size_t>(i)];
+    }
+    const Eigen::MatrixXd filtered = S * M * S + (Eigen::MatrixXd::Identity(n, n) - S);
+    dv = z + filtered.ldlt().solve(S * (rhs - M * z));
+    e = M * dv - rhs;
+  }
+  ClothModel model;
+  Elements elements;
+  BlockMatrix<T> A;
+  LinearSystem<T> system;
+  ParticleConstraints constraints;
+  std::vector<ImplicitRow> rows;
+  Vec3s b, reference;
+};
+
+template <class T>
+double error_against_dense(Problem<T>& p, const Vec3s& dv) {
+  Eigen::VectorXd exact, e;
+  p.dense(exact, e);
+  double sum = 0;
+  for (std::size_t i = 0; i < dv.size(); ++i) sum += (dv[i] - exact.segment<3>(3 * static_cast<Eigen::Index>(i))).squaredNorm();
+  return std::sqrt(sum) / exact.norm();
+}
+
+TEST(ModifiedPcg, AgreesWithADenseSolveForEveryPreconditioner) {
+  for (const Preconditioner preconditioner : all) {
+    Problem<double> p;
+    ModifiedPcg<double> pcg(p.model.mesh);
+    const PcgOptions options{preconditioner, 1e-11, 5000};
+    pcg.prepare(p.system, options);
+    Vec3s dv(p.b.size(), Vec3::Zero());
+    const PcgReport report = pcg.solve(p.system, p.b, p.reference, options, dv);
+    EXPECT_TRUE(report) << to_string(preconditioner) << ": " << report.explain();
+    EXPECT_LT(error_against_dense(p, dv), 1e-7) << to_string(preconditioner);
+  }
+}
+
+TEST(ModifiedPcg, FloatReachesWhatTheStopRuleAsks) {
+  for (const Preconditioner preconditioner : all) {
+    Problem<float> p;
+    ModifiedPcg<float> pcg(p.model.mesh);
+    const PcgOptions options{preconditioner, 1e-5, 5000};
+    pcg.prepare(p.system, options);
+    Vec3s dv(p.b.size(), Vec3::Zero());
+    const PcgReport report = pcg.solve(p.system, p.b, p.reference, options, dv);
+    EXPECT_TRUE(report) << to_string(preconditioner) << ": " << report.explain();
+    EXPECT_LT(error_against_dense(p, dv), 1e-3) << to_string(preconditioner);
+  }
+}
+
+TEST(ModifiedPcg, ConstraintsAreExactAtEveryIterationCount) {
+  for (const Preconditioner preconditioner : all) {
+    for (const int limit : {0, 1, 5, 50}) {
+      Problem<float> p;
+      ModifiedPcg<float> pcg(p.model.mesh);
+      const PcgOptions options{preconditioner, 1e-12, limit};
+      pcg.prepare(p.system, options);
+      test::Random random(9);
+      Vec3s dv(p.b.size());
+      for (Vec3& dv_i : dv) dv_i = random.vector(1);   // a bad guess must not break them either
+      const PcgReport report = pcg.solve(p.system, p.b, p.reference, options, dv);
+      EXPECT_EQ(report.status, PcgStatus::iteration_limit);
+      for (const Index i : p.constraints.constrained()) {
+        const Mat3 held = Mat3::Identity() - p.constraints.S(i);
+        EXPECT_LT((held * dv[static_cast<std::size_t>(i)] - p.constraints.z(i)).norm(), 1e-15) << limit << " iterations, particle " << i;
+      }
+    }
+  }
+}
+
+TEST(ModifiedPcg, TheResidualIsTheConstraintForceOfTheDenseSolve) {
+  Problem<double> p;
+  ModifiedPcg<double> pcg(p.model.mesh);
+  const PcgOptions options{Preconditioner::block_ssor_coarse, 1e-11, 5000};
+  pcg.prepare(p.system, options);
+  Vec3s dv(p.b.size(), Vec3::Zero()), e(p.b.size());
+  ASSERT_TRUE(pcg.solve(p.system, p.b, p.reference, options, dv));
+  p.system.multiply_unfiltered(dv, e);
+  Eigen::VectorXd exact_dv, exact_e;
+  p.dense(exact_dv, exact_e);
+  ASSERT_GT(exact_e.norm(), 1e-4);
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    EXPECT_LT((e[i] - p.b[i] - exact_e.segment<3>(3 * static_cast<Eigen::Index>(i))).norm(), 1e-6 * exact_e.norm()) << "particle " << i;
+  }
+}
+
+TEST(ModifiedPcg, AnExactGuessNeedsNoIteration) {
+  Problem<double> p;
+  ModifiedPcg<double> pcg(p.model.mesh);
+  const PcgOptions options{Preconditioner::block_ssor, 1e-3, 1000};
+  pcg.prepare(p.system, options);
+  Eigen::VectorXd exact, e;
+  p.dense(exact, e);
+  Vec3s dv(p.b.size());
+  for (std::size_t i = 0; i < dv.size(); ++i) dv[i] = exact.segment<3>(3 * static_cast<Eigen::Index>(i));
+  EXPECT_EQ(pcg.solve(p.system, p.b, p.reference, options, dv).iterations, 0);
+}
+
+TEST(ModifiedPcg, BetterPreconditionersNeedFewerIterations) {
+  const test::Sheet sheet = test::equilateral_sheet(0.8, 0.8, 0.02);
+  std::array<int, 4> iterations{};
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Problem<float> p(sheet, 1.0 / 60, 0.001);
+    ModifiedPcg<float> pcg(p.model.mesh);
+    const PcgOptions options{all[k], 1e-3, 5000};
+    pcg.prepare(p.system, options);
+    Vec3s dv(p.b.size(), Vec3::Zero());
+    const PcgReport report = pcg.solve(p.system, p.b, p.reference, options, dv);
+    EXPECT_TRUE(report) << report.explain();
+    iterations[k] = report.iterations;
+  }
+  EXPECT_LT(iterations[1], iterations[0]);
+  EXPECT_LT(iterations[2], iterations[1]);
+  EXPECT_LT(iterations[3], iterations[2]);
+}
+
+TEST(ModifiedPcg, SaysWhenTheMatrixIsNotPositiveDefinite) {
+  Problem<double> p;
+  p.rows.push_back({{70, 71, -1, -1}, {1, -1, 0, 0}, Vec3(0, 1, 0), -50, 0});
+  p.system.update(p.rows, p.constraints);
+  ModifiedPcg<double> pcg(p.model.mesh);
+  const PcgOptions options{Preconditioner::block_jacobi, 1e-9, 1000};
+  pcg.prepare(p.system, options);
+  Vec3s dv(p.b.size(), Vec3::Zero());
+  const PcgReport report = pcg.solve(p.system, p.b, p.reference, options, dv);
+  EXPECT_EQ(report.status, PcgStatus::not_positive_definite) << report.explain();
+  EXPECT_NE(report.explain().find("not positive definite"), std::string::npos);
+}
+
+TEST(ModifiedPcg, SaysWhenANumberIsNotFinite) {
+  Problem<float> p;
+  p.b[3].x() = std::numeric_limits<double>::quiet_NaN();
+  ModifiedPcg<float> pcg(p.model.mesh);
+  const PcgOptions options;
+  pcg.prepare(p.system, options);
+  Vec3s dv(p.b.size(), Vec3::Zero());
+  EXPECT_EQ(pcg.solve(p.system, p.b, p.reference, options, dv).status, PcgStatus::not_finite);
+}
+
+TEST(ModifiedPcg, AFullyHeldClothIsSolvedByItsConstraintsAlone) {
+  Problem<float> p;
+  for (Index i = 0; i < p.A.rows(); ++i) p.constraints.hold(i, Vec3(0.5, 0, -1));
+  p.system.update(p.rows, p.constraints);
+  ModifiedPcg<float> pcg(p.model.mesh);
+  const PcgOptions options;
+  pcg.prepare(p.system, options);
+  Vec3s dv(p.b.size(), Vec3::Zero());
+  const PcgReport report = pcg.solve(p.system, p.b, p.reference, options, dv);
+  EXPECT_TRUE(report) << report.explain();
+  for (const Vec3& dv_i : dv) EXPECT_EQ(dv_i, Vec3(0.5, 0, -1));
+}
+
+}  // namespace
+}  // namespace toile

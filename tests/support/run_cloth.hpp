@@ -1,0 +1,47 @@
+// tests/support/run_cloth.hpp: a cloth that runs for a while, for tests of the step.
+#pragma once
+#include "step/adaptive_step.hpp"
+#include "support/sheets.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+namespace toile::test {
+
+struct ClothRun {
+  ClothRun(const Sheet& sheet, const Fabric& fabric, const ModelOptions& options = {}) : model(build_model(sheet.mesh, {&fabric, 1}, options)) {
+    state.x = sheet.x;
+    state.v.assign(sheet.x.size(), Vec3::Zero());
+  }
+  void pin(Index particle) {
+    Pin pin;
+    pin.particle = particle;
+    world.pins.push_back(pin);
+  }
+  void start() { stepper.emplace(model, world, step, adaptive); }
+  FrameReport frame(double frame_s = 1.0 / 30) {
+    if (!stepper) start();
+    const FrameReport report = stepper->advance(state, time_s, frame_s);
+    EXPECT_TRUE(report.ok) << report.diagnosis;
+    time_s += frame_s;
+    return report;
+  }
+  void run(int frames, double frame_s = 1.0 / 30) {
+    for (int f = 0; f < frames; ++f) frame(frame_s);
+  }
+  double fastest() const {
+    double speed = 0;
+    for (const Vec3& v : state.v) speed = std::max(speed, v.norm());
+    return speed;
+  }
+  ClothModel model;
+  StepWorld world;
+  StepOptions step;
+  AdaptiveOptions adaptive;
+  ClothState state;
+  std::optional<AdaptiveStep> stepper;
+  double time_s = 0;
+};
+
+}  // namespace toile::test

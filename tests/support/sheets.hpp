@@ -1,0 +1,86 @@
+// tests/support/sheets.hpp: small cloths for tests, near-equilateral, and reproducible random numbers.
+#pragma once
+#include "mesh/cloth_mesh.hpp"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace toile::test {
+
+struct Sheet {
+  ClothMesh mesh;
+  Vec3s x;   // flat in the plane y = 0, u along x, v along -z, so that the right side faces up
+};
+
+// Rows of equilateral triangles; odd rows are shifted by half an edge and close with a half triangle at both ends.
+inline Sheet equilateral_sheet(double width_m, double height_m, double edge_m) {
+  const int columns = std::max(1, static_cast<int>(std::lround(width_m / edge_m)));
+  const int rows = std::max(1, static_cast<int>(std::lround(height_m / (edge_m * std::sqrt(3.0) / 2))));
+  Sheet sheet;
+  Vec2s uv;
+  std::vector<std::vector<Index>> row_points;
+  for (int r = 0; r <= rows; ++r) {
+    const double v = height_m * r / rows;
+    std::vector<Index> points;
+    const auto add = [&](double u) {
+      points.push_back(static_cast<Index>(uv.size()));
+      uv.emplace_back(u, v);
+    };
+    if (r % 2 == 0) {
+      for (int c = 0; c <= columns; ++c) add(width_m * c / columns);
+    } else {
+      add(0);
+      for (int c = 0; c < columns; ++c) add(width_m * (c + 0.5) / columns);
+      add(width_m);
+    }
+    row_points.push_back(points);
+  }
+  for (int r = 0; r < rows; ++r) {
+    // Walk both rows from left to right, always advancing the one whose next point is further left.
+    const auto &low = row_points[static_cast<std::size_t>(r)], &high = row_points[static_cast<std::size_t>(r) + 1];
+    std::size_t i = 0, j = 0;
+    while (i + 1 < low.size() || j + 1 < high.size()) {
+      const bool step_low = j + 1 >= high.size() || (i + 1 < low.size() && uv[static_cast<std::size_t>(low[i + 1])].x() <= uv[static_cast<std::size_t>(high[j + 1])].x());
+      const Index a = low[i], b = high[j], c = step_low ? low[i + 1] : high[j + 1];
+      sheet.mesh.triangles.push_back({a, c, b});
+      if (step_low) ++i; else ++j;
+    }
+  }
+  sheet.mesh.particle_count = static_cast<Index>(uv.size());
+  for (const Triangle& t : sheet.mesh.triangles) {
+    sheet.mesh.uv.push_back({uv[static_cast<std::size_t>(t[0])], uv[static_cast<std::size_t>(t[1])], uv[static_cast<std::size_t>(t[2])]});
+    sheet.mesh.panel.push_back(0);
+  }
+  sheet.mesh.panel_names = {"sheet"};
+  for (const Vec2& p : uv) sheet.x.emplace_back(p.x(), 0, -p.y());
+  return sheet;
+}
+
+// Uniform in [low, high), the same numbers with every standard library.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  double operator()(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1.0p-53;
+  }
+  Vec3 vector(double size) { 
+    const double x = (*this)(-size, size), y = (*this)(-size, size), z = (*this)(-size, size);
+    return {x, y, z};
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+// A crumpled copy of the positions: every particle moved by up to `size_m`.
+inline Vec3s crumpled(const Vec3s& x, double size_m, std::uint64_t seed) {
+  Random random(seed);
+  Vec3s out = x;
+  for (Vec3& p : out) p += random.vector(size_m);
+  return out;
+}
+
+}  // namespace toile::test

@@ -1,0 +1,108 @@
+// Which reports pass, and with which codes the others fail.
+#include "verify/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace toile {
+namespace {
+
+VerifyReport good() {
+  VerifyReport report;
+  report.frames = 31;
+  report.stretch.judged_p99 = 0.05;
+  report.stretch.judged_max = 0.10;
+  report.still_mm_per_s_p99 = 5;
+  return report;
+}
+
+std::vector<std::string> codes(const VerifyReport& report, const Limits& limits = {}) {
+  const Verdict verdict = judge(report, limits);
+  EXPECT_EQ(verdict.pass, verdict.reasons.empty());
+  std::vector<std::string> result;
+  for (const Reason& reason : verdict.reasons) {
+    EXPECT_FALSE(reason.detail.empty());
+    result.push_back(reason.code);
+  }
+  return result;
+}
+using Codes = std::vector<std::string>;
+
+TEST(Verdict, PassesARunExactlyAtItsLimits) {
+  Limits limits;
+  limits.must_be_still = true;
+  EXPECT_EQ(codes(good(), limits), Codes{});
+}
+
+TEST(Verdict, GivesOneCodeForEachExcess) {
+  VerifyReport report = good();
+  report.cloth_body_edges.last = 1;
+  EXPECT_EQ(codes(report), Codes{"cloth_body_intersection"});
+  report = good();
+  report.cloth_cloth_edges.last = 1;
+  EXPECT_EQ(codes(report), Codes{"cloth_self_intersection"});
+  report = good();
+  report.stretch.judged_p99 = 0.0501;
+  EXPECT_EQ(codes(report), Codes{"stretch"});
+  report = good();
+  report.stretch.judged_max = 0.1001;
+  EXPECT_EQ(codes(report), Codes{"stretch"});
+  report.stretch.judged_p99 = 0.06;
+  EXPECT_EQ(codes(report), Codes{"stretch"});
+  report = good();
+  report.finite = false;
+  report.first_bad_frame = 4;
+  EXPECT_EQ(codes(report), Codes{"not_finite"});
+  report = good();
+  report.frames_expected = 32;
+  EXPECT_EQ(codes(report), Codes{"unfinished"});
+  report = good();
+  report.frames = 0;
+  EXPECT_EQ(codes(report), Codes{"unfinished"});
+}
+
+TEST(Verdict, DoesNotJudgeElasticNorEarlierFrames) {
+  VerifyReport report = good();
+  report.stretch.max = report.stretch.p99 = 0.5;
+  report.cloth_body_edges.max = report.cloth_body_edges.frames = 12;
+  EXPECT_EQ(codes(report), Codes{});
+}
+
+TEST(Verdict, AsksForRestOnlyWhereItIsRequired) {
+  VerifyReport report = good();
+  report.still_mm_per_s_p99 = 5.1;
+  EXPECT_EQ(codes(report), Codes{});
+  Limits limits;
+  limits.must_be_still = true;
+  EXPECT_EQ(codes(report, limits), Codes{"static_equilibrium"});
+  report = good();
+  report.frames = 1;
+  EXPECT_EQ(codes(report, limits), Codes{"static_equilibrium"});
+}
+
+TEST(Verdict, DoesNotAcquitOfWhatTheRunConfessed) {
+  VerifyReport report = good();
+  report.reported_reasons = {"unfinished", "simulation_timeout"};
+  report.frames_expected = 40;
+  EXPECT_EQ(codes(report), (Codes{"unfinished", "simulation_timeout"}));  // each once
+}
+
+TEST(Verdict, TakesNaNForAnExcess) {
+  VerifyReport report = good();
+  report.stretch.judged_max = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(codes(report), Codes{"stretch"});
+}
+
+TEST(Verdict, UsesTheLimitsGivenAndReturnsThem) {
+  VerifyReport report = good();
+  report.cloth_cloth_edges.last = 300;
+  Limits limits;
+  limits.cloth_cloth_edges = 300;
+  limits.stretch_max = 0.02;
+  EXPECT_EQ(codes(report, limits), Codes{"stretch"});
+  EXPECT_EQ(judge(report, limits).limits.cloth_cloth_edges, 300);
+}
+
+}  // namespace
+}  // namespace toile
