@@ -1,13 +1,10 @@
-// body/mannequin.cpp: the mannequin's mesh, the weights of its skin, and its measurements.
-//
-// Weights: a vertex at distance d_j from bone j gets max(0, 1 - (d_j - d_min) / fade)^3, the four largest, normalised: one bone away
-// from the joints, a smooth hand-over around them.
+// body/mannequin.cpp: puts the mannequin together and measures it.
 #include "body/mannequin.hpp"
 
 #include "body/mannequin_shape.hpp"
 #include "body/measure.hpp"
 #include "body/polygonise.hpp"
-#include "core/parallel.hpp"
+#include "body/skin.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,45 +15,6 @@ namespace {
 
 constexpr double grid_cell_m = 0.0100;  // finer than the narrowest gap of the surface, that of the thumb
 constexpr int remesh_sweeps = 8;
-constexpr double skin_fade_m = 0.08;
-
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 axis = b - a;
-  const double t = std::clamp((p - a).dot(axis) / axis.dot(axis), 0.0, 1.0);
-  return (p - a - t * axis).norm();
-}
-
-// 0 for the wrong side's limbs, 1 for the right side's, smooth across the middle: thighs that are close do not share bones.
-double same_side(const Joint& joint, const Vec3& p) {
-  const bool left = joint.name.ends_with("_left"), right = joint.name.ends_with("_right");
-  if (!left && !right) return 1;
-  const double s = std::clamp((left ? p.x() : -p.x()) / 0.03 + 0.5, 0.0, 1.0);
-  return s * s * (3 - 2 * s);
-}
-
-SkinWeights weigh(const Vec3& p, const std::vector<Joint>& joints, const std::vector<Vec3>& ends) {
-  std::vector<double> distance(joints.size());
-  double nearest = 0;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    distance[j] = distance_to_segment(p, joints[j].position_m, ends[j]);
-    if (j == 0 || distance[j] < nearest) nearest = distance[j];
-  }
-  std::vector<std::pair<double, Index>> weighed;  // (-weight, joint): sorts largest first, then by joint
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const double near = std::max(0.0, 1.0 - (distance[j] - nearest) / skin_fade_m);
-    weighed.emplace_back(-near * near * near * same_side(joints[j], p), static_cast<Index>(j));
-  }
-  std::sort(weighed.begin(), weighed.end());
-  double sum = 0;
-  for (std::size_t k = 0; k < 4; ++k) sum -= weighed[k].first;
-  SkinWeights skin;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double w = -weighed[k].first / sum;
-    skin.weight[k] = w;
-    skin.joint[k] = w > 0 ? weighed[k].second : 0;
-  }
-  return skin;
-}
 
 const Vec3& joint_position(const Mannequin& m, std::string_view name) {
   return std::find_if(m.joints.begin(), m.joints.end(), [&](const Joint& j) { return j.name == name; })->position_m;
@@ -140,10 +98,7 @@ Mannequin make_mannequin() {
   for (Vec3& p : m.positions) p.y() -= sole;  // she stands on the ground exactly
 
   m.joints = mannequin_joints();
-  std::vector<Vec3> ends;
-  for (std::size_t j = 0; j < m.joints.size(); ++j) ends.push_back(bone_end(m.joints, j));
-  m.skin.resize(m.positions.size());
-  parallel_for(m.positions.size(), 512, [&](std::size_t i) { m.skin[i] = weigh(m.positions[i], m.joints, ends); });
+  m.skin = skin_weights(m.positions, m.triangles, m.joints);
   m.measurements_m = measure(m);
   return m;
 }

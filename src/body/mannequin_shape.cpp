@@ -73,14 +73,14 @@ const LoftSection leg_sections[] = {
 
 // Left foot: t runs along z from heel to toes, u outwards, v up; the sole is cut at y = 0 later.
 const LoftSection foot_sections[] = {
-    {-0.085, 0.128, 0.032, 0.021, 0.024, 0.036, 0.3},  // heel
-    {-0.060, 0.128, 0.034, 0.028, 0.038, 0.038, 0.3},  //
-    {-0.020, 0.130, 0.034, 0.031, 0.054, 0.038, 0.3},  //
-    {0.020, 0.133, 0.034, 0.033, 0.050, 0.038, 0.3},   //
-    {0.060, 0.138, 0.030, 0.038, 0.035, 0.034, 0.35},  //
-    {0.100, 0.142, 0.026, 0.044, 0.022, 0.030, 0.4},   // ball
-    {0.130, 0.143, 0.022, 0.044, 0.014, 0.026, 0.4},   //
-    {0.160, 0.140, 0.018, 0.034, 0.010, 0.022, 0.4},
+    {-0.085, 0.128, 0.032, 0.021, 0.024, 0.050, 0.3},  // heel
+    {-0.060, 0.128, 0.034, 0.028, 0.038, 0.052, 0.3},  //
+    {-0.020, 0.130, 0.034, 0.031, 0.054, 0.052, 0.3},  //
+    {0.020, 0.133, 0.034, 0.033, 0.050, 0.052, 0.3},   //
+    {0.060, 0.138, 0.030, 0.038, 0.035, 0.048, 0.35},  //
+    {0.100, 0.142, 0.026, 0.044, 0.022, 0.044, 0.4},   // ball
+    {0.130, 0.143, 0.022, 0.044, 0.014, 0.040, 0.4},   //
+    {0.160, 0.140, 0.018, 0.034, 0.010, 0.036, 0.4},
 };
 
 // Left arm: t along the arm from the shoulder joint, u across it and up, v forwards.
@@ -119,7 +119,7 @@ struct MannequinShape::Parts {
   Loft neck{Vec3::Zero(), y_axis, x_axis, z_axis, 0.01, neck_sections};
   Loft face{Vec3::Zero(), y_axis, x_axis, z_axis, 0.012, face_sections};
   Ellipsoid skull{Vec3(0, 1.622, -0.014), Vec3(0.0745, 0.0985, 0.097)};
-  RoundCone nose{Vec3(0, 1.612, 0.080), Vec3(0, 1.576, 0.0930), 0.0085, 0.0110};
+  RoundCone nose{Vec3(0, 1.612, 0.080), Vec3(0, 1.577, 0.0920), 0.0090, 0.0100};
   Ellipsoid eye_socket{Vec3(0.031, 1.612, 0.094), Vec3(0.020, 0.013, 0.016)};
   RoundCone shoulder{Vec3(0.025, 1.426, -0.034), Vec3(0.158, 1.376, -0.026), 0.045, 0.043};
   Ellipsoid breast{Vec3(0.073, 1.240, 0.050), Vec3(0.063, 0.067, 0.064)};
@@ -160,7 +160,7 @@ double MannequinShape::operator()(const Vec3& point) const {
   d = smooth_min(d, part.neck(p), 0.05);
 
   double head = smooth_min(part.skull(p), part.face(p), 0.05);
-  head = smooth_min(head, part.nose(p), 0.026);
+  head = smooth_min(head, part.nose(p), 0.032);
   head = smooth_max(head, -Parts::both(part.eye_socket, p, 0.01), 0.024);
   d = smooth_min(d, head, 0.03);
 

@@ -206,6 +206,9 @@ class Remesher {
       std::vector<Index> common;
       std::set_intersection(na.begin(), na.end(), nb.begin(), nb.end(), std::back_inserter(common));
       if (common.size() != (border_edge ? 1U : 2U)) continue;  // the link condition: the surface stays a surface
+      // Opposite vertices lose a triangle; one left with two would join two triangles of the same corners.
+      const auto exhausted = [&](Index v) { return ring_[z(v)].size() <= (border_[z(v)] ? 1U : 3U); };
+      if (std::any_of(common.begin(), common.end(), exhausted)) continue;
 
       if (border_[z(b)] && !border_[z(a)]) std::swap(a, b);  // b goes, a stays; a border vertex stays where it is
       const bool fixed = border_[z(a)] && !border_edge;

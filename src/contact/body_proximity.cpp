@@ -1,5 +1,4 @@
 // The body's vertices and ridges against the cloth's faces and edges.
-#include "contact/bucket_order.hpp"
 #include "contact/proximity_memory.hpp"
 #include "core/parallel.hpp"
 
@@ -9,9 +8,17 @@
 namespace toile {
 namespace {
 
+constexpr std::size_t triangle_grain = 4096;
 constexpr double touching_m = 1e-9;  // nearer than this the body's own normal is the direction
 
 using Memory = ProximityWorkspace::Memory;
+
+// A straight edge of length l whose ends keep their distance dips by l/4 times the bend at a ridge under its middle.  A ridge
+// counts where that is more than the allowed share of the range; otherwise the cloth's vertices hold the gap.
+bool ridge_counts(double bend, double length2, double range_m) {
+  const double allowed = 4 * ridge_dip_share * range_m;
+  return bend * bend * length2 > allowed * allowed;
+}
 
 class BodyQuery {
  public:
@@ -22,26 +29,22 @@ class BodyQuery {
   void walk(TreeTask task, Memory::Found& found) const {
     const TriangleTree& bodies = body_.tree_now();
     memory_.tree.visit_cross(bodies, task, [&](Index a, Index b) {
-      const unsigned owned = body_.owned_ridges(b), edges = static_cast<unsigned>(cloth_.owned(a)) >> 3,
-                     ridges = owned >> 3;
+      const unsigned owned = memory_.body_features[static_cast<std::size_t>(b)];
+      if (owned == 0) return;
       const Triangle& corners = body_.triangle(b);
-      const OuterBox &box_a = memory_.tree.triangle_box(a), &box_b = bodies.triangle_box(b);
-      for (std::size_t k = 0; k < 3; ++k) {
-        if ((owned >> k & 1u) && bodies.particle_box(corners[k]).overlaps(box_a)) meet_vertex(corners[k], a, found);
-      }
-      if (edges == 0 || ridges == 0) return;
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (!(edges >> k & 1u)) continue;
-        const Index e = cloth_.triangle_edges(a)[k];
-        OuterBox box = memory_.tree.particle_box(cloth_.edge(e).a);
-        box.include(memory_.tree.particle_box(cloth_.edge(e).b));
-        if (!box.overlaps(box_b)) continue;
-        for (std::size_t l = 0; l < 3; ++l) {
-          if (ridges >> l & 1u) {
-            meet_edges(e, box, body_.topology().triangle_edges[static_cast<std::size_t>(b)][l], found);
-          }
-        }
-      }
+      tree_walk::for_lanes(owned & 7u, [&](std::size_t k) {
+        if (bodies.particle_box(corners[k]).overlaps(memory_.tree.triangle_box(a))) meet_vertex(corners[k], a, found);
+      });
+      const unsigned edges = static_cast<unsigned>(cloth_.owned(a)) >> 3;
+      if (edges == 0) return;
+      tree_walk::for_lanes(owned >> 3, [&](std::size_t l) {
+        const Index f = body_.topology().triangle_edges[static_cast<std::size_t>(b)][l];
+        const Edge& ridge = body_.topology().edges[static_cast<std::size_t>(f)];
+        OuterBox box = bodies.particle_box(ridge.a);
+        box.include(bodies.particle_box(ridge.b));
+        if (!box.overlaps(memory_.tree.triangle_box(a))) return;
+        tree_walk::for_lanes(edges, [&](std::size_t k) { meet_edges(cloth_.triangle_edges(a)[k], f, box, found); });
+      });
     });
   }
 
@@ -87,12 +90,13 @@ class BodyQuery {
     found.body_vertices.push_back(record);
   }
 
-  void meet_edges(Index cloth_edge, const OuterBox& box, Index body_edge, Memory::Found& found) const {
+  void meet_edges(Index cloth_edge, Index body_edge, const OuterBox& body_box, Memory::Found& found) const {
     const Edge &e = cloth_.edge(cloth_edge), &f = body_.topology().edges[static_cast<std::size_t>(body_edge)];
-    OuterBox other = body_.tree_now().particle_box(f.a);
-    other.include(body_.tree_now().particle_box(f.b));
-    if (!box.overlaps(other)) return;
+    OuterBox box = memory_.tree.particle_box(e.a);
+    box.include(memory_.tree.particle_box(e.b));
+    if (!box.overlaps(body_box)) return;
     const Vec3 &p0 = around_.x(e.a), &p1 = around_.x(e.b), &q0 = body_x(f.a), &q1 = body_x(f.b);
+    if (!ridge_counts(body_.ridge_bend(body_edge), (p1 - p0).squaredNorm(), options_.range_m)) return;
     EdgeEdge at;
     if (!interior_edge_edge(p0, p1, q0, q1, at)) return;
     const Vec3 point = p0 + at.s * (p1 - p0);
@@ -117,6 +121,25 @@ class BodyQuery {
   const Memory& memory_;
 };
 
+// What each triangle of the body has to ask: its own vertices, and those of its ridges that count for the longest edge of the
+// cloth.  Most of a smooth body's edges end here.
+void mark_features(const ClothTopology& cloth, std::span<const Vec3> x, const BodySurface& body,
+                   const ProximityOptions& options, Memory& memory) {
+  double longest2 = 0;
+  for (const Edge& e : cloth.topology().edges) {
+    longest2 = std::max(longest2, (x[static_cast<std::size_t>(e.b)] - x[static_cast<std::size_t>(e.a)]).squaredNorm());
+  }
+  memory.body_features.resize(body.triangles().size());
+  parallel_for(body.triangles().size(), triangle_grain, [&](std::size_t t) {
+    unsigned bits = body.owned_ridges(static_cast<Index>(t));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double bend = body.ridge_bend(body.topology().triangle_edges[t][k]);
+      if (!ridge_counts(bend, longest2, options.range_m)) bits &= ~(8u << k);
+    }
+    memory.body_features[t] = static_cast<std::uint8_t>(bits);
+  });
+}
+
 // Appends one kind of record of all tasks, ascending by the keys.
 void append_sorted(Memory& memory, std::vector<std::pair<Index, Index>> Memory::Found::*keys,
                    std::vector<BodyContact> Memory::Found::*records, std::size_t first_count,
@@ -128,8 +151,8 @@ void append_sorted(Memory& memory, std::vector<std::pair<Index, Index>> Memory::
     memory.keys.insert(memory.keys.end(), (found.*keys).begin(), (found.*keys).end());
     memory.body_records.insert(memory.body_records.end(), (found.*records).begin(), (found.*records).end());
   }
-  bucket_order(memory.keys, first_count, memory.offsets, memory.order);
-  for (const Index i : memory.order) contacts.push_back(memory.body_records[static_cast<std::size_t>(i)]);
+  memory.sorted.sort(memory.keys, first_count);
+  for (const Index i : memory.sorted.order()) contacts.push_back(memory.body_records[static_cast<std::size_t>(i)]);
 }
 
 }  // namespace
@@ -140,6 +163,7 @@ void find_body_contacts(const ClothTopology& cloth, const TriangleTree& cloth_tr
   contacts.clear();
   Memory& memory = workspace.memory();
   memory.prepare(cloth, cloth_tree, x, std::max(options.range_m, options.depth_m));  // the body's boxes add nothing
+  mark_features(cloth, x, body, options, memory);
   const BodyQuery query(cloth, x, body, options, memory);
   memory.tree.cross_tasks(body.tree_now(), memory.tasks);
   memory.start_tasks();

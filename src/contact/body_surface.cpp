@@ -15,7 +15,8 @@ namespace toile {
 namespace {
 
 constexpr std::size_t normal_grain = 2048;
-constexpr double touching_m = 1e-9;        // nearer than this the direction to the body is rounding
+constexpr double touching_m = 1e-9;  // nearer than this the direction to the body is rounding
+constexpr double flat_bend = 1e-3;
 constexpr double cancelled_normal = 1e-6;  // a sum of unit normals shorter than this says nothing (a knife's edge)
 
 Vec3 unit_or_zero(const Vec3& v) {
@@ -79,12 +80,11 @@ void BodySurface::update_normals() {
   });
 
   edge_normals_.resize(topology_.edges.size());
-  ridge_.resize(topology_.edges.size());
-  const double flat_cosine = std::sqrt(1 - flat_edge_sine * flat_edge_sine);
+  ridge_bend_.resize(topology_.edges.size());
   parallel_for(topology_.edges.size(), normal_grain, [&](std::size_t e) {
     const Edge& edge = topology_.edges[e];
     const Vec3& n = face_normal(edge.triangle[0]);
-    ridge_[e] = 0;
+    ridge_bend_[e] = 0;
     edge_normals_[e] = n;
     if (edge.triangle[1] < 0) return;
     const Vec3& m = face_normal(edge.triangle[1]);
@@ -94,7 +94,8 @@ void BodySurface::update_normals() {
       return Vec3(x(sum - edge.a - edge.b) - x(edge.a));
     };
     const Vec3 to_second = opposite(1);
-    ridge_[e] = n.dot(m) < flat_cosine && n.dot(to_second) < 0;
+    const double bend = (n - m).norm();
+    if (bend > flat_bend && n.dot(to_second) < 0) ridge_bend_[e] = bend;
     const Vec3 sum = n + m;
     // Two sides of a sheet folded onto itself: out is away from both.
     edge_normals_[e] = unit_or_zero(sum.norm() > cancelled_normal ? sum : Vec3(-opposite(0) - to_second));
@@ -115,7 +116,7 @@ void BodySurface::update_normals() {
   parallel_for(triangles_.size(), normal_grain, [&](std::size_t t) {
     unsigned bits = owned_[t];
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!ridge_[static_cast<std::size_t>(topology_.triangle_edges[t][k])]) bits &= ~(8u << k);
+      if (!(ridge_bend(topology_.triangle_edges[t][k]) > 0)) bits &= ~(8u << k);
     }
     owned_ridges_[t] = static_cast<std::uint8_t>(bits);
   });

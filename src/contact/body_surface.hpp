@@ -56,8 +56,11 @@ class BodySurface {
   const Vec3& vertex_normal(Index vertex) const { return vertex_normals_[static_cast<std::size_t>(vertex)]; }
   const Vec3& edge_normal(Index edge) const { return edge_normals_[static_cast<std::size_t>(edge)]; }
 
-  // Features that this triangle speaks for (contact/features.hpp), of its edges only the ridges: edges that stand out of the
-  // body and bend by more than flat_edge_sine.
+  // How far an edge stands out of the body: the length of the difference of its face normals (2 sin of half the bend), or 0
+  // where it is flat to 1e-3 or hollow.
+  double ridge_bend(Index edge) const { return ridge_bend_[static_cast<std::size_t>(edge)]; }
+
+  // Features that this triangle speaks for (contact/features.hpp), of its edges only those with a ridge_bend.
   std::uint8_t owned_ridges(Index triangle) const { return owned_ridges_[static_cast<std::size_t>(triangle)]; }
 
  private:
@@ -76,11 +79,7 @@ class BodySurface {
   IndexRows corners_;
   std::vector<Vec3> face_normals_, vertex_normals_, edge_normals_;
   std::vector<double> corner_angles_;  // [3 * triangle + corner], rad
-  std::vector<char> ridge_;            // [edge]
+  std::vector<double> ridge_bend_;     // [edge]
 };
-
-// Two faces that meet at an edge are flat there when the sine of their bend is below this: over an edge of length l the
-// gap then differs from what the vertices hold by less than l/40.
-inline constexpr double flat_edge_sine = 0.1;
 
 }  // namespace toile

@@ -1,32 +1,46 @@
-// contact/bucket_order.hpp: sorts keys (first, second) by counting the firsts; linear where few share a first.
+// contact/bucket_order.hpp: sorts keys (first, second) by counting the firsts; linear where few share a first.  Internal.
 #pragma once
 #include "core/types.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace toile {
 
-// order: indices into `keys` such that the keys ascend; equal keys keep the order they came in.
-// offsets[f] .. offsets[f + 1]: where in `order` the keys with first = f stand; `first_count` + 1 entries.
-inline void bucket_order(std::span<const std::pair<Index, Index>> keys, std::size_t first_count,
-                         std::vector<Index>& offsets, std::vector<Index>& order) {
-  offsets.assign(first_count + 2, 0);
-  for (const auto& key : keys) ++offsets[static_cast<std::size_t>(key.first) + 2];
-  for (std::size_t f = 2; f < offsets.size(); ++f) offsets[f] += offsets[f - 1];
-  order.resize(keys.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    order[static_cast<std::size_t>(offsets[static_cast<std::size_t>(keys[i].first) + 1]++)] = static_cast<Index>(i);
+// Keeps its memory between calls.
+class BucketOrder {
+ public:
+  // Afterwards order() are the indices into `keys` such that the keys ascend; equal keys keep the order they came in.
+  void sort(std::span<const std::pair<Index, Index>> keys, std::size_t first_count) {
+    // While filling, offsets_[f + 1] runs from the start of bucket f to its end, which is the start of the next.
+    offsets_.assign(first_count + 2, 0);
+    for (const auto& key : keys) ++offsets_[static_cast<std::size_t>(key.first) + 2];
+    for (std::size_t f = 2; f < offsets_.size(); ++f) offsets_[f] += offsets_[f - 1];
+    packed_.resize(keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const auto at = static_cast<std::size_t>(offsets_[static_cast<std::size_t>(keys[i].first) + 1]++);
+      packed_[at] = static_cast<std::uint64_t>(keys[i].second) << 32 | i;
+    }
+    order_.resize(keys.size());
+    for (std::size_t f = 0; f < first_count; ++f) {
+      const auto begin = packed_.begin() + offsets_[f], end = packed_.begin() + offsets_[f + 1];
+      if (end - begin > 1) std::sort(begin, end);
+    }
+    for (std::size_t i = 0; i < keys.size(); ++i) order_[i] = static_cast<Index>(packed_[i] & 0xffffffffu);
   }
-  offsets.pop_back();
-  for (std::size_t f = 0; f < first_count; ++f) {
-    std::sort(order.begin() + offsets[f], order.begin() + offsets[f + 1], [&](Index i, Index j) {
-      const Index a = keys[static_cast<std::size_t>(i)].second, b = keys[static_cast<std::size_t>(j)].second;
-      return a != b ? a < b : i < j;
-    });
+  std::span<const Index> order() const { return order_; }
+  // Of the keys with this first.
+  std::span<const Index> bucket(std::size_t first) const {
+    return order().subspan(static_cast<std::size_t>(offsets_[first]),
+                           static_cast<std::size_t>(offsets_[first + 1] - offsets_[first]));
   }
-}
+
+ private:
+  std::vector<Index> offsets_, order_;
+  std::vector<std::uint64_t> packed_;  // second, index
+};
 
 }  // namespace toile

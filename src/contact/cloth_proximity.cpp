@@ -1,5 +1,4 @@
 // The cloth against itself: candidates by a walk over the tree, then the choice of records vertex by vertex.
-#include "contact/bucket_order.hpp"
 #include "contact/proximity_memory.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -184,7 +183,7 @@ class ClothQuery {
     }
   }
 
-  // Reported from both sides, with the same bits, and made unique at the end.
+  // With the same bits from both sides.
   void add_vertex(Index v, Index w, std::vector<ClothContact>& out) const {
     const Index i = std::min(v, w), j = std::max(v, w);
     ClothContact record{ContactKind::vertex_vertex, {i, j, -1, -1}, {1, -1, 0, 0}, {}, 0};
@@ -218,6 +217,16 @@ void mark_flat_edges(const ClothTopology& cloth, Memory& memory) {
     }
     memory.flat[t] = static_cast<std::uint8_t>(bits);
   });
+}
+
+// Of the vertex-vertex records from `first` on, sorts them and keeps one of each that both vertices have chosen.
+void keep_mutual(std::vector<ClothContact>& contacts, std::size_t first) {
+  std::sort(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(), by_particles);
+  std::size_t kept = first;
+  for (std::size_t i = first; i + 1 < contacts.size(); ++i) {
+    if (contacts[i].particle == contacts[i + 1].particle) contacts[kept++] = contacts[i];
+  }
+  contacts.erase(contacts.begin() + static_cast<std::ptrdiff_t>(kept), contacts.end());
 }
 
 }  // namespace
@@ -278,7 +287,7 @@ void find_cloth_contacts(const ClothTopology& cloth, const TriangleTree& tree, s
     memory.keys.insert(memory.keys.end(), found.vertex_keys.begin(), found.vertex_keys.end());
     memory.closest.insert(memory.closest.end(), found.vertices.begin(), found.vertices.end());
   }
-  bucket_order(memory.keys, x.size(), memory.offsets, memory.order);
+  memory.sorted.sort(memory.keys, x.size());
 
   const std::size_t blocks = (x.size() + vertex_grain - 1) / vertex_grain;
   if (memory.reported.size() < blocks) memory.reported.resize(blocks);
@@ -288,9 +297,8 @@ void find_cloth_contacts(const ClothTopology& cloth, const TriangleTree& tree, s
     out.edges.clear();
     out.vertices.clear();
     for (std::size_t v = begin; v < end; ++v) {
-      const auto from = static_cast<std::size_t>(memory.offsets[v]),
-                 to = static_cast<std::size_t>(memory.offsets[v + 1]);
-      if (from != to) query.choose(static_cast<Index>(v), std::span(memory.order).subspan(from, to - from), out);
+      const std::span<const Index> candidates = memory.sorted.bucket(v);
+      if (!candidates.empty()) query.choose(static_cast<Index>(v), candidates, out);
     }
   });
 
@@ -301,12 +309,9 @@ void find_cloth_contacts(const ClothTopology& cloth, const TriangleTree& tree, s
   };
   append(&Memory::Reported::faces);
   append(&Memory::Reported::edges);
-  const auto first_pair = static_cast<std::ptrdiff_t>(contacts.size());
+  const std::size_t first_pair = contacts.size();
   append(&Memory::Reported::vertices);
-  std::sort(contacts.begin() + first_pair, contacts.end(), by_particles);
-  contacts.erase(std::unique(contacts.begin() + first_pair, contacts.end(),
-                             [](const ClothContact& a, const ClothContact& b) { return a.particle == b.particle; }),
-                 contacts.end());
+  keep_mutual(contacts, first_pair);
 
   memory.keys.clear();
   memory.cloth_edges.clear();
@@ -315,8 +320,8 @@ void find_cloth_contacts(const ClothTopology& cloth, const TriangleTree& tree, s
     memory.keys.insert(memory.keys.end(), found.edge_keys.begin(), found.edge_keys.end());
     memory.cloth_edges.insert(memory.cloth_edges.end(), found.edges.begin(), found.edges.end());
   }
-  bucket_order(memory.keys, cloth.topology().edges.size(), memory.offsets, memory.order);
-  for (const Index i : memory.order) contacts.push_back(memory.cloth_edges[static_cast<std::size_t>(i)]);
+  memory.sorted.sort(memory.keys, cloth.topology().edges.size());
+  for (const Index i : memory.sorted.order()) contacts.push_back(memory.cloth_edges[static_cast<std::size_t>(i)]);
 }
 
 }  // namespace toile

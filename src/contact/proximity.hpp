@@ -15,11 +15,13 @@
 //                          the edges nearby, with sideways normals that lock two sheets like gears.
 //                                                                  [the cones of offset geometric contact, Chen et al. 2025]
 //
+// A vertex-vertex record must pass as seen from both of its vertices.
+//
 // Two edges that are both flat (flat_edge_sine) are not reported: between two planes the rows of their vertices
 // already hold the gap, and parallel sheets would otherwise carry three rows of edges for each of vertices.
 //
-// Easily got wrong: the region test is about the second feature only.  A vertex-face record has no test, and whether the
-// first feature's own cloth is in the way of a vertex-edge record is not asked.
+// Easily got wrong: for vertex-edge the region test is about the edge only.  Whether the direction leans into the cloth around
+// the vertex is not asked, so a vertex of a lower sheet just outside the hem of an upper one has a slanting row with that hem.
 #pragma once
 #include "contact/body_surface.hpp"
 #include "contact/distance.hpp"
@@ -36,8 +38,16 @@ namespace toile {
 // Cosine of the angle to a direction within the cloth above which a record leans into the feature's own surroundings.
 inline constexpr double region_tolerance = 0.1;
 
+// Two faces of the cloth that meet at an edge are flat there when the sine of their bend is below this: an edge of length l
+// then hides at most l/40 of the gap that its vertices show.
+inline constexpr double flat_edge_sine = 0.1;
+
 // Below this cosine between a body record's direction and the body's pseudonormal (84 degrees) its sign is doubtful.
 inline constexpr double doubtful_cosine = 0.1;
+
+// A ridge of the body counts for a cloth edge if the edge, held at its ends only, would dip at it by more than this
+// share of the range.
+inline constexpr double ridge_dip_share = 0.1;
 
 enum class ContactKind : std::uint8_t { vertex_face, vertex_edge, vertex_vertex, edge_edge };
 
@@ -99,7 +109,7 @@ void find_cloth_contacts(const ClothTopology& cloth, const TriangleTree& tree, s
 // back out.  A penetrating record must be confirmed: its point of the cloth has to be inside the body, with its nearest way out
 // on the same side.  Otherwise the far side of a finger or an ear would pull cloth through it.
 // A body vertex whose nearest cloth feature is not the face's interior is left to the edge and L1 constraints, and so are
-// body edges that are flat or hollow: there the cloth's vertices hold the gap.
+// body edges that are hollow or nearly flat (ridge_dip_share): there the cloth's vertices hold the gap.
 void find_body_contacts(const ClothTopology& cloth, const TriangleTree& cloth_tree, std::span<const Vec3> x,
                         const BodySurface& body, const ProximityOptions& options, ProximityWorkspace& workspace,
                         std::vector<BodyContact>& contacts);

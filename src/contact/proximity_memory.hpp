@@ -28,14 +28,15 @@ struct ProximityWorkspace::Memory {
   TriangleTree tree;  // the cloth's hierarchy with the query's own boxes
   std::vector<TreeTask> tasks;
   std::vector<Vec3> face_normals;
-  std::vector<std::uint8_t> flat;  // [triangle] bit 3 + k: edge k is flat
-  std::vector<Found> found;        // by task
-  std::vector<Reported> reported;  // by block of vertices
+  std::vector<std::uint8_t> flat;           // [triangle] bit 3 + k: edge k is flat
+  std::vector<std::uint8_t> body_features;  // [triangle of the body] as BodySurface::owned_ridges
+  std::vector<Found> found;                 // by task
+  std::vector<Reported> reported;           // by block of vertices
   Keys keys;
   std::vector<VertexTriangle> closest;
   std::vector<ClothContact> cloth_edges;
   std::vector<BodyContact> body_records;
-  std::vector<Index> offsets, order;
+  BucketOrder sorted;
 
   // Boxes of the cloth at rest in x, grown by `margin_m`; face normals; room for the tasks.
   void prepare(const ClothTopology& cloth, const TriangleTree& hierarchy, std::span<const Vec3> x, double margin_m);

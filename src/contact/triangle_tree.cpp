@@ -1,6 +1,5 @@
 #include "contact/triangle_tree.hpp"
 
-#include "contact/bucket_order.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -55,10 +54,11 @@ void sort_found(PairWorkspace& workspace, std::size_t first_count, std::vector<s
   for (std::size_t i = 0; i < workspace.tasks.size(); ++i) {
     workspace.all.insert(workspace.all.end(), workspace.found[i].begin(), workspace.found[i].end());
   }
-  bucket_order(workspace.all, first_count, workspace.offsets, workspace.order);
+  workspace.sorted.sort(workspace.all, first_count);
+  const auto order = workspace.sorted.order();
   pairs.resize(workspace.all.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    pairs[i] = workspace.all[static_cast<std::size_t>(workspace.order[i])];
+    pairs[i] = workspace.all[static_cast<std::size_t>(order[i])];
   }
 }
 

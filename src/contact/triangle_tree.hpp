@@ -10,6 +10,7 @@
 //
 // Easily got wrong: a copy of a tree shares the original's hierarchy (cheap to hold) but has boxes of its own.
 #pragma once
+#include "contact/bucket_order.hpp"
 #include "core/types.hpp"
 
 #include <algorithm>
@@ -71,7 +72,7 @@ struct PairWorkspace {
   std::vector<TreeTask> tasks;
   std::vector<std::vector<std::pair<Index, Index>>> found;  // by task
   std::vector<std::pair<Index, Index>> all;
-  std::vector<Index> offsets, order;
+  BucketOrder sorted;
 };
 
 // Four boxes side by side; an empty lane overlaps nothing and is infinitely far.

@@ -1,7 +1,7 @@
 // garment/delaunay.cpp: flips, insertion, removal and point location; see delaunay.hpp.
 //
-// References: C. L. Lawson, Software for C1 surface interpolation (1977); O. Devillers, S. Pion, M. Teillaud, Walking in a
-// triangulation (2002).
+// References: C. L. Lawson, Software for C1 surface interpolation (1977); O. Devillers, S. Pion, M. Teillaud, Walking
+// in a triangulation (2002).
 #include "garment/delaunay.hpp"
 
 #include "core/error.hpp"
@@ -45,7 +45,8 @@ std::vector<Triangle> clip_ears(std::span<const GridPoint> points, std::span<con
   for (std::size_t i = 0; i < n; ++i) convex[i] = is_convex(i);
 
   // An ear is a convex corner whose closed triangle holds no other corner.  Only corners that are not convex need the
-  // test: of the corners inside, the one farthest from the diagonal sees the ear's tip and has both its edges turned away from it.
+  // test: of the corners inside, the one farthest from the diagonal sees the ear's tip and has both its edges turned
+  // away from it.
   const auto is_ear = [&](std::size_t i) {
     if (!convex[i]) return false;
     const GridPoint &a = p(before[i]), &b = p(i), &c = p(after[i]);
@@ -65,7 +66,8 @@ std::vector<Triangle> clip_ears(std::span<const GridPoint> points, std::span<con
   std::size_t left = n, current = 0, misses = 0;
   while (left > 3) {
     if (!is_ear(current)) {
-      // Every simple polygon with more than three corners has two ears, so a full turn without one means it was not simple.
+      // Every simple polygon with more than three corners has two ears, so a full turn without one means it was not
+      // simple.
       if (++misses > left) throw Error(ExitCode::internal, "clip_ears: the polygon is not simple");
       current = after[current];
       continue;
@@ -136,7 +138,8 @@ void Delaunay::star(Index vertex, std::vector<Index>& faces) const {
   do {
     faces.push_back(f);
     const Face& current = face(f);
-    f = current.neighbour[next(slot_of(current.corner, vertex))];  // across the edge vertex -> its clockwise-last corner
+    f = current
+            .neighbour[next(slot_of(current.corner, vertex))];  // across the edge vertex -> its clockwise-last corner
   } while (f != first);
 }
 
@@ -238,8 +241,7 @@ void Delaunay::remove(Index vertex) {
         if (ring[i] == from && ring[i + 1 == ring.size() ? 0 : i + 1] == to) filled.neighbour[k] = outer[i];
       for (std::size_t other = 0; other < filling.size(); ++other)
         for (std::size_t m = 0; m < 3; ++m)
-          if (filling[other][next(m)] == to && filling[other][previous(m)] == from)
-            filled.neighbour[k] = around[other];
+          if (filling[other][next(m)] == to && filling[other][previous(m)] == from) filled.neighbour[k] = around[other];
     }
     faces.push_back(filled);
   }

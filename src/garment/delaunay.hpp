@@ -16,8 +16,8 @@
 
 namespace toile {
 
-// The triangles of a simple polygon given counter-clockwise, by clipping ears; corners on a straight run are kept, and no
-// triangle is flat.  O(n r) for r corners that are not convex.  `ring` holds indices into `points`.
+// The triangles of a simple polygon given counter-clockwise, by clipping ears; corners on a straight run are kept,
+// and no triangle is flat.  O(n r) for r corners that are not convex.  `ring` holds indices into `points`.
 std::vector<Triangle> clip_ears(std::span<const GridPoint> points, std::span<const Index> ring);
 
 class Delaunay {
@@ -25,7 +25,7 @@ class Delaunay {
   static constexpr Index none = -1;
 
   struct Face {
-    Triangle corner{none, none, none};    // counter-clockwise; corner[0] == none when the face has been removed
+    Triangle corner{none, none, none};     // counter-clockwise; corner[0] == none when the face has been removed
     Triangle neighbour{none, none, none};  // across the edge opposite corner k; none on the outline
 
     bool alive() const { return corner[0] != none; }
@@ -83,7 +83,7 @@ class Delaunay {
 
   const GridPoint& point(Index vertex) const { return points_[static_cast<std::size_t>(vertex)]; }
   const Face& face(Index f) const { return faces_[static_cast<std::size_t>(f)]; }
-  Face& edit(Index f);            // every write to a face goes through here, for the sake of trials
+  Face& edit(Index f);  // every write to a face goes through here, for the sake of trials
   void set_face_of(Index vertex, Index f);
   void set_point(Index vertex, const GridPoint& p);
   void remember_vertex(Index vertex);
@@ -92,7 +92,7 @@ class Delaunay {
   void write(Index f, const Triangle& corner, const Triangle& neighbour);
   void relink(Index f, Index from, Index to);  // f's neighbour `from` becomes `to`; f may be none
   void flip(Index f, int k);
-  void flip_pending();                         // Lawson's loop over pending_
+  void flip_pending();  // Lawson's loop over pending_
   void link_all();
 
   std::vector<GridPoint> points_;

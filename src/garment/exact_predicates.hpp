@@ -7,8 +7,8 @@
 //               three products of those     < 3 * 2^53 * 2^53  < 2^108    fits 128 bits
 // An outline is centred on the origin and may reach 16 m from it (2^24): one bit is spare.
 //
-// The answers are exact for grid points.  An outline point given in floating point may lie up to 2^-21 m per axis from its
-// grid point, so what is exactly true on the grid is true of the given points to within one grid step.
+// The answers are exact for grid points.  An outline point given in floating point may lie up to 2^-21 m per axis
+// from its grid point, so what is exactly true on the grid is true of the given points to within one grid step.
 #pragma once
 #include <array>
 #include <cstdint>

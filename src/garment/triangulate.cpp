@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -19,20 +20,44 @@ constexpr int smoothing_sweeps = 6;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+// Inserts the lattice row by row.  The walk to a point starts at its neighbour in the row or, behind a gap, at the
+// nearest point of the row before: the way there seldom leaves the outline, and where it does the search of all faces
+// is right.
+void fill(Delaunay& mesh, const std::vector<GridPoint>& lattice, double edge) {
+  std::vector<Index> row, row_before;  // vertices, x rising
+  const auto x_of = [&](Index v) { return mesh.points()[at(v)].x; };
+  for (std::size_t i = 0; i < lattice.size(); ++i) {
+    const GridPoint& p = lattice[i];
+    if (i > 0 && p.y != lattice[i - 1].y) {
+      row_before.swap(row);
+      row.clear();
+    }
+    Index start = row.empty() ? Delaunay::none : row.back();
+    if (start == Delaunay::none || p.x - x_of(start) > 1.5 * edge) {
+      const auto right = std::lower_bound(row_before.begin(), row_before.end(), p.x,
+                                          [&](Index v, std::int32_t x) { return x_of(v) < x; });
+      if (right != row_before.end())
+        start = *right;
+      else if (!row_before.empty())
+        start = row_before.back();
+    }
+    const Index face = mesh.locate(p, mesh.face_of(start == Delaunay::none ? 0 : start));
+    TOILE_ASSERT(face != Delaunay::none);
+    const Index v = mesh.insert(p, face);
+    if (v != Delaunay::none) row.push_back(v);
+  }
+}
+
 }  // namespace
 
 PlanarMesh triangulate(std::span<const Vec2> outline, double edge_m) {
-  constexpr double shortest_edge_m = 64 * grid_step_m;
+  constexpr double shortest_edge_m = 64 * grid_step_m;  // below it the grid itself would spoil the angles
   if (!(edge_m >= shortest_edge_m) || !std::isfinite(edge_m))
-    throw InputError("", "edge_m", "an edge length of at least 0.0001 m", std::to_string(edge_m));
+    throw InputError("", "edge_m", "an edge length of at least 0.00007 m", std::to_string(edge_m));
   const GridOutline grid = snap_outline(outline);
   const double edge = edge_m / grid_step_m;
   Delaunay mesh(grid.points);
-  Index face = 0;
-  for (const GridPoint& p : lattice_inside(grid.points, edge, margin_ratio * edge)) {
-    const Index v = mesh.insert(p, mesh.locate(p, face));
-    if (v != Delaunay::none) face = mesh.face_of(v);
-  }
+  fill(mesh, lattice_inside(grid.points, edge, margin_ratio * edge), edge);
   smooth(mesh, smoothing_sweeps);
   improve(mesh, edge);
 
@@ -49,13 +74,15 @@ PlanarMesh triangulate(std::span<const Vec2> outline, double edge_m) {
     }
   }
   for (const Delaunay::Face& f : mesh.faces())
-    if (f.alive()) result.triangles.push_back({number[at(f.corner[0])], number[at(f.corner[1])], number[at(f.corner[2])]});
+    if (f.alive())
+      result.triangles.push_back({number[at(f.corner[0])], number[at(f.corner[1])], number[at(f.corner[2])]});
   return result;
 }
 
 PlanarMesh equilateral_sheet(double width_m, double height_m, double edge_m) {
   const auto check = [](double value, const char* name) {
-    if (!(value > 0) || !std::isfinite(value)) throw InputError("", name, "a length greater than zero", std::to_string(value));
+    if (!(value > 0) || !std::isfinite(value))
+      throw InputError("", name, "a length greater than zero", std::to_string(value));
   };
   check(width_m, "width_m");
   check(height_m, "height_m");

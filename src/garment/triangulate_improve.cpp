@@ -1,22 +1,22 @@
-// garment/triangulate_improve.cpp: smoothing, and local changes tried on the worst triangles; see triangulate_improve.hpp.
+// garment/triangulate_improve.cpp: smoothing, and local changes tried on the worst triangles; see
+// triangulate_improve.hpp.
 //
-// The quality of a triangle with longest edges a >= b >= c is (2 area / (a b))^2 = sin^2 of its smallest angle, lowered by
-// (limit / a)^2 when a exceeds the size limit.  No roots and no angles: the order is what matters.
+// The quality of a triangle with longest edges a >= b >= c is (2 area / (a b))^2 = sin^2 of its smallest angle,
+// lowered by (limit / a)^4 when a exceeds the size limit.  No roots and no angles: the order is what matters.
 #include "garment/triangulate_improve.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace toile {
 
 namespace {
 
-constexpr double good_angle_sin2 = 0.33;   // sin^2(35 degrees): triangles at least this good are left alone
-constexpr double longest_ratio = 1.35;     // of the target edge
-constexpr double least_gain = 1e-4;        // in quality; below it a change is not worth keeping
-constexpr int rounds = 4;
+constexpr double good_angle_sin2 = 0.33;  // sin^2(35 degrees): triangles at least this good are left alone
+constexpr double longest_ratio = 1.35;  // of the target edge: longer ones lower the quality, so that 1.5 is not passed
+constexpr double least_gain = 1e-4;     // in quality; below it a change is not worth keeping
+constexpr int rounds = 12;  // ordinary panels need two or three; a very fine side beside a coarse one uses them all
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -24,11 +24,14 @@ struct Plane {  // a point or vector in grid steps, with fractions
   double x = 0, y = 0;
 };
 
+// A needle's circumcentre can be anywhere.  Clamped to the predicates' range it is still outside, and refused as such.
 GridPoint snapped(const Plane& p) {
-  return {static_cast<std::int32_t>(std::lround(p.x)), static_cast<std::int32_t>(std::lround(p.y))};
+  constexpr double most = (1 << 25) - 1;
+  const auto snap = [](double value) { return static_cast<std::int32_t>(std::lround(std::clamp(value, -most, most))); };
+  return {snap(p.x), snap(p.y)};
 }
 
-// Relative to a; bounded by the caller, since a flat triangle's centre is far away.
+// Relative to a.
 Plane circumcentre_from(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
   const double bx = double(b.x) - a.x, by = double(b.y) - a.y, cx = double(c.x) - a.x, cy = double(c.y) - a.y;
   const double d = 2 * (bx * cy - by * cx), b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
@@ -72,10 +75,12 @@ class Improvement {
   double quality(const GridPoint& a, const GridPoint& b, const GridPoint& c) const {
     const double twice_area = double(orient2d(a, b, c));
     if (twice_area <= 0) return 0;
-    const double ab = double(squared_length(a, b)), bc = double(squared_length(b, c)), ca = double(squared_length(c, a));
+    const double ab = double(squared_length(a, b)), bc = double(squared_length(b, c)),
+                 ca = double(squared_length(c, a));
     const double shortest = std::min({ab, bc, ca}), longest = std::max({ab, bc, ca});
     const double sin2 = twice_area * twice_area * shortest / (ab * bc * ca);
-    return longest > limit2_ ? sin2 * (limit2_ / longest) : sin2;
+    const double excess = limit2_ / longest;
+    return excess < 1 ? sin2 * excess * excess : sin2;
   }
   double quality(Index f) const {
     const auto [a, b, c] = mesh_.corners(mesh_.faces()[at(f)]);
@@ -90,8 +95,9 @@ class Improvement {
       const double q = quality(static_cast<Index>(f));
       if (q < good_angle_sin2) bad.push_back({q, static_cast<Index>(f), face.corner, mesh_.corners(face)});
     }
-    std::sort(bad.begin(), bad.end(),
-              [](const Bad& a, const Bad& b) { return a.quality != b.quality ? a.quality < b.quality : a.face < b.face; });
+    std::sort(bad.begin(), bad.end(), [](const Bad& a, const Bad& b) {
+      return a.quality != b.quality ? a.quality < b.quality : a.face < b.face;
+    });
     return bad;
   }
 
@@ -110,12 +116,14 @@ class Improvement {
     const auto [a, b, c] = mesh_.corners(mesh_.faces()[at(f)]);
     std::vector<Plane> places;
     const Plane centre = circumcentre_from(a, b, c);
-    if (std::hypot(centre.x, centre.y) < 3 * edge_) places.push_back({a.x + centre.x, a.y + centre.y});
+    if (centre.x * centre.x + centre.y * centre.y < 9 * edge_ * edge_)
+      places.push_back({a.x + centre.x, a.y + centre.y});
     const std::array<std::array<GridPoint, 2>, 3> sides{{{a, b}, {b, c}, {c, a}}};
     const auto longest = std::max_element(sides.begin(), sides.end(), [](const auto& s, const auto& t) {
       return squared_length(s[0], s[1]) < squared_length(t[0], t[1]);
     });
-    places.push_back({0.5 * ((*longest)[0].x + double((*longest)[1].x)), 0.5 * ((*longest)[0].y + double((*longest)[1].y))});
+    places.push_back(
+        {0.5 * ((*longest)[0].x + double((*longest)[1].x)), 0.5 * ((*longest)[0].y + double((*longest)[1].y))});
     places.push_back({(double(a.x) + b.x + c.x) / 3, (double(a.y) + b.y + c.y) / 3});
     return places;
   }
@@ -141,7 +149,8 @@ class Improvement {
     return false;
   }
 
-  // Moves the inner vertices of the faces changed so far (and of the triangle at the centre) to where their star is best.
+  // Moves the inner vertices of the faces changed so far (and of the triangle at the centre) to where their star is
+  // best.
   void relax(const Triangle& centre) {
     movable_.clear();
     for (const Index v : centre) movable_.push_back(v);
@@ -205,7 +214,8 @@ class Improvement {
       }
       add_after(changed.face);
     }
-    for (std::size_t f = at(mesh_.face_count_at_begin()); f < mesh_.faces().size(); ++f) add_after(static_cast<Index>(f));
+    for (std::size_t f = at(mesh_.face_count_at_begin()); f < mesh_.faces().size(); ++f)
+      add_after(static_cast<Index>(f));
     std::sort(before_.begin(), before_.end());
     std::sort(after_.begin(), after_.end());
     for (std::size_t i = 0; i < before_.size(); ++i) {

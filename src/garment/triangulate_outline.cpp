@@ -4,6 +4,8 @@
 #include "core/error.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -15,6 +17,13 @@ namespace {
 constexpr double reach_m = 16.0;  // the farthest a point may be from the centre, per axis: 2^24 grid steps
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// The shortest text that reads back as `value`.
+std::string number(double value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
 
 std::string point_name(Index i) { return "point " + std::to_string(i); }
 
@@ -41,7 +50,8 @@ void check_edges(std::span<const GridPoint> points) {
   for (Index i = 0; i < n; ++i) extents.push_back({std::min(p(i).x, p(i + 1).x), std::max(p(i).x, p(i + 1).x), i});
   std::sort(extents.begin(), extents.end(),
             [](const Extent& a, const Extent& b) { return a.low != b.low ? a.low < b.low : a.edge < b.edge; });
-  // Among all pairs that meet the one with the lowest numbers is named, so that the message does not depend on the sweep.
+  // Among all pairs that meet the one with the lowest numbers is named, so that the message does not depend on the
+  // sweep.
   Index first = n, second = n;
   const auto report = [&](Index i, Index j) {
     if (i > j) std::swap(i, j);
@@ -100,8 +110,9 @@ GridOutline snap_outline(std::span<const Vec2> outline) {
   const Vec2 centre = 0.5 * low + 0.5 * high;
   for (std::size_t i = 0; i < outline.size(); ++i)
     if ((outline[i] - centre).cwiseAbs().maxCoeff() > reach_m || outline[i].cwiseAbs().maxCoeff() > 1e6)
-      throw InputError("", point_name(static_cast<Index>(i)), "an outline at most 32 m wide and within 1000 km of the origin",
-                       "(" + std::to_string(outline[i].x()) + ", " + std::to_string(outline[i].y()) + ")");
+      throw InputError("", point_name(static_cast<Index>(i)),
+                       "an outline at most 32 m wide and within 1000 km of the origin",
+                       "(" + number(outline[i].x()) + ", " + number(outline[i].y()) + ")");
   // The origin is itself on the grid, so that equal shapes a whole number of grid steps apart get equal meshes.
   result.origin_m = Vec2(std::round(centre.x() / grid_step_m), std::round(centre.y() / grid_step_m)) * grid_step_m;
   result.points.reserve(outline.size());
@@ -140,8 +151,8 @@ std::vector<GridPoint> lattice_inside(std::span<const GridPoint> outline, double
   constexpr double most_points = 1 << 24;
   if (columns * rows > most_points)
     throw InputError("", "edge_m", "an edge length that needs fewer than 16,777,216 points",
-                     std::to_string(edge * grid_step_m) + " m on a panel " + std::to_string(width * grid_step_m) + " m wide and " +
-                         std::to_string(height * grid_step_m) + " m high");
+                     number(edge * grid_step_m) + " m on a panel " + number(width * grid_step_m) + " m wide and " +
+                         number(height * grid_step_m) + " m high");
   const double dx = width / columns, dy = height / rows;
 
   // Which edges come near a row, by buckets of rows: edge segments within `margin` of it.
@@ -164,10 +175,10 @@ std::vector<GridPoint> lattice_inside(std::span<const GridPoint> outline, double
     blocked.assign(static_cast<std::size_t>(columns) + 1, 0);
     for (const std::size_t i : near[r]) {
       const GridPoint &a = p(i), &b = p(i + 1);
-      if ((a.y <= y) != (b.y <= y))
-        crossings.push_back(a.x + (y - a.y) * (double(b.x) - a.x) / (double(b.y) - a.y));
+      if ((a.y <= y) != (b.y <= y)) crossings.push_back(a.x + (y - a.y) * (double(b.x) - a.x) / (double(b.y) - a.y));
       // The part of the row within `margin` of the segment: only the columns over its extent have to be measured.
-      const double low = (std::min(a.x, b.x) - margin - x0) / dx - offset, high = (std::max(a.x, b.x) + margin - x0) / dx - offset;
+      const double low = (std::min(a.x, b.x) - margin - x0) / dx - offset,
+                   high = (std::max(a.x, b.x) + margin - x0) / dx - offset;
       const double ux = double(b.x) - a.x, uy = double(b.y) - a.y, length2 = ux * ux + uy * uy;
       for (double c = std::max(0.0, std::ceil(low)); c <= std::min(columns, high); c += 1) {
         const double px = x0 + (c + offset) * dx - a.x, py = y - a.y;

@@ -1,4 +1,5 @@
-// garment/triangulate_outline.hpp: a polygon in metres checked and brought onto the integer grid, and the lattice that fills it.
+// garment/triangulate_outline.hpp: a polygon in metres checked and brought onto the integer grid, and the lattice
+// that fills it.
 #pragma once
 #include "core/types.hpp"
 #include "garment/exact_predicates.hpp"
@@ -18,9 +19,10 @@ struct GridOutline {
 // Throws InputError as `triangulate` says.  O(n log n) plus the pairs of edges whose extents overlap in x.
 GridOutline snap_outline(std::span<const Vec2> outline);
 
-// The points of a triangular lattice of spacing `edge` (in grid steps) that lie inside the polygon, at least `margin` from
-// its edges, row by row.  Rows are parallel to x; the spacings are stretched by less than half a cell in all, so that whole cells
-// fit the polygon's extent: on a rectangle whose sides are cut at `edge` the rows at the top and bottom match the outline.
+// The points of a triangular lattice of spacing `edge` (in grid steps) that lie inside the polygon, at least `margin`
+// from its edges, row by row.  Rows are parallel to x; the spacings are stretched by less than half a cell in all, so
+// that whole cells fit the polygon's extent: on a rectangle whose sides are cut at `edge` the rows at the top and
+// bottom match the outline.
 std::vector<GridPoint> lattice_inside(std::span<const GridPoint> outline, double edge, double margin);
 
 }  // namespace toile

@@ -224,6 +224,11 @@ class JsonBuilder {
     return put(leaf(std::move(value)));
   }
 
+  std::shared_ptr<const Json::Place> place(std::string step) const {
+    return std::make_shared<const Json::Place>(
+        Json::Place{file_, open_.empty() ? nullptr : open_.back().value.place_, std::move(step)});
+  }
+
   // A value at the current token.  Elements of an array share its place, which is most of the values of a large file.
   template <class Value>
   Json leaf(Value value) {
@@ -236,9 +241,7 @@ class JsonBuilder {
       json.place_ = open_.back().value.place_;
       json.index_ = static_cast<int>(std::get<Json::Array>(open_.back().value.value_).size());
     } else {
-      const std::string pointer =
-          open_.empty() ? std::string() : open_.back().value.pointer() + pointer_step(open_.back().key);
-      json.place_ = std::make_shared<const Json::Place>(Json::Place{file_, pointer});
+      json.place_ = place(open_.empty() ? std::string() : open_.back().key);
     }
     return json;
   }
@@ -251,7 +254,7 @@ class JsonBuilder {
     }
     Json json = leaf(std::move(value));
     if (json.index_ >= 0) {
-      json.place_ = std::make_shared<const Json::Place>(Json::Place{file_, json.pointer()});
+      json.place_ = place(std::to_string(json.index_));
       json.index_ = -1;
     }
     open_.push_back({std::move(json), {}, {}});
@@ -333,8 +336,14 @@ Json Json::load(const std::string& path) { return parse(read_file(path, text_lim
 std::string Json::where() const { return place_ ? place_in(*place_->file, line_, column_) : std::string(); }
 
 std::string Json::pointer() const {
-  if (!place_) return {};
-  return index_ < 0 ? place_->pointer : place_->pointer + '/' + std::to_string(index_);
+  std::vector<const std::string*> steps;  // from here to the root, which has none
+  for (const Place* place = place_.get(); place && place->around; place = place->around.get()) {
+    steps.push_back(&place->step);
+  }
+  std::string text;
+  for (std::size_t s = steps.size(); s-- > 0;) text += pointer_step(*steps[s]);
+  if (index_ >= 0) text += '/' + std::to_string(index_);
+  return text;
 }
 
 double Json::number() const {

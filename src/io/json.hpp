@@ -26,7 +26,7 @@ class Json {
   using Array = std::vector<Json>;
   using Object = std::vector<std::pair<std::string, Json>>;
 
-  static constexpr std::size_t text_limit = std::size_t{64} << 20;  // bytes
+  static constexpr std::size_t text_limit = std::size_t{64} << 20;   // bytes
   static constexpr std::size_t string_limit = std::size_t{1} << 20;  // bytes of a key or a string
   static constexpr std::size_t value_limit = 2'000'000;              // values in one text
   static constexpr std::size_t depth_limit = 64;                     // arrays and objects inside each other
@@ -75,10 +75,12 @@ class Json {
  private:
   friend class JsonBuilder;
 
-  // What the values of one array have in common; an object's members and all arrays and objects have their own.
+  // A place is a step from the one around it, so that a long key costs once and not in every pointer below it.
+  // Elements of an array that are neither array nor object share the place of the array; all other values have their own.
   struct Place {
     std::shared_ptr<const std::string> file;
-    std::string pointer;
+    std::shared_ptr<const Place> around;  // none at the root
+    std::string step;                     // a key or an index
   };
 
   std::variant<std::monostate, bool, double, std::string, Array, Object> value_;  // in the order of Type

@@ -16,14 +16,14 @@
 namespace toile {
 
 struct ObjMesh {
-  std::vector<Vec3> positions;                     // as in the file, no unit conversion
+  std::vector<Vec3> positions;  // as in the file, no unit conversion
   std::vector<Vec2> texcoords;
-  std::vector<Triangle> triangles;                 // polygons are split into fans
-  std::vector<std::array<Index, 3>> texcoord;      // [triangle][corner], -1 where the face has none; empty when no face has
-  std::vector<Index> group;                        // [triangle] index into group_names
-  std::vector<std::string> group_names;            // `g` names that have faces, in order of appearance ("" before any)
-  std::vector<Index> object;                       // [triangle] index into object_names
-  std::vector<std::string> object_names;           // `o` names that have faces, likewise
+  std::vector<Triangle> triangles;             // polygons are split into fans
+  std::vector<std::array<Index, 3>> texcoord;  // [triangle][corner], -1 where the face has none; empty when no face has
+  std::vector<Index> group;                    // [triangle] index into group_names
+  std::vector<std::string> group_names;        // `g` names that have faces, in order of appearance ("" before any)
+  std::vector<Index> object;                   // [triangle] index into object_names
+  std::vector<std::string> object_names;       // `o` names that have faces, likewise
 };
 
 // More than this in one file is an InputError.

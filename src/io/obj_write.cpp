@@ -55,8 +55,9 @@ class Check {
   // `finite` as a float: 1e39 is not.
   void number(std::string_view kind, std::size_t i, double value) const {
     if (!std::isfinite(static_cast<float>(value))) {
+      char digits[32];
       throw InputError(printable(path_), std::string(kind) + ' ' + std::to_string(i), "a number that a float can hold",
-                       std::to_string(value));
+                       std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr));
     }
   }
   void count(std::string_view what, std::size_t expected, std::size_t got) const {

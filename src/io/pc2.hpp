@@ -19,7 +19,7 @@ class Pc2Writer {
  public:
   // `start_frame` and `rate` (samples per frame of the timeline) are stored for other programs.  Throws IoError.
   Pc2Writer(const std::string& path, Index points, double start_frame, double rate);
-  void append(std::span<const Vec3> positions);    // must have `points` entries; rounded to float
+  void append(std::span<const Vec3> positions);  // must have `points` entries; rounded to float
   int samples() const { return samples_; }
   void commit();
 

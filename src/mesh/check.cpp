@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <tuple>
@@ -18,10 +18,10 @@ namespace {
 constexpr double zero_area = 1e-10;   // of the longest side squared
 constexpr double zero_volume = 1e-9;  // of the surface's area to the power 3/2 (a ball has 0.094)
 
+// Six digits, in every locale.
 std::string number(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
+  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6).ptr};
 }
 
 std::string element(std::string_view kind, std::size_t index) {

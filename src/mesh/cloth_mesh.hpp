@@ -13,9 +13,9 @@ namespace toile {
 
 struct ClothMesh {
   Index particle_count = 0;
-  std::vector<Triangle> triangles;            // counter-clockwise in (u, v) and seen from the right side
-  std::vector<std::array<Vec2, 3>> uv;        // [triangle][corner], m
-  std::vector<Index> panel;                   // [triangle] index into panel_names
+  std::vector<Triangle> triangles;      // counter-clockwise in (u, v) and seen from the right side
+  std::vector<std::array<Vec2, 3>> uv;  // [triangle][corner], m
+  std::vector<Index> panel;             // [triangle] index into panel_names
   std::vector<std::string> panel_names;
 
   Index triangle_count() const { return static_cast<Index>(triangles.size()); }
@@ -27,8 +27,8 @@ struct ClothMesh {
 //        beta_1  = -du2 / d,  beta_2  =  du1 / d,  beta_0  = -(beta_1 + beta_2),      d = du1 dv2 - du2 dv1,
 // where du_i, dv_i are the pattern coordinates of corner i less those of corner 0.
 struct MaterialFrame {
-  Vec3 alpha, beta;   // 1/m, one entry per corner; each adds up to zero
-  double area_m2;     // rest area; negative when the triangle is flipped in the pattern
+  Vec3 alpha, beta;  // 1/m, one entry per corner; each adds up to zero
+  double area_m2;    // rest area; negative when the triangle is flipped in the pattern
 };
 // Not finite when the triangle has no area in the pattern: check_cloth (mesh/check.hpp) refuses it first.
 MaterialFrame material_frame(const std::array<Vec2, 3>& uv);

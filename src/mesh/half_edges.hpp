@@ -12,7 +12,7 @@
 namespace toile {
 
 struct HalfEdge {
-  Index a, b;        // the smaller and the larger particle
+  Index a, b;  // the smaller and the larger particle
   Index triangle;
   std::int8_t side;  // 0, 1, 2: from corner `side` to the next one
   bool forward;      // the triangle walks from a to b

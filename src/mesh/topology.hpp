@@ -21,13 +21,13 @@
 namespace toile {
 
 struct Edge {
-  Index a, b;                          // a < b
-  std::array<Index, 2> triangle;       // in increasing order; the second is -1 on a boundary
+  Index a, b;                     // a < b
+  std::array<Index, 2> triangle;  // in increasing order; the second is -1 on a boundary
 };
 
 struct Hinge {
-  std::array<Index, 4> particle;       // x0, x1, x2, x3 as drawn
-  std::array<Index, 2> triangle;       // A, B with A < B
+  std::array<Index, 4> particle;  // x0, x1, x2, x3 as drawn
+  std::array<Index, 2> triangle;  // A, B with A < B
 };
 
 struct Topology {

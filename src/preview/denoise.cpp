@@ -9,7 +9,7 @@ namespace toile {
 namespace {
 
 constexpr int passes = 4;
-constexpr float light_tolerance = 2.5f;    // standard deviations of the light
+constexpr float light_tolerance = 3.5f;    // standard deviations of the light
 constexpr float normal_sharpness = 24.0f;  // on 1 - cos of the angle between normals
 constexpr float plane_tolerance = 2.0f;    // pixels off the tangent plane, per step
 
@@ -79,7 +79,7 @@ std::vector<Vec3f> denoised_radiance(const std::vector<PixelLight>& pixels, int 
 
   std::vector<Vec3f> radiance(w * h);
   parallel_for(w * h, 4096, [&](std::size_t p) {
-    // The mean of albedo * light is not the product of the means where a pixel holds an outline: only the change is applied.
+    // Not albedo times light: the mean of a product is not the product of the means where a pixel holds the grid or an outline.
     radiance[p] = pixels[p].radiance + pixels[p].albedo.cwiseProduct(now[p].mean - pixels[p].illumination);
   });
   return radiance;

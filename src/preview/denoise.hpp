@@ -11,7 +11,7 @@
 
 namespace toile {
 
-// The radiance of every pixel: albedo times smoothed light, plus what the product of means misses at outlines.
+// The radiance of every pixel, changed by the smoothed light of its larger layer.
 // `metre_per_pixel` is a pixel's size at the subject.
 std::vector<Vec3f> denoised_radiance(const std::vector<PixelLight>& pixels, int width, int height,
                                      float metre_per_pixel);

@@ -12,11 +12,11 @@ constexpr float key_azimuth = 0.85f, key_elevation = 0.82f;  // rad, left of the
 constexpr float rim_azimuth = -2.5f, rim_elevation = 0.55f;  // rad, behind the subject on the right
 constexpr float sun_half_angle = 0.16f;                      // rad: a large softbox rather than the real sun's 0.005
 
-const Vec3f sun_colour(1.10f, 1.04f, 0.96f);
-const Vec3f zenith_colour(0.34f, 0.355f, 0.38f);
-const Vec3f horizon_colour(0.20f, 0.20f, 0.205f);
-const Vec3f key_glow(0.50f, 0.48f, 0.45f);
-const Vec3f rim_glow(0.75f, 0.78f, 0.84f);
+const Vec3f sun_colour(1.00f, 0.945f, 0.875f);
+const Vec3f zenith_colour(0.30f, 0.315f, 0.335f);
+const Vec3f horizon_colour(0.17f, 0.17f, 0.175f);
+const Vec3f key_glow(0.44f, 0.42f, 0.395f);
+const Vec3f rim_glow(0.70f, 0.73f, 0.79f);
 
 // Turned by `azimuth` to the left about the vertical axis, as seen by the camera, and raised.
 Vec3f turned(const Vec3f& to_camera, float azimuth, float elevation) {

@@ -17,6 +17,25 @@ const Vec3f ground_albedo(0.55f, 0.55f, 0.55f);
 const Vec3f background_top(0.60f, 0.62f, 0.64f);
 const Vec3f background_bottom(0.92f, 0.91f, 0.89f);
 
+// Sums over the samples of a pixel that met the same kind of thing.
+struct Layer {
+  Vec3f albedo = Vec3f::Zero(), light = Vec3f::Zero(), normal = Vec3f::Zero(), position = Vec3f::Zero();
+  float samples = 0;
+  float mean = 0, squares = 0;  // of the light's luminance, and of its deviations, by Welford's updates
+
+  void add(const Vec3f& sample_albedo, const Vec3f& sample_light, const Vec3f& sample_normal,
+           const Vec3f& sample_position) {
+    albedo += sample_albedo;
+    light += sample_light;
+    normal += sample_normal;
+    position += sample_position;
+    samples += 1;
+    const float value = luminance(sample_light), change = value - mean;
+    mean += change / samples;
+    squares += change * (value - mean);
+  }
+};
+
 // Tent distribution on [-1, 1] from a uniform number.
 float tent(float u) { return u < 0.5f ? std::sqrt(2.0f * u) - 1.0f : 1.0f - std::sqrt(2.0f - 2.0f * u); }
 
@@ -190,10 +209,10 @@ Vec3f PathTracer::ground_light(const Vec3f& point, float strength, Sampler& samp
 
 PixelLight PathTracer::trace(int x, int y) const {
   PixelLight pixel;
+  Layer open, covered;
   const Vec3f back = background(x, y);
   const auto seed = mix_bits(static_cast<std::uint32_t>(y) * 0x10001u + static_cast<std::uint32_t>(x) + 1u);
   const auto count = static_cast<std::uint32_t>(options_.samples);
-  float mean = 0, squares = 0;  // of the illumination's luminance, by Welford's updates
   for (std::uint32_t i = 0; i < count; ++i) {
     PathSampler sampler(seed, i, count);
     const Vec2f u = sampler.next();
@@ -201,7 +220,6 @@ PixelLight PathTracer::trace(int x, int y) const {
     const float py = static_cast<float>(y) + 0.5f + pixel_filter * tent(u.y());
     const Vec3f direction = camera_.direction(px, py);
 
-    Vec3f albedo = back, light = Vec3f::Ones();
     RayHit hit;
     float to_ground = 0;
     const bool ground = ground_hit(camera_.eye, direction, to_ground);
@@ -211,32 +229,30 @@ PixelLight PathTracer::trace(int x, int y) const {
       const auto plane_step = [&](const Vec3f& change) -> Vec3f {
         return hit.distance * (change - (s.geometric.dot(change) / s.geometric.dot(direction)) * direction);
       };
-      albedo =
+      const Vec3f albedo =
           albedo_of(s, direction, plane_step(camera_.step_x * camera_.right), plane_step(camera_.step_y * camera_.up));
-      light = illumination(s, sampler, bounces_of_a_path);
-      pixel.normal += s.normal;
-      pixel.position += s.position;
+      const Vec3f light = illumination(s, sampler, bounces_of_a_path);
+      pixel.radiance += albedo.cwiseProduct(light);
+      covered.add(albedo, light, s.normal, s.position);
     } else {
       const Vec3f point = camera_.eye + (ground ? to_ground : 1e3f * radius_) * direction;
       const float strength = ground ? shadow_strength(point) : 0.0f;
+      Vec3f light = Vec3f::Ones();
       if (strength > 0) light = ground_light(Vec3f(point.x(), ground_y_ + offset_, point.z()), strength, sampler);
-      pixel.normal += Vec3f(0, 1, 0);
-      pixel.position += point;
+      pixel.radiance += back.cwiseProduct(light);
+      open.add(back, light, Vec3f(0, 1, 0), point);
     }
-    pixel.radiance += albedo.cwiseProduct(light);
-    pixel.albedo += albedo;
-    pixel.illumination += light;
-    const float value = luminance(light), change = value - mean;
-    mean += change / static_cast<float>(i + 1);
-    squares += change * (value - mean);
   }
   const float share = 1.0f / static_cast<float>(count);
+  const Layer& layer = covered.samples >= open.samples ? covered : open;
+  const float layer_share = 1.0f / layer.samples;
   pixel.radiance *= share;
-  pixel.albedo *= share;
-  pixel.illumination *= share;
-  pixel.position *= share;
-  pixel.normal *= share;
-  pixel.variance = count > 1 ? squares * share / static_cast<float>(count - 1) : mean * mean;
+  pixel.albedo = share * layer.albedo;
+  pixel.illumination = layer_share * layer.light;
+  pixel.normal = layer_share * layer.normal;
+  pixel.position = layer_share * layer.position;
+  // One sample says nothing about its spread: as noisy as it is bright.
+  pixel.variance = layer.samples > 1 ? layer.squares * layer_share / (layer.samples - 1) : layer.mean * layer.mean;
   return pixel;
 }
 

@@ -16,12 +16,14 @@
 
 namespace toile {
 
-// Means over a pixel's samples.
+// What a pixel's samples found.  All but `radiance` are of the pixel's larger layer alone, the surfaces or the ground with the
+// background, so that an outline neither blurs nor keeps its noise.
 struct PixelLight {
-  Vec3f radiance = Vec3f::Zero();      // linear, before tone mapping
-  Vec3f albedo = Vec3f::Zero();        // for the ground and the background: the background's colour
-  Vec3f illumination = Vec3f::Zero();  // radiance / albedo, per sample, then averaged
-  Vec3f normal = Vec3f::Zero();
+  Vec3f radiance = Vec3f::Zero();  // mean of all samples, linear, before tone mapping
+  Vec3f albedo =
+      Vec3f::Zero();  // mean albedo of the layer times its share of the samples; the background's colour if open
+  Vec3f illumination = Vec3f::Zero();  // mean of radiance / albedo over the layer's samples
+  Vec3f normal = Vec3f::Zero();        // means over the layer's samples
   Vec3f position = Vec3f::Zero();
   float variance = 0;  // of the mean illumination's luminance
 };

@@ -80,6 +80,7 @@ CoarseSpace::CoarseSpace(const ClothMesh& mesh) {
   }
   const auto n = static_cast<std::size_t>(dimension());
   E_.resize(n * n);
+  transpose_.resize(n * n);
   rhs_.resize(n);
   dead_.resize(n);
 }
@@ -157,6 +158,10 @@ void CoarseSpace::cholesky() {
       for (std::size_t j = i; j < n; ++j) row_i[j] -= factor * row_k[j];
     }
   }
+  // Both triangular solves walk along rows: sums in a fixed order that still fill vector registers.
+  for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t j = k; j < n; ++j) transpose_[j * n + k] = E_[k * n + j];
+  }
 }
 
 template <class T>
@@ -179,12 +184,11 @@ void CoarseSpace::add_correction(const LinearSystem<T>& system, std::span<const 
     const double y = rhs_[k] /= row[k];
     for (std::size_t j = k + 1; j < n; ++j) rhs_[j] -= row[j] * y;
   }
-  for (std::size_t k = n; k-- > 0;) {    // U x = y
-    const double* row = &E_[k * n];
+  for (std::size_t k = n; k-- > 0;) {    // U x = y, by columns of U: rows of its transpose
     if (dead_[k]) continue;
-    double sum = rhs_[k];
-    for (std::size_t j = k + 1; j < n; ++j) sum -= row[j] * rhs_[j];
-    rhs_[k] = sum / row[k];
+    const double* column = &transpose_[k * n];
+    const double x = rhs_[k] /= column[k];
+    for (std::size_t j = 0; j < k; ++j) rhs_[j] -= column[j] * x;
   }
   const ParticleConstraints& constraints = system.constraints();
   for (std::size_t p = 0; p < r.size(); ++p) {

@@ -36,6 +36,7 @@ class CoarseSpace {
   std::vector<Index> aggregate_;     // [particle]
   std::vector<Vec3> basis_;          // [particle] (1, u', v')
   std::vector<double> E_;            // row-major; upper triangle, then its factor U with E = U^T U
+  std::vector<double> transpose_;    // U^T
   std::vector<double> rhs_;
   std::vector<std::uint8_t> dead_;   // directions in which nothing may move
 };

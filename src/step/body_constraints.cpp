@@ -1,6 +1,7 @@
 #include "step/body_constraints.hpp"
 
 #include "core/parallel.hpp"
+#include "step/tangents.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,8 @@ namespace {
 constexpr double static_over_kinetic = 1.02;    // hysteresis, so that stick and slip do not alternate at the cone
 constexpr double largest_alteration = 0.2;      // of the offset, per step
 constexpr double dead_band = 0.02;              // of the offset
-constexpr int most_switches = 2;                // stick <-> slip per particle and step
+constexpr double slowest_slip = 1e-3;           // v_0, m/s
+constexpr double stick_below = 0.7;             // of v_0
 constexpr double pull_of_weight = 0.01;         // a pull below this part of the particle's weight is solver noise
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -50,31 +52,27 @@ void BodyConstraints::detect(const ClothState& state, double h_s) {
   }
 }
 
-// Whether a new contact starts as stick or slip: sticks if friction can stop it within the step.
+// A new contact slides: what friction does to it is decided by the solve.
 void BodyConstraints::touch_down(Near& near, const Vec3& v, double h_s) const {
   const Vec3 relative = v - near.body_travel / h_s;
   const double v_n = near.point.normal.dot(relative);
-  const Vec3 v_t = relative - v_n * near.point.normal;
-  const double mass = model_->mass_kg[at(near.particle)];
-  const double speed = v_t.norm();
+  near.touch = Touch::slides;
+  near.slip_m_per_s = (relative - v_n * near.point.normal).norm();
   if (near.lambda_n <= 0) {
-    near.lambda_n = mass * std::max(0.0, -v_n / h_s - near.point.normal.dot(model_->gravity_m_per_s2));
+    const double stop = -v_n / h_s - near.point.normal.dot(model_->gravity_m_per_s2);
+    near.lambda_n = model_->mass_kg[at(near.particle)] * std::max(0.0, stop);
   }
-  const bool stops = options_.friction > 0 && mass * speed <= options_.friction * near.lambda_n * h_s;
-  near.touch = stops ? Touch::sticks : Touch::slides;
-  near.slip_direction = speed > 0 ? Vec3(v_t / speed) : Vec3::Zero();
 }
 
-void BodyConstraints::begin(const ClothState& state, double h_s) {
+void BodyConstraints::begin(const ClothState& state, std::span<const Vec3> dv, double h_s) {
   for (Near& near : near_) {
     const std::size_t i = at(near.particle);
-    near.released = false;
-    near.switches = 0;
+    near.released = near.slipped = false;
     near.lambda_n = lambda_n_[i];
     near.touch = Touch::none;
-    const Vec3 travel = h_s * (state.v[i] + h_s * model_->gravity_m_per_s2) - near.body_travel;
-    if (near.point.gap_m + near.point.normal.dot(travel) >= options_.offset_m) continue;
-    touch_down(near, state.v[i], h_s);
+    const Vec3 travel = h_s * (state.v[i] + dv[i]) - near.body_travel;
+    if (touch_[i] == Touch::none && near.point.gap_m + near.point.normal.dot(travel) >= options_.offset_m) continue;
+    touch_down(near, state.v[i] + dv[i], h_s);
     if (touch_[i] == Touch::sticks && options_.friction > 0) near.touch = Touch::sticks;
   }
 }
@@ -86,27 +84,35 @@ double BodyConstraints::alteration(const Near& near) const {
 }
 
 void BodyConstraints::apply(const ClothState& state, double h_s, ParticleConstraints& constraints, std::span<Vec3> y,
-                            std::span<Vec3> friction_N) {
+                            std::vector<LinearSpring>& springs) {
   std::fill(y.begin(), y.end(), Vec3::Zero());
-  std::fill(friction_N.begin(), friction_N.end(), Vec3::Zero());
   for (Near& near : near_) {
     near.pinned = !constraints.is_free(near.particle);
     if (near.touch == Touch::none || near.pinned) continue;
     const std::size_t i = at(near.particle);
     const Vec3& n = near.point.normal;
     const Vec3 z = near.body_travel / h_s - state.v[i];
+    y[i] = alteration(near) * n;
     if (near.touch == Touch::sticks) {
       constraints.hold(near.particle, z);
-    } else {
-      constraints.hold_along(near.particle, n, n.dot(z));
-      friction_N[i] = -options_.friction * near.lambda_n * near.slip_direction;
+      continue;
     }
-    y[i] = alteration(near) * n;
+    constraints.hold_along(near.particle, n, n.dot(z));
+    if (options_.friction <= 0 || near.lambda_n <= 0) continue;
+    for (const Vec3& t : tangents(n)) {
+      LinearSpring drag;
+      drag.particle[0] = near.particle;
+      drag.weight[0] = 1;
+      drag.direction = t;
+      drag.damping_N_s_per_m = options_.friction * near.lambda_n / std::max(near.slip_m_per_s, slowest_slip);
+      drag.body_displacement_m = t.dot(near.body_travel);
+      springs.push_back(drag);
+    }
   }
 }
 
-int BodyConstraints::update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> e, double h_s, bool first_passes) {
-  int changes = 0;
+BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> e, double h_s, bool first_passes) {
+  Change change;
   for (Near& near : near_) {
     if (near.pinned) continue;
     const std::size_t i = at(near.particle);
@@ -115,8 +121,9 @@ int BodyConstraints::update(const ClothState& state, std::span<const Vec3> dv, s
     if (near.touch == Touch::none) {
       if (near.point.gap_m + h_s * n.dot(velocity) < (1 - dead_band) * options_.offset_m) {
         near.lambda_n = 0;
-        touch_down(near, state.v[i], h_s);
-        ++changes;
+        touch_down(near, state.v[i] + dv[i], h_s);
+        ++change.normal;
+        ++change.touching;
       }
       continue;
     }
@@ -126,40 +133,31 @@ int BodyConstraints::update(const ClothState& state, std::span<const Vec3> dv, s
       near.touch = Touch::none;
       near.released = true;
       near.lambda_n = 0;
-      ++changes;
+      ++change.normal;
       continue;
     }
+    ++change.touching;
     near.lambda_n = std::max(lambda, 0.0);
-    if (options_.friction <= 0) continue;
-    if (near.touch == Touch::sticks) {
+    const Vec3 v_t = velocity - n.dot(velocity) * n;
+    near.slip_m_per_s = v_t.norm();
+    if (near.touch == Touch::sticks && !near.slipped) {
       const Vec3 tangential = force - lambda * n;
-      const double size = tangential.norm();
-      if (size > static_over_kinetic * options_.friction * near.lambda_n && near.switches < most_switches) {
+      if (tangential.norm() > static_over_kinetic * options_.friction * near.lambda_n) {
         near.touch = Touch::slides;
-        near.slip_direction = size > 0 ? Vec3(-tangential / size) : Vec3::Zero();
-        ++near.switches;
-        ++changes;
-      }
-    } else {
-      const Vec3 v_t = velocity - n.dot(velocity) * n;
-      const double speed = v_t.norm();
-      if (v_t.dot(near.slip_direction) < 0 && near.switches < most_switches) {   // friction would turn the motion round: it stops it
-        near.touch = Touch::sticks;
-        ++near.switches;
-        ++changes;
-      } else if (speed > 0) {
-        near.slip_direction = v_t / speed;
+        near.slipped = true;
+        ++change.slipped;
       }
     }
   }
-  return changes;
+  return change;
 }
 
 void BodyConstraints::accept() {
   std::fill(touch_.begin(), touch_.end(), Touch::none);
   std::fill(lambda_n_.begin(), lambda_n_.end(), 0.0);
   for (const Near& near : near_) {
-    touch_[at(near.particle)] = near.touch;
+    const bool stopped = options_.friction > 0 && near.touch == Touch::slides && near.slip_m_per_s < stick_below * slowest_slip;
+    touch_[at(near.particle)] = stopped ? Touch::sticks : near.touch;
     if (near.touch != Touch::none) lambda_n_[at(near.particle)] = near.lambda_n;
   }
 }

@@ -1,8 +1,13 @@
 // step/body_constraints.hpp: cloth particles on a body: held, sliding or free, decided by constraint forces.   (L1) [BW98 5.4, 6]
 //
-//   touching   a particle whose gap, predicted with v + h g and the body's motion, is below the offset r
-//   slides     S = I - n n^T,  z = n.(v_body - v) n,  plus the kinetic force -mu_k lambda_n t
+//   touching   a particle that touched in the last step, or whose gap, predicted with the last change of velocity and the body's
+//              motion, is below the offset r; the passes release and add the rest.  (Predicting with v + h g instead, as if nothing
+//              held the cloth up, starts a step at rest with hundreds of contacts too many: h^2 g is 11 mm at 30 Hz.)
+//   slides     S = I - n n^T,  z = n.(v_body - v) n,  plus friction as an implicit drag along the surface,
+//              coefficient mu lambda_n / max(|v_t|, v_0): Coulomb's force above v_0 = 1 mm/s, and below it the part |v_t| / v_0 of
+//              it, so that friction stops a particle and never turns it round
 //   sticks     S = 0,          z = v_body - v                    while |lambda_t| <= mu_s lambda_n
+//              entered from a slide that ended slower than 0.7 v_0: friction then needed less than 0.7 of its cone
 //   y          position alteration: min(r - gap, 0.2 r) n, zero while 0 <= r - gap < 0.02 r; negative lets a predicted contact land exactly
 //              on the offset.  It moves the particle and tells its neighbours through K y, and is never part of v.
 //   release    lambda_n < 0: the body would have to pull.  Within the same step (the paper: in the next), once per particle and step.
@@ -10,6 +15,7 @@
 // lambda = e / h is read from the residual e = A dv - b of the solve.
 #pragma once
 #include "assembly/cloth_model.hpp"
+#include "assembly/implicit_row.hpp"
 #include "constraint/particle_constraints.hpp"
 #include "contact/proximity.hpp"
 
@@ -20,7 +26,7 @@ namespace toile {
 
 struct BodyContactOptions {
   double offset_m = 2.5e-3;        // r: where cloth rests above the body
-  double friction = 0.4;           // mu; kinetic, static is 2 % larger
+  double friction = 0.4;           // mu; kinetic, the static one is 2 % larger
 };
 
 enum class Touch : std::uint8_t { none, slides, sticks };
@@ -32,14 +38,17 @@ class BodyConstraints {
   // L0: nearest body point of every particle that can reach the body within h_s.
   void detect(const ClothState& state, double h_s);
 
-  // The active set with which a step of h_s begins.
-  void begin(const ClothState& state, double h_s);
-  // Adds S, z of the touching particles; fills y (others zero) and the kinetic friction forces f (N).  Particles that `constraints`
-  // already holds are left to their pins.
-  void apply(const ClothState& state, double h_s, ParticleConstraints& constraints, std::span<Vec3> y, std::span<Vec3> friction_N);
-  // After a solve: releases, adds, and switches stick and slip.  Returns how many particles changed; 0: the set is consistent.
-  // `first_passes`: releases are allowed.
-  int update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> e, double h_s, bool first_passes);
+  // The active set with which a step of h_s begins; `dv` is the guess of the coming change of velocity.
+  void begin(const ClothState& state, std::span<const Vec3> dv, double h_s);
+  // Adds S, z of the touching particles, fills y (others zero), and appends the drag of those that slide.  Particles that
+  // `constraints` already holds are left to their pins.
+  void apply(const ClothState& state, double h_s, ParticleConstraints& constraints, std::span<Vec3> y,
+             std::vector<LinearSpring>& springs);
+  // After a solve: releases, adds, and lets slip.  `first_passes`: releases are allowed.
+  struct Change {
+    int normal = 0, slipped = 0, touching = 0;   // released or added; from stick to slip; in touch now
+  };
+  Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> e, double h_s, bool first_passes);
   // After an accepted step: remembers forces and modes for the next.
   void accept();
 
@@ -55,11 +64,10 @@ class BodyConstraints {
     Index particle;
     BodyPoint point;
     Vec3 body_travel;              // of the contact's material point over the step, m
-    Vec3 slip_direction{0, 0, 0};  // unit tangent, or zero
     Touch touch = Touch::none;
-    bool released = false, pinned = false;
-    int switches = 0;
+    bool released = false, slipped = false, pinned = false;
     double lambda_n = 0;           // N
+    double slip_m_per_s = 0;       // |v_t| relative to the body
   };
   void touch_down(Near& near, const Vec3& v, double h_s) const;
   double alteration(const Near& near) const;

@@ -1,6 +1,7 @@
 #include "step/contact_rows.hpp"
 
 #include "core/stopwatch.hpp"
+#include "step/tangents.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -16,15 +17,6 @@ constexpr double load_share = 0.1;          // of r: how far the load of the las
 constexpr double slowest_slip = 1e-3;       // m/s
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-// Two unit vectors across n, chosen without a decision that could flip between machines.
-std::array<Vec3, 2> tangents(const Vec3& n) {
-  Eigen::Index smallest = 0;
-  if (std::abs(n.y()) < std::abs(n[smallest])) smallest = 1;
-  if (std::abs(n.z()) < std::abs(n[smallest])) smallest = 2;
-  const Vec3 t = n.cross(Vec3::Unit(smallest)).normalized();
-  return {t, n.cross(t)};
-}
 
 }  // namespace
 
@@ -106,7 +98,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) { return a.key < b.key; });
 }
 
-void ContactRows::begin(const ClothState& state, double h_s, double base_h_s, std::span<const Mat3> diagonal) {
+void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, double h_s, double base_h_s, std::span<const Mat3> diagonal) {
   auto memory = memory_.begin();
   for (Pair& pair : pairs_) {
     LinearSpring& spring = pair.spring;
@@ -123,16 +115,16 @@ void ContactRows::begin(const ClothState& state, double h_s, double base_h_s, st
     pair.lambda_N = 0;
     pair.slip_m_per_s.setZero();
     while (memory != memory_.end() && memory->key < pair.key) ++memory;
-    if (memory != memory_.end() && memory->key == pair.key) {
+    const bool lived = memory != memory_.end() && memory->key == pair.key;
+    if (lived) {
       pair.lambda_N = memory->lambda_N;
       pair.slip_m_per_s = memory->slip_m_per_s;
       spring.stiffness_N_per_m = std::max({spring.stiffness_N_per_m, memory->stiffness, memory->lambda_N / (load_share * pair.r_m)});
     }
     spring.damping_N_s_per_m = options_.damping_s * spring.stiffness_N_per_m;
     spring.force_N = spring.stiffness_N_per_m * (pair.r_m - pair.gap_m);
-    double predicted = pair.gap_m + h_s * spring.direction.dot(relative_velocity(pair, state.v, h_s));
-    if (pair.key.body) predicted += h_s * h_s * spring.direction.dot(model_->gravity_m_per_s2);
-    pair.active = predicted < pair.r_m;
+    const double predicted = pair.gap_m + h_s * (along(spring, state.v) + along(spring, dv)) - spring.body_displacement_m;
+    pair.active = lived || predicted < pair.r_m;
   }
 }
 

@@ -33,7 +33,8 @@ class ContactRows {
   // L0: pairs near at the state's positions.
   void detect(const ClothState& state, double h_s);
   // Stiffness of each pair and the rows with which a step begins.  `base_h_s` is the frame's own step, before any halving.
-  void begin(const ClothState& state, double h_s, double base_h_s, std::span<const Mat3> diagonal);
+  // A pair that was active in the last step, or that the guess `dv` brings below r, begins active.
+  void begin(const ClothState& state, std::span<const Vec3> dv, double h_s, double base_h_s, std::span<const Mat3> diagonal);
   void append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const;
 
   struct Change {

@@ -1,8 +1,8 @@
 // verify/box_tree.hpp: which triangles could meet a box, and which is nearest to a point.  The judge's own tree.
 //
 // Balanced binary tree: the triangles of a node are halved at the median of their centres along the longest side of the
-// centres' box.  Boxes are closed and hold the coordinates as they are, without rounding: a triangle that touches the query
-// is always visited.
+// centres' box.  Boxes are closed and hold the coordinates as they are, without rounding: a triangle that touches the
+// query is always visited.
 //
 // Easily got wrong: the order of visits depends on the tree.  Callers sort what they collect.
 #pragma once

@@ -26,8 +26,8 @@ struct Surface {
   RankedPoint ranked(Index i) const { return {at(i), first_rank + i}; }
 };
 
-// Each undirected edge once.  Not from mesh/topology: the judge takes surfaces that no solver would (three triangles at an
-// edge, flipped neighbours).
+// Each undirected edge once.  Not from mesh/topology: the judge takes surfaces that no solver would (three triangles at
+// an edge, flipped neighbours).
 std::vector<EdgeEnds> edges_of(std::span<const Triangle> triangles) {
   std::vector<EdgeEnds> edges;
   edges.reserve(3 * triangles.size());

@@ -1,15 +1,16 @@
 // verify/crossings.hpp: every edge that passes through a triangle, found exactly.
 //
-// Two triangles in general position intersect exactly when an edge of one passes through the other.  So cloth and body are
-// free of each other when no cloth edge passes through a body triangle and no body edge through a cloth triangle (a finger
-// tip inside one large cloth triangle shows only in the second).
+// Two triangles in general position intersect exactly when an edge of one passes through the other.  So cloth and body
+// are free of each other when no cloth edge passes through a body triangle and no body edge through a cloth triangle (a
+// finger tip inside one large cloth triangle shows only in the second).
 //
-// Pairs that share a particle are not tested, and nothing is lost by it: an edge and a triangle with a common end meet there
-// and, in general position, nowhere else; two triangles that share one particle and cross do so through the edge opposite
-// to it, which shares nothing with the other triangle; two that share an edge cannot cross.
+// Pairs that share a particle are not tested, and nothing is lost by it: an edge and a triangle with a common end meet
+// there and, in general position, nowhere else; two triangles that share one particle and cross do so through the edge
+// opposite to it, which shares nothing with the other triangle; two that share an edge cannot cross.
 //
-// Degenerate positions are resolved as in predicates.hpp, a particle's rank being its index (the body's follow the cloth's):
-// passing exactly through an edge or a vertex of the surface is one crossing; merely touching may or may not be one.
+// Degenerate positions are resolved as in predicates.hpp, a particle's rank being its index (the body's follow the
+// cloth's): passing exactly through an edge or a vertex of the surface is one crossing; merely touching may or may not
+// be one.
 #pragma once
 #include "core/types.hpp"
 
@@ -31,8 +32,8 @@ struct Crossing {
 std::vector<Crossing> find_body_crossings(std::span<const Triangle> cloth, std::span<const Vec3> x,
                                           std::span<const Triangle> body, std::span<const Vec3> body_x);
 
-// Edges of a surface through triangles of the same surface that share no particle with them, sorted by (edge, triangle).
-// Throws as find_body_crossings.
+// Edges of a surface through triangles of the same surface that share no particle with them, sorted by (edge,
+// triangle). Throws as find_body_crossings.
 std::vector<Crossing> find_cloth_crossings(std::span<const Triangle> cloth, std::span<const Vec3> x);
 
 // How many different edges a list sorted as above names: what report.json counts.

@@ -108,9 +108,10 @@ int orient2d_expanded(const std::array<double, 3>& x, const std::array<double, 3
   return determinant.sign();
 }
 
-// Which displacements occur together in one term of the expanded determinant: bit 3 r + c stands for that of coordinate c of
-// row r.  No two share a row or a column: 1 + 12 + 36 + 24 sets.  As numbers they ascend with the power of epsilon, because
-// the exponents are distinct powers of two; so the first set with a nonzero coefficient decides the sign.
+// Which displacements occur together in one term of the expanded determinant: bit 3 r + c stands for that of coordinate
+// c of row r.  No two share a row or a column: 1 + 12 + 36 + 24 sets.  As numbers they ascend with the power of
+// epsilon, because the exponents are distinct powers of two; so the first set with a nonzero coefficient decides the
+// sign.
 constexpr int term_count = 73;
 constexpr bool is_term(unsigned set) {
   unsigned columns = 0;
@@ -130,7 +131,8 @@ constexpr std::array<unsigned, term_count> all_terms() {
 }
 constexpr std::array<unsigned, term_count> terms_by_size = all_terms();
 
-// Sign of the coefficient of one term: the minor of the rows and columns that it leaves, with its sign in the expansion.
+// Sign of the coefficient of one term: the minor of the rows and columns that it leaves, with its sign in the
+// expansion.
 int term_sign(unsigned set, const std::array<const Vec3*, 4>& rows) {
   std::array<int, 4> row_left{}, column_left{}, column_of_row{};
   std::size_t rows_left = 0, columns_left = 0;
@@ -145,7 +147,8 @@ int term_sign(unsigned set, const std::array<const Vec3*, 4>& rows) {
     if ((columns_used >> c & 1U) == 0) column_left[columns_left++] = c;
   column_left[columns_left] = 3;  // the column of ones is never displaced
 
-  // The permutation that sends displaced rows to their columns and the remaining rows, in order, to the remaining columns.
+  // The permutation that sends displaced rows to their columns and the remaining rows, in order, to the remaining
+  // columns.
   std::array<int, 4> permutation = column_of_row;
   for (std::size_t k = 0; k < rows_left; ++k) permutation[static_cast<std::size_t>(row_left[k])] = column_left[k];
   bool odd = false;
@@ -191,7 +194,8 @@ int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   constexpr double u = std::numeric_limits<double>::epsilon() / 2;
   constexpr double bound = (7 + 56 * u) * u;
   if (std::abs(determinant) > bound * permanent) return sign_of(determinant);
-  // A difference rounds to zero only when it is zero, so a vanishing permanent means that all six products vanish exactly.
+  // A difference rounds to zero only when it is zero, so a vanishing permanent means that all six products vanish
+  // exactly.
   if (permanent == 0) return 0;
   return orient3d_expanded(a, b, c, d);
 }

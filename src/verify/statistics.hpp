@@ -3,11 +3,11 @@
 //   stretch = max(|w_u| / b_u, |w_v| / b_v) - 1        of a triangle; negative when both directions are shortened
 //   shear   = |90 deg - angle(w_u, w_v)|
 //   gap     = distance of a cloth vertex to the body's surface, negative inside
-//   w_u, w_v: the pattern's axes as they lie in space [BW98 eq. 9];  p50, p99: nearest rank, so always a value that occurs
+//   w_u, w_v: the pattern's axes as they lie in space [BW98 eq. 9];  p50, p99: nearest rank, a value that occurs
 //
 // Easily got wrong: the sign of the gap.  The side of the nearest triangle is not the side of the body (at an edge or a
-// vertex the nearest triangles disagree, and arms overlap trunks), so the surface is crossed along a ray and the crossings
-// are counted with their direction; degenerate hits are exact (predicates.hpp).
+// vertex the nearest triangles disagree, and arms overlap trunks), so the surface is crossed along a ray and the
+// crossings are counted with their direction; degenerate hits are exact (predicates.hpp).
 #pragma once
 #include "mesh/cloth_mesh.hpp"
 
@@ -30,8 +30,8 @@ struct StretchStatistics {
   Index elastic_triangles = 0;  // with b other than (1, 1)
 };
 
-// `b` is (b_u, b_v) per triangle; empty means 1.  Throws InputError when sizes differ, a b is not a positive number, or a
-// triangle has no area in the pattern.
+// `b` is (b_u, b_v) per triangle; empty means 1.  Throws InputError when sizes differ, a b is not a positive number, or
+// a triangle has no area in the pattern.
 StretchStatistics measure_stretch(const ClothMesh& mesh, std::span<const Vec3> x, std::span<const Vec2> b);
 
 struct GapStatistics {
@@ -39,9 +39,10 @@ struct GapStatistics {
   Index nearest_vertex = -1;  // of min: the nearest, or the deepest inside
 };
 
-// Over all vertices `x`, signed.  A vertex is inside when the surface winds around it (either way: non-zero rule).  Holes of
-// the surface (an open neck or wrist) are closed for this question by fans around their middle.  A flat surface has no
-// inside.  All zero when there is no vertex or no body triangle.  Throws InputError as find_body_crossings does.
+// Over all vertices `x`, signed.  A vertex is inside when the surface winds around it (either way: non-zero rule).
+// Holes of the surface (an open neck or wrist) are closed for this question by fans around their middle.  A flat
+// surface has no inside.  All zero when there is no vertex or no body triangle.  Throws InputError as
+// find_body_crossings does.
 GapStatistics measure_gap(std::span<const Vec3> x, std::span<const Triangle> body, std::span<const Vec3> body_x);
 
 // The p99 over vertices of |x - x_before| fps, in mm/s.  Sizes must agree.

@@ -1,4 +1,4 @@
-// verify/verdict.hpp: pass or fail, with a code for each reason.                                    docs/reason-codes.md
+// verify/verdict.hpp: pass or fail, with a code for each reason.                                   docs/reason-codes.md
 //
 // pass = the run reached its end, everything is finite, the last frame has no crossings, the cloth outside elastic is
 // stretched by at most the limits, and, where the run was to come to rest, it has.
@@ -31,8 +31,8 @@ inline constexpr std::string_view stretch = "stretch";
 inline constexpr std::string_view unfinished = "unfinished";
 }  // namespace reason
 
-// Is this code decided by measuring the files, so that the judge needs nobody's word for it?  `unfinished` is not: a run
-// that stopped early and says so is unfinished, whatever the number of frames.
+// Is this code decided by measuring the files, so that the judge needs nobody's word for it?  `unfinished` is not: a
+// run that stopped early and says so is unfinished, whatever the number of frames.
 bool is_measured_reason(std::string_view code);
 
 struct Reason {

@@ -1,7 +1,8 @@
 // verify/verify.hpp: judges a finished run from its files alone, with exact arithmetic.    `toile verify DIR`
 //
 // The judge shares no code with contact: its own tree, its own predicates.  It reads positions as they were written
-// (float32, which double holds exactly) and believes nothing that report.json says about them.      docs/theory/verify.md
+// (float32, which double holds exactly) and believes nothing that report.json says about them.
+// docs/theory/verify.md
 //
 //   predicates.hpp   signs, exactly                      crossings.hpp    edges through triangles
 //   box_tree.hpp     candidates                          statistics.hpp   stretch, shear, gap, speed

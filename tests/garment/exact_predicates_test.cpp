@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
+#include <vector>
 
 namespace toile {
 namespace {
@@ -31,7 +33,8 @@ TEST(ExactPredicates, CallTheWholeLatticeCircleOfALargePythagoreanRadiusCocircul
   // x^2 + y^2 = (5 * 13 * 17 * 29 * 37 * 28)^2 has many integer solutions built from Pythagorean triples.
   const std::int32_t r = 5 * 13 * 17 * 29 * 37 * 28;
   std::vector<GridPoint> circle;
-  constexpr std::array<std::array<std::int32_t, 3>, 5> triples{{{3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {20, 21, 29}, {12, 35, 37}}};
+  constexpr std::array<std::array<std::int32_t, 3>, 5> triples{
+      {{3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {20, 21, 29}, {12, 35, 37}}};
   for (const auto& [p, q, h] : triples)
     for (const std::int32_t s : {-1, 1})
       for (const std::int32_t t : {-1, 1}) {

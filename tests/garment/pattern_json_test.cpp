@@ -146,6 +146,7 @@ TEST(PatternFile, KeepsClockwiseLoops) {
   const Pattern pattern = parse(one_panel(square_corners, clockwise));
   EXPECT_EQ(pattern.panels[0].edges[0].end, 3);
   EXPECT_TRUE(summarize(pattern).panels[0].clockwise);
+  EXPECT_NEAR(summarize(pattern).panels[0].area_m2, 0.24, 1e-15);
   EXPECT_FALSE(summarize(parse(two_squares("[]"))).panels[0].clockwise);
 }
 

@@ -262,6 +262,13 @@ TEST(Json, RefusesMoreValuesThanItCanHold) {
   EXPECT_NE(complaint(text + ",0]").find("expected at most 2000000 values, got more"), std::string::npos);
 }
 
+TEST(Json, DoesNotRepeatALongKeyInEveryValueBelowIt) {
+  std::string text = "{\"" + std::string(Json::string_limit, 'x') + "\": {";
+  for (int i = 0; i < 30'000; ++i) text += "\"k" + std::to_string(i) + "\":[0,{}],";
+  const Json json = parse(text + "\"last\": 0}}");  // were it repeated, in some 100 GB
+  EXPECT_EQ(json.object()[0].second.at("last").pointer().size(), Json::string_limit + 6);
+}
+
 TEST(Json, FindsADuplicateAmongManyKeys) {
   std::string text = "{";
   for (int i = 0; i < 200'000; ++i) text += "\"k" + std::to_string(i) + "\":0,";

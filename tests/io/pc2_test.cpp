@@ -173,6 +173,11 @@ TEST(Pc2, RefusesCountsThatTheFileDoesNotHold) {
   fields.points = fields.samples = std::numeric_limits<std::int32_t>::max();  // 5e19 bytes: more than 64 bits count
   EXPECT_NE(complaint(fields.bytes()), "none");
   fields = {};
+  fields.points = 842443544;  // with 1824726041 samples 2^64 + 32 bytes, of which a product of 64 bits keeps the 32
+  fields.samples = 1824726041;
+  fields.data = std::string(32, '\0');
+  EXPECT_NE(complaint(fields.bytes()), "none");
+  fields = {};
   fields.points = 1 << 30;
   fields.samples = 1 << 30;
   EXPECT_NE(complaint(fields.bytes()), "none");

@@ -75,6 +75,14 @@ TEST(CheckTriangles, NamesTheFirstRepetitionOfATriangle) {
       "m.obj: triangle 2: expected three corners that no other triangle joins, got 3, 0, 2 again, as in triangle 1");
 }
 
+TEST(CheckTriangles, NamesTheFirstOfSeveralRepetitions) {
+  Square square;
+  square.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 2, 3}, {0, 1, 2}};
+  EXPECT_NE(square.complaint().find("triangle 2: "), std::string::npos);
+  square.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 2, 3}};
+  EXPECT_NE(square.complaint().find("triangle 2: "), std::string::npos);
+}
+
 TEST(CheckTriangles, FindsARepetitionInTheOtherWinding) {
   Square square;
   square.triangles = {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}};
@@ -210,8 +218,13 @@ struct Tetrahedron {
 TEST(CheckClosed, AcceptsATetrahedronWhereverItIs) {
   Tetrahedron body;
   EXPECT_EQ(body.complaint(), "none");
-  for (Vec3& x : body.x) x = 1e-3 * x + Vec3(1e4, -1e4, 1e4);
-  EXPECT_EQ(body.complaint(), "none");
+  for (int direction = 0; direction < 8;
+       ++direction) {  // the volume from the origin would be rounding noise of any sign
+    const Vec3 far(direction & 1 ? 1e5 : -1e5, direction & 2 ? 1e5 : -1e5, direction & 4 ? 1e5 : -1e5);
+    body = Tetrahedron();
+    for (Vec3& x : body.x) x = 1e-3 * x + far / 3;
+    EXPECT_EQ(body.complaint(), "none") << direction;
+  }
 }
 
 TEST(CheckClosed, NamesTheEdgeOfAHole) {
@@ -231,9 +244,12 @@ TEST(CheckClosed, RefusesABodyTurnedInsideOut) {
 }
 
 TEST(CheckClosed, RefusesAFlatBody) {
-  Tetrahedron body;
-  for (Vec3& x : body.x) x.z() = 0.25 * x.x() + 0.1;
-  EXPECT_NE(body.complaint().find("(flat)"), std::string::npos) << body.complaint();
+  for (int slope = 0; slope < 20; ++slope) {  // the noise of some is positive
+    Tetrahedron body;
+    for (Vec3& x : body.x) x = Vec3(x.x() / 3, x.y() / 7, 0.1 * slope * x.x() + x.y() / 3);
+    EXPECT_NE(body.complaint().find("mesh: expected triangles that face outwards"), std::string::npos)
+        << body.complaint();
+  }
 }
 
 TEST(CheckClosed, ChecksTheSurfaceToo) {

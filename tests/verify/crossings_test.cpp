@@ -115,6 +115,15 @@ TEST(Crossings, AreThoseOfExactArithmeticOnFloatSoup) {
   EXPECT_GT(total, 200u);
 }
 
+// The predicate on particles of two meshes, with the ranks that the finders promise.
+auto ranked(const Mesh& edges, std::int64_t first, const Mesh& triangles, std::int64_t second) {
+  return [&edges, &triangles, first, second](Index i, Index j, const Triangle& t) {
+    const auto of_edge = [&](Index k) { return RankedPoint{edges.x[static_cast<std::size_t>(k)], first + k}; };
+    const auto of_triangle = [&](Index k) { return RankedPoint{triangles.x[static_cast<std::size_t>(k)], second + k}; };
+    return segment_crosses_triangle(of_edge(i), of_edge(j), of_triangle(t[0]), of_triangle(t[1]), of_triangle(t[2]));
+  };
+}
+
 TEST(Crossings, OfTheTreeAreThoseOfAllPairs) {
   Random random(22);
   // A sheet crumpled onto itself: neighbours everywhere, and many real crossings.
@@ -124,15 +133,6 @@ TEST(Crossings, OfTheTreeAreThoseOfAllPairs) {
         Vec3(0.5 * std::sin(7 * u) + 0.02 * random.unit(), 0.5 * std::cos(9 * v + 3 * u), 0.4 * std::sin(5 * v * u)));
   });
   const Mesh body = soup(random, 600, 0.05);
-  const auto ranked = [](const Mesh& edges, std::int64_t first, const Mesh& triangles, std::int64_t second) {
-    return [&edges, &triangles, first, second](Index i, Index j, const Triangle& t) {
-      const auto of_edge = [&](Index k) { return RankedPoint{edges.x[static_cast<std::size_t>(k)], first + k}; };
-      const auto of_triangle = [&](Index k) {
-        return RankedPoint{triangles.x[static_cast<std::size_t>(k)], second + k};
-      };
-      return segment_crosses_triangle(of_edge(i), of_edge(j), of_triangle(t[0]), of_triangle(t[1]), of_triangle(t[2]));
-    };
-  };
   const auto n = static_cast<std::int64_t>(cloth.x.size());
   Found expected;
   all_pairs(cloth, body, false, false, ranked(cloth, 0, body, n), expected);
@@ -146,6 +146,26 @@ TEST(Crossings, OfTheTreeAreThoseOfAllPairs) {
   all_pairs(cloth, cloth, true, false, ranked(cloth, 0, cloth, 0), expected_self);
   EXPECT_GT(expected_self.size(), 50u);
   EXPECT_EQ(as_set(find_cloth_crossings(cloth.triangles, cloth.x)), expected_self);
+}
+
+// Lattice points: most pairs touch, overlap or are coplanar, and the answer depends on the ranks.
+TEST(Crossings, InDegeneratePositionsAreThoseOfAllPairsWithTheBodyRankedAfterTheCloth) {
+  Random random(26);
+  std::size_t total = 0;
+  for (int n = 0; n < 200; ++n) {
+    Mesh cloth, body;
+    for (Mesh* mesh : {&cloth, &body})
+      for (Index t = 0; t < 6; ++t) {
+        for (int k = 0; k < 3; ++k) mesh->x.push_back(random.lattice_point(0, 2));
+        mesh->triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+      }
+    Found expected;
+    all_pairs(cloth, body, false, false, ranked(cloth, 0, body, 18), expected);
+    all_pairs(body, cloth, false, true, ranked(body, 18, cloth, 0), expected);
+    total += expected.size();
+    ASSERT_EQ(as_set(find_body_crossings(cloth.triangles, cloth.x, body.triangles, body.x)), expected) << n;
+  }
+  EXPECT_GT(total, 1000u);
 }
 
 TEST(Crossings, AreSortedAndTheSameOnAnyNumberOfThreads) {
@@ -205,8 +225,8 @@ TEST(Crossings, ThroughAParticleOrAnEdgeOfASurfaceAreCountedOnce) {
   }
 }
 
-// Closed curves enter a closed surface as often as they leave it.  On a 3 x 3 x 3 lattice nearly everything is coplanar,
-// collinear or coincident, and only one consistent perturbation keeps the sum zero.
+// Closed curves enter a closed surface as often as they leave it.  On a 3 x 3 x 3 lattice nearly everything is
+// coplanar, collinear or coincident, and only one consistent perturbation keeps the sum zero.
 TEST(Crossings, OfAClosedCurveWithAClosedSurfaceCancelInEveryDegeneratePosition) {
   const std::vector<Triangle> faces = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {0, 5, 1}, {0, 4, 5},
                                        {1, 6, 2}, {1, 5, 6}, {2, 7, 3}, {2, 6, 7}, {3, 4, 0}, {3, 7, 4}};
@@ -291,8 +311,8 @@ TEST(Crossings, RefuseWhatIsNoSurface) {
   EXPECT_TRUE(find_cloth_crossings({}, {}).empty());
 }
 
-// The mean body of GarmentCode overlaps itself in the mouth, and two of its particles lie at the same place there.  Each
-// crossing found is confirmed in whole numbers: proper, or touching (which may count).
+// The mean body of GarmentCode overlaps itself in the mouth, and two of its particles lie at the same place there.
+// Each crossing found is confirmed in whole numbers: proper, or touching (which may count).
 TEST(Crossings, OfARealBodyWithItselfAreConfirmedByExactArithmetic) {
   const std::string path = std::string(TOILE_SHARED_DATA) + "/bodies/garmentcode/mean_all.obj";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;

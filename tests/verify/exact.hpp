@@ -1,7 +1,7 @@
 // tests/verify/exact.hpp: whole numbers of any size, and random bits: what the judge is judged by.
 //
-// Doubles are multiples of a power of two, so a set of them becomes whole numbers on one scale; signs of determinants of
-// those are the truth.  Schoolbook arithmetic, slow and obvious.
+// Doubles are multiples of a power of two, so a set of them becomes whole numbers on one scale; signs of determinants
+// of those are the truth.  Schoolbook arithmetic, slow and obvious.
 #pragma once
 #include "core/types.hpp"
 

@@ -141,8 +141,8 @@ Series operator*(const Series& a, const Series& b) {
   return product;
 }
 
-// The determinant of rows (x + eps, y + eps, z + eps, 1) multiplied out over all 24 permutations; the sign is that of its
-// lowest power.  Coordinates are small whole numbers.
+// The determinant of rows (x + eps, y + eps, z + eps, 1) multiplied out over all 24 permutations; the sign is that of
+// its lowest power.  Coordinates are small whole numbers.
 int sign_of_series(const std::array<Vec3, 4>& points, const std::array<int, 4>& rank) {
   Series determinant;
   std::array<std::size_t, 4> column = {0, 1, 2, 3};

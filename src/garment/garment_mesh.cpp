@@ -1,0 +1,229 @@
+#include "garment/garment_mesh.hpp"
+
+#include "core/error.hpp"
+#include "garment/triangulate.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace toile {
+namespace {
+
+// A seam counts as twisted when sewing it the other way round would bring the placed edges this much nearer.
+constexpr double twist_ratio = 2;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Index find_root(std::vector<Index>& parent, Index i) {
+  while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
+  return i;
+}
+
+std::string side_name(const Pattern& pattern, const StitchSide& side) {
+  const Panel& panel = pattern.panels[at(side.panel)];
+  return printable(panel.name) + "." + std::to_string(panel.file_number(side.edge));
+}
+
+double signed_area(std::span<const Vec2> outline) {
+  double twice = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 &p = outline[i], &q = outline[(i + 1) % outline.size()];
+    twice += p.x() * q.y() - p.y() * q.x();
+  }
+  return 0.5 * twice;
+}
+
+// How many pieces every edge of every panel is cut into: both sides of a seam alike.
+std::vector<std::vector<int>> pieces_of_edges(const Pattern& pattern, double resolution_m) {
+  std::vector<std::vector<int>> pieces(pattern.panels.size());
+  const auto count = [&](double length) { return std::max(1, static_cast<int>(std::ceil(length / resolution_m - 1e-9))); };
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
+    for (const PanelEdge& edge : pattern.panels[p].edges) pieces[p].push_back(count(edge_length_m(pattern.panels[p], edge)));
+  }
+  for (const Stitch& stitch : pattern.stitches) {
+    int &a = pieces[at(stitch.a.panel)][at(stitch.a.edge)], &b = pieces[at(stitch.b.panel)][at(stitch.b.edge)];
+    a = b = std::max(a, b);
+  }
+  return pieces;
+}
+
+struct MeshedPanel {
+  std::vector<std::vector<Index>> edge_particles;   // [edge] first to last corner, in the edge's direction
+};
+
+// Meshes one panel and appends it to the garment.
+MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_index, const std::vector<int>& pieces, double resolution_m) {
+  std::vector<Vec2> outline;
+  MeshedPanel meshed;
+  for (std::size_t e = 0; e < panel.edges.size(); ++e) {
+    const std::vector<Vec2> points = sample_edge(panel, panel.edges[e], pieces[e]);
+    std::vector<Index> particles;
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+      particles.push_back(garment.mesh.particle_count + static_cast<Index>(outline.size()));
+      outline.push_back(points[k]);
+    }
+    meshed.edge_particles.push_back(particles);
+  }
+  for (std::size_t e = 0; e < panel.edges.size(); ++e) {
+    meshed.edge_particles[e].push_back(meshed.edge_particles[(e + 1) % panel.edges.size()].front());
+  }
+  PlanarMesh planar;
+  try {
+    planar = triangulate(outline, resolution_m);
+  } catch (const InputError& error) {
+    throw InputError("", "panel " + printable(panel.name), "an outline that can be meshed at this resolution", error.what());
+  }
+  const bool mirrored = signed_area(outline) < 0;
+  const auto pattern_uv = [&](Index i) { return mirrored ? Vec2(planar.points[at(i)].y(), planar.points[at(i)].x()) : Vec2(planar.points[at(i)].y(), -planar.points[at(i)].x()); };
+  const Index first = garment.mesh.particle_count;
+  for (Triangle t : planar.triangles) {
+    if (mirrored) std::swap(t[1], t[2]);
+    garment.mesh.uv.push_back({pattern_uv(t[0]), pattern_uv(t[1]), pattern_uv(t[2])});
+    garment.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    garment.mesh.panel.push_back(panel_index);
+  }
+  for (std::size_t i = 0; i < planar.points.size(); ++i) {
+    garment.x.push_back(panel.place(planar.points[i]));
+    garment.on_panel_edge.push_back(i < outline.size());
+  }
+  garment.mesh.particle_count += static_cast<Index>(planar.points.size());
+  garment.mesh.panel_names.push_back(panel.name);
+  return meshed;
+}
+
+// Pairs the samples of a stitch and refuses one that is sewn the wrong way round.
+void add_seam(GarmentMesh& garment, const Pattern& pattern, const Stitch& stitch, const std::vector<MeshedPanel>& meshed) {
+  std::vector<Index> a = meshed[at(stitch.a.panel)].edge_particles[at(stitch.a.edge)];
+  std::vector<Index> b = meshed[at(stitch.b.panel)].edge_particles[at(stitch.b.edge)];
+  if (!stitch.right_wrong) std::reverse(b.begin(), b.end());
+  const Panel &panel_a = pattern.panels[at(stitch.a.panel)], &panel_b = pattern.panels[at(stitch.b.panel)];
+  Seam seam{side_name(pattern, stitch.a) + " - " + side_name(pattern, stitch.b), edge_length_m(panel_a, panel_a.edges[at(stitch.a.edge)]),
+            edge_length_m(panel_b, panel_b.edges[at(stitch.b.edge)])};
+  const bool dart = a.front() == b.front() || a.back() == b.back();
+  if (!dart) {
+    const Vec3 &a0 = garment.x[at(a.front())], &a1 = garment.x[at(a.back())], &b0 = garment.x[at(b.front())], &b1 = garment.x[at(b.back())];
+    const double as_sewn = (a0 - b0).norm() + (a1 - b1).norm(), other_way = (a0 - b1).norm() + (a1 - b0).norm();
+    // Two edges of the same panel edge-on to each other say nothing; only a clear difference does.
+    if (as_sewn > twist_ratio * other_way) {
+      throw InputError("", "seam " + seam.name, "matching ends near each other where the panels are placed",
+                       "a twisted seam: its ends lie nearer to the opposite ends (check \"right_wrong\" and the panels' loops)");
+    }
+  }
+  const auto index = static_cast<Index>(garment.seams.size());
+  const double length = 0.5 * (seam.length_a_m + seam.length_b_m), piece = length / static_cast<double>(a.size() - 1);
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (a[k] == b[k]) continue;
+    const bool end = k == 0 || k + 1 == a.size();
+    garment.pairs.push_back({a[k], b[k], end ? 0.5 * piece : piece, index});
+  }
+  garment.seams.push_back(std::move(seam));
+}
+
+void turn_over(GarmentMesh& garment, Index panel) {
+  for (std::size_t t = 0; t < garment.mesh.triangles.size(); ++t) {
+    if (garment.mesh.panel[t] != panel) continue;
+    std::swap(garment.mesh.triangles[t][1], garment.mesh.triangles[t][2]);
+    std::swap(garment.mesh.uv[t][1], garment.mesh.uv[t][2]);
+    for (Vec2& uv : garment.mesh.uv[t]) uv.y() = -uv.y();
+  }
+}
+
+// Panels joined right to wrong must be turned over for the surface to have one right side.
+void orient_panels(GarmentMesh& garment, const Pattern& pattern) {
+  std::vector<int> side(pattern.panels.size(), 0);   // 0: not reached, 1: as drawn, -1: turned over
+  for (std::size_t start = 0; start < side.size(); ++start) {
+    if (side[start] != 0) continue;
+    side[start] = 1;
+    bool changed = true;
+    while (changed) {
+      changed = false;
+      for (std::size_t s = 0; s < pattern.stitches.size(); ++s) {
+        const Stitch& stitch = pattern.stitches[s];
+        int &a = side[at(stitch.a.panel)], &b = side[at(stitch.b.panel)];
+        const int same = stitch.right_wrong ? -1 : 1;
+        if (a == 0 && b == 0) continue;
+        if (a == 0 || b == 0) {
+          (a == 0 ? a : b) = same * (a == 0 ? b : a);
+          changed = true;
+        } else if (a != same * b) {
+          throw InputError("", "seam " + garment.seams[s].name, "seams that give the garment one right side",
+                           "a twisted seam: following the other seams, its two panels face opposite ways");
+        }
+      }
+    }
+  }
+  for (std::size_t p = 0; p < side.size(); ++p) {
+    if (side[p] < 0) turn_over(garment, static_cast<Index>(p));
+  }
+}
+
+}  // namespace
+
+GarmentMesh mesh_garment(const Pattern& pattern, double resolution_m) {
+  GarmentMesh garment;
+  garment.name = pattern.name;
+  garment.legacy_frame = pattern.legacy_frame;
+  const std::vector<std::vector<int>> pieces = pieces_of_edges(pattern, resolution_m);
+  std::vector<MeshedPanel> meshed;
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
+    meshed.push_back(add_panel(garment, pattern.panels[p], static_cast<Index>(p), pieces[p], resolution_m));
+    for (std::size_t e = 0; e < pattern.panels[p].edges.size(); ++e) {
+      const std::string& label = pattern.panels[p].edges[e].label;
+      if (!label.empty()) garment.labels.push_back({label, meshed.back().edge_particles[e]});
+    }
+  }
+  for (const Stitch& stitch : pattern.stitches) add_seam(garment, pattern, stitch, meshed);
+  orient_panels(garment, pattern);
+
+  garment.merged.resize(at(garment.mesh.particle_count));
+  std::iota(garment.merged.begin(), garment.merged.end(), 0);
+  for (const SeamPair& pair : garment.pairs) {
+    const Index a = find_root(garment.merged, pair.a), b = find_root(garment.merged, pair.b);
+    garment.merged[at(std::max(a, b))] = std::min(a, b);
+  }
+  for (Index i = 0; i < garment.mesh.particle_count; ++i) garment.merged[at(i)] = find_root(garment.merged, i);
+  return garment;
+}
+
+WeldedMesh weld(const GarmentMesh& garment) {
+  WeldedMesh welded{garment.mesh, std::vector<Index>(garment.merged.size(), -1)};
+  Index count = 0;
+  for (std::size_t i = 0; i < garment.merged.size(); ++i) {
+    const auto root = at(garment.merged[i]);
+    welded.particle_of[i] = root == i ? count++ : welded.particle_of[root];
+  }
+  welded.mesh.particle_count = count;
+  for (Triangle& t : welded.mesh.triangles) {
+    for (Index& corner : t) corner = welded.particle_of[at(corner)];
+  }
+  return welded;
+}
+
+MeshQuality mesh_quality(const ClothMesh& mesh) {
+  MeshQuality quality;
+  std::vector<double> angles;
+  double sum = 0;
+  quality.min_edge_m = 1e300;
+  for (const auto& uv : mesh.uv) {
+    double smallest = 180;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 e = uv[(k + 1) % 3] - uv[k], f = uv[(k + 2) % 3] - uv[k];
+      smallest = std::min(smallest, std::atan2(std::abs(e.x() * f.y() - e.y() * f.x()), e.dot(f)) * 180 / 3.14159265358979323846);
+      sum += e.norm();
+      quality.min_edge_m = std::min(quality.min_edge_m, e.norm());
+      quality.max_edge_m = std::max(quality.max_edge_m, e.norm());
+    }
+    angles.push_back(smallest);
+  }
+  if (angles.empty()) return {};
+  std::sort(angles.begin(), angles.end());
+  quality.min_angle_deg = angles.front();
+  quality.p1_angle_deg = angles[angles.size() / 100];
+  quality.mean_edge_m = sum / (3 * static_cast<double>(mesh.uv.size()));
+  return quality;
+}
+
+}  // namespace toile

@@ -1,0 +1,118 @@
+#include "garment/placement.hpp"
+
+#include "core/parallel.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile {
+namespace {
+
+constexpr double lowest_m = -0.12, highest_m = 0.16, step_m = 0.01;     // vertical shifts
+constexpr double depth_m = 0.04, depth_step_m = 0.02;                   // forwards and backwards
+constexpr double legacy_origin = 0.68;                                  // of the body's height
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+bool crosses(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 n = (b - a).cross(c - a), d = q - p;
+  const double from = n.dot(p - a), to = n.dot(q - a);
+  if ((from > 0) == (to > 0)) return false;
+  const double u = d.dot((a - p).cross(b - p)), v = d.dot((b - p).cross(c - p)), w = d.dot((c - p).cross(a - p));
+  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
+class BodyLines {
+ public:
+  explicit BodyLines(const BodySurface& body) : body_(&body) {}
+  bool blocked(const Vec3& p, const Vec3& q) const {
+    std::vector<Index> triangles;
+    body_->tree_now().overlapping({p.cwiseMin(q), p.cwiseMax(q)}, triangles);
+    const auto x = body_->positions();
+    return std::any_of(triangles.begin(), triangles.end(), [&](Index t) {
+      const Triangle& corners = body_->triangle(t);
+      return crosses(p, q, x[at(corners[0])], x[at(corners[1])], x[at(corners[2])]);
+    });
+  }
+
+ private:
+  const BodySurface* body_;
+};
+
+struct Blocked {
+  int pairs = 0;
+  double cost = 0;    // sum over seams of blocked^2 / pairs: a seam's free part leads the rest round the body, a seam wholly behind it is lost
+};
+
+Blocked blocked_pairs(const GarmentMesh& garment, const BodyLines& body, const Vec3& shift) {
+  std::vector<double> blocked(garment.seams.size(), 0), pairs(garment.seams.size(), 0);
+  Blocked result;
+  for (const SeamPair& pair : garment.pairs) {
+    pairs[at(pair.seam)] += 1;
+    if (!body.blocked(garment.x[at(pair.a)] + shift, garment.x[at(pair.b)] + shift)) continue;
+    blocked[at(pair.seam)] += 1;
+    ++result.pairs;
+  }
+  for (std::size_t s = 0; s < blocked.size(); ++s) result.cost += pairs[s] > 0 ? blocked[s] * blocked[s] / pairs[s] : 0;
+  return result;
+}
+
+int edges_in_body(const GarmentMesh& garment, const BodyLines& body, const Vec3& shift) {
+  int count = 0;
+  for (const Triangle& t : garment.mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (body.blocked(garment.x[at(t[k])] + shift, garment.x[at(t[(k + 1) % 3])] + shift)) ++count;
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+Placement place_garment(GarmentMesh& garment, const BodySurface& body) {
+  Placement placement;
+  double low = 1e300, high = -1e300;
+  for (const Vec3& p : body.positions()) {
+    low = std::min(low, p.y());
+    high = std::max(high, p.y());
+  }
+  if (garment.legacy_frame) {
+    const Vec3 raise(0, low + legacy_origin * (high - low), 0);
+    for (Vec3& p : garment.x) p += raise;
+    placement.shift_m += raise;
+  }
+  const BodyLines lines(body);
+  std::vector<Vec3> shifts;
+  for (int y = 0; lowest_m + y * step_m <= highest_m + 1e-9; ++y) {
+    for (int z = 0; -depth_m + z * depth_step_m <= depth_m + 1e-9; ++z) shifts.emplace_back(0, lowest_m + y * step_m, -depth_m + z * depth_step_m);
+  }
+  // The smallest shift wins among equals: sorted by length, and the first of the fewest is taken.
+  std::stable_sort(shifts.begin(), shifts.end(), [](const Vec3& a, const Vec3& b) { return a.squaredNorm() < b.squaredNorm(); });
+  std::vector<Blocked> blocked(shifts.size());
+  parallel_for(shifts.size(), 1, [&](std::size_t s) { blocked[s] = blocked_pairs(garment, lines, shifts[s]); });
+  placement.blocked_before = blocked.front().pairs;
+  std::vector<std::size_t> order(shifts.size());
+  for (std::size_t s = 0; s < order.size(); ++s) order[s] = s;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return blocked[a].cost < blocked[b].cost; });
+  std::size_t best = order.front();
+  for (const std::size_t s : order) {
+    if (edges_in_body(garment, lines, shifts[s]) == 0) {
+      best = s;
+      break;
+    }
+  }
+  for (Vec3& p : garment.x) p += shifts[best];
+  placement.shift_m += shifts[best];
+  placement.blocked = blocked[best].pairs;
+  placement.panel_crossings = edges_in_body(garment, lines, Vec3::Zero());
+  for (const SeamPair& pair : garment.pairs) {
+    if (lines.blocked(garment.x[at(pair.a)], garment.x[at(pair.b)])) placement.blocked_seams.push_back(pair.seam);
+  }
+  std::sort(placement.blocked_seams.begin(), placement.blocked_seams.end());
+  placement.blocked_seams.erase(std::unique(placement.blocked_seams.begin(), placement.blocked_seams.end()), placement.blocked_seams.end());
+  return placement;
+}
+
+}  // namespace toile

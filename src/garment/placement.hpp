@@ -1,0 +1,26 @@
+// garment/placement.hpp: where the flat panels hang before they are sewn.                       docs/theory/sewing.md#placement
+//
+// A seam closes cleanly when nothing of the body lies between its two sides.  Patterns are placed by eye, often a few centimetres off,
+// so small shifts of the whole garment are tried and the one with the least of its seams behind the body is taken; shifts that
+// would put a panel's edge into the body are not considered.
+#pragma once
+#include "contact/proximity.hpp"
+#include "garment/garment_mesh.hpp"
+
+#include <string>
+#include <vector>
+
+namespace toile {
+
+struct Placement {
+  Vec3 shift_m{0, 0, 0};
+  int blocked_before = 0, blocked = 0;       // seam pairs whose straight line passes through the body, before and after
+  int panel_crossings = 0;                   // mesh edges of the placed panels that pass through the body: > 0 is a bad start
+  std::vector<Index> blocked_seams;          // seams with such lines left, ascending
+};
+
+// Finds the shift and applies it to garment.x.  Patterns in the frame of the 2021 tool (GarmentMesh::legacy_frame) are first raised by 0.68
+// of the body's height: their origin is near the pelvis.
+Placement place_garment(GarmentMesh& garment, const BodySurface& body);
+
+}  // namespace toile

@@ -1,0 +1,166 @@
+#include "garment/sewing.hpp"
+
+#include "step/tangents.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile {
+namespace {
+
+constexpr int most_escalations = 3;      // friction off, then two doublings of the pull
+constexpr double coincident_m = 1e-7;    // below it the direction of a pair means nothing: its spring is isotropic
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, BodySurface* body, const StepOptions& step, const SewingOptions& options)
+    : garment_(&garment), options_(options) {
+  ModelOptions weightless;
+  weightless.gravity_m_per_s2.setZero();
+  model_ = build_model(garment.mesh, fabrics, weightless);
+  state_ = {garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
+  for (const SeamPair& pair : garment.pairs) {
+    start_distance_m_.push_back((garment.x[at(pair.b)] - garment.x[at(pair.a)]).norm());
+    longest_m_ = std::max(longest_m_, start_distance_m_.back());
+  }
+  best_gap_m_ = longest_m_;
+  world_.body = body;
+  world_.merged_particle = garment.merged;
+  world_.springs = [this](const ClothState& state, double h_s, std::vector<LinearSpring>& springs) { append_springs(state, h_s, springs); };
+  StepOptions sewing_step = step;
+  sewing_step.body.friction = std::min(step.body.friction, options.friction);
+  sewing_step.body.offset_m = std::max(step.body.offset_m, options.offset_m);
+  AdaptiveOptions adaptive;
+  adaptive.step_max_s = 1 / options.fps;
+  adaptive.floor_halvings = 3;           // the pull of a seam is not divergence
+  stepper_.emplace(model_, world_, sewing_step, adaptive);
+  if (garment.pairs.empty()) status_ = SewingStatus::closed;
+}
+
+void Sewing::append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const {
+  const double shrunk = options_.closing_speed_m_per_s * (time_s_ + h_s);
+  for (std::size_t k = 0; k < garment_->pairs.size(); ++k) {
+    const SeamPair& pair = garment_->pairs[k];
+    const double wanted = std::max(0.0, start_distance_m_[k] - shrunk);
+    const Vec3 d = state.x[at(pair.b)] - state.x[at(pair.a)];
+    const double distance = d.norm(), excess = distance - wanted;
+    const double limit = pull_factor_ * options_.pull_N_per_m * pair.share_m, k_pull = limit / options_.give_m;
+    LinearSpring spring;
+    spring.particle = {pair.a, pair.b, -1, -1};
+    spring.weight = {-1, 1, 0, 0};
+    if (distance < coincident_m) {
+      spring.stiffness_N_per_m = k_pull;
+      spring.damping_N_s_per_m = options_.damping_s * k_pull;
+      for (int axis = 0; axis < 3; ++axis) {
+        spring.direction = Vec3::Unit(axis);
+        springs.push_back(spring);
+      }
+      continue;
+    }
+    if (excess <= 0) continue;
+    const double force = std::min(k_pull * excess, limit), secant = force / excess;
+    spring.direction = d / distance;
+    spring.force_N = -force;
+    spring.stiffness_N_per_m = secant;
+    spring.damping_N_s_per_m = options_.damping_s * secant;
+    springs.push_back(spring);
+    spring.force_N = spring.damping_N_s_per_m = 0;
+    spring.stiffness_N_per_m = force / distance;
+    for (const Vec3& t : tangents(d / distance)) {
+      spring.direction = t;
+      springs.push_back(spring);
+    }
+  }
+}
+
+FrameReport Sewing::frame() {
+  FrameReport report;
+  if (status_ != SewingStatus::sewing) return report;
+  const double frame_s = 1 / options_.fps;
+  report = stepper_->advance(state_, time_s_, frame_s);
+  time_s_ += frame_s;
+  if (!report.ok) {
+    status_ = SewingStatus::failed;
+    return report;
+  }
+  judge_progress();
+  return report;
+}
+
+void Sewing::judge_progress() {
+  const double gap = widest_gap_m();
+  if (gap < options_.weld_gap_m) {
+    status_ = SewingStatus::closed;
+    return;
+  }
+  if (gap < 0.95 * best_gap_m_) {        // still closing
+    best_gap_m_ = gap;
+    best_time_s_ = time_s_;
+  }
+  const bool reached = options_.closing_speed_m_per_s * time_s_ >= longest_m_;
+  if (!reached || time_s_ - best_time_s_ < options_.patience_s) return;
+  if (escalations_ == most_escalations) {
+    status_ = SewingStatus::blocked;
+    return;
+  }
+  if (escalations_ == 0) {
+    stepper_->integrator().body_constraints().set_friction(0);
+  } else {
+    pull_factor_ *= 2;
+  }
+  ++escalations_;
+  best_gap_m_ = gap;
+  best_time_s_ = time_s_;
+}
+
+double Sewing::widest_gap_m() const {
+  double widest = 0;
+  for (const SeamPair& pair : garment_->pairs) widest = std::max(widest, (state_.x[at(pair.b)] - state_.x[at(pair.a)]).norm());
+  return widest;
+}
+
+double Sewing::closed_share() const {
+  return longest_m_ > 0 ? std::clamp(1 - widest_gap_m() / longest_m_, 0.0, 1.0) : 1;
+}
+
+std::vector<SeamGap> Sewing::gaps() const {
+  std::vector<SeamGap> gaps(garment_->seams.size());
+  for (std::size_t s = 0; s < gaps.size(); ++s) gaps[s].seam = static_cast<Index>(s);
+  std::vector<double> stretch(state_.x.size(), 0);
+  std::vector<Vec2> w(model_.mesh.triangles.size());
+  stepper_->integrator().elements().stretch(state_.x, w);
+  for (std::size_t t = 0; t < w.size(); ++t) {
+    for (const Index corner : model_.mesh.triangles[t]) stretch[at(corner)] = std::max(stretch[at(corner)], w[t].maxCoeff() - 1);
+  }
+  for (const SeamPair& pair : garment_->pairs) {
+    SeamGap& gap = gaps[at(pair.seam)];
+    const double distance = (state_.x[at(pair.b)] - state_.x[at(pair.a)]).norm();
+    gap.stretch = std::max({gap.stretch, stretch[at(pair.a)], stretch[at(pair.b)]});
+    if (distance <= gap.gap_m) continue;
+    gap.gap_m = distance;
+    gap.where = 0.5 * (state_.x[at(pair.a)] + state_.x[at(pair.b)]);
+  }
+  std::stable_sort(gaps.begin(), gaps.end(), [](const SeamGap& a, const SeamGap& b) { return a.gap_m > b.gap_m; });
+  return gaps;
+}
+
+ClothState weld_state(const GarmentMesh& garment, const WeldedMesh& welded, const ClothModel& model, const ClothState& state) {
+  const std::size_t count = at(welded.mesh.particle_count);
+  ClothState joined{Vec3s(count, Vec3::Zero()), Vec3s(count, Vec3::Zero())};
+  std::vector<double> mass(count, 0);
+  for (std::size_t i = 0; i < garment.merged.size(); ++i) {
+    const std::size_t p = at(welded.particle_of[i]);
+    mass[p] += model.mass_kg[i];
+    joined.x[p] += model.mass_kg[i] * state.x[i];
+    joined.v[p] += model.mass_kg[i] * state.v[i];
+  }
+  for (std::size_t p = 0; p < count; ++p) {
+    joined.x[p] /= mass[p];
+    joined.v[p] /= mass[p];
+  }
+  return joined;
+}
+
+}  // namespace toile

@@ -1,0 +1,141 @@
+// Reading a body out of a file: its unit, which part it is, and what is refused.
+#include "body/collision_body.hpp"
+
+#include "core/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace toile {
+namespace {
+
+// Adds a closed box with corners low and high to a group; `faces` of its 12 triangles.
+void add_box(ObjMesh& mesh, const Vec3& low, const Vec3& high, const std::string& group, std::size_t faces = 12) {
+  const Index first = static_cast<Index>(mesh.positions.size());
+  for (int c = 0; c < 8; ++c)
+    mesh.positions.emplace_back(c & 1 ? high.x() : low.x(), c & 2 ? high.y() : low.y(), c & 4 ? high.z() : low.z());
+  constexpr Triangle box[12] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  mesh.group_names.push_back(group);
+  for (std::size_t i = 0; i < faces; ++i) {
+    mesh.triangles.push_back({first + box[i][0], first + box[i][1], first + box[i][2]});
+    mesh.group.push_back(static_cast<Index>(mesh.group_names.size()) - 1);
+  }
+}
+
+ObjMesh box_of_height(double height) {
+  ObjMesh mesh;
+  add_box(mesh, Vec3::Zero(), Vec3(0.2 * height, height, 0.1 * height), "");
+  return mesh;
+}
+
+std::string complaint(const ObjMesh& mesh, LengthUnit unit) {
+  try {
+    make_collision_body(mesh, "models/figure.obj", unit);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(CollisionBody, TakesMetresAndItsNameFromTheFile) {
+  const CollisionBody body = make_collision_body(box_of_height(1.7), "models/figure.obj", LengthUnit::automatic);
+  EXPECT_EQ(body.name, "figure");
+  EXPECT_DOUBLE_EQ(body.height_m, 1.7);
+  EXPECT_EQ(body.positions.size(), 8U);
+  EXPECT_EQ(body.triangles.size(), 12U);
+}
+
+TEST(CollisionBody, ConvertsTheUnitThatIsAskedFor) {
+  EXPECT_NEAR(make_collision_body(box_of_height(17), "f.obj", LengthUnit::dm).height_m, 1.7, 1e-12);
+  EXPECT_NEAR(make_collision_body(box_of_height(170), "f.obj", LengthUnit::cm).height_m, 1.7, 1e-12);
+  EXPECT_NEAR(make_collision_body(box_of_height(0.3), "doll.obj", LengthUnit::m).height_m, 0.3, 1e-12);
+}
+
+TEST(CollisionBody, AsksForTheUnitInsteadOfGuessingIt) {
+  const std::string cm = complaint(box_of_height(171.99), LengthUnit::automatic);
+  EXPECT_NE(cm.find("figure.obj: body height: expected 0.5 to 2.5 m"), std::string::npos) << cm;
+  EXPECT_NE(cm.find("--body-unit cm if the body is 1.72 m tall"), std::string::npos) << cm;
+  EXPECT_NE(cm.find("got 172 m"), std::string::npos) << cm;
+  const std::string dm = complaint(box_of_height(16.5), LengthUnit::automatic);
+  EXPECT_NE(dm.find("--body-unit dm if the body is 1.65 m tall"), std::string::npos) << dm;
+  for (const double height : {0.3, 3.0, 1720.0}) {
+    const std::string none = complaint(box_of_height(height), LengthUnit::automatic);
+    EXPECT_NE(none.find("no unit of m, dm, cm fits"), std::string::npos) << height << ": " << none;
+    EXPECT_NE(none.find("--body-unit"), std::string::npos) << none;
+  }
+}
+
+TEST(CollisionBody, KeepsTheGroupCalledBodyEvenWhenAnotherIsLarger) {
+  ObjMesh mesh;
+  add_box(mesh, Vec3(-5, -5, -5), Vec3(5, 5, 5), "helper-skirt");
+  add_box(mesh, Vec3::Zero(), Vec3(0.3, 1.7, 0.2), "Body");
+  const CollisionBody body = make_collision_body(mesh, "f.obj", LengthUnit::automatic);
+  EXPECT_EQ(body.positions.size(), 8U);
+  EXPECT_EQ(body.triangles.size(), 12U);
+  EXPECT_DOUBLE_EQ(body.height_m, 1.7);
+}
+
+TEST(CollisionBody, WithoutSuchANameKeepsTheLargeClosedPartsOnly) {
+  ObjMesh mesh;
+  add_box(mesh, Vec3(-3, -3, -3), Vec3(3, 3, 3), "open", 11);
+  add_box(mesh, Vec3::Zero(), Vec3(0.4, 1.4, 0.2), "trunk");
+  add_box(mesh, Vec3(0.05, 1.45, 0), Vec3(0.25, 1.7, 0.25), "head");
+  add_box(mesh, Vec3(0.1, 1.6, 0.26), Vec3(0.12, 1.62, 0.28), "eye");
+  const CollisionBody body = make_collision_body(mesh, "f.obj", LengthUnit::automatic);
+  EXPECT_EQ(body.triangles.size(), 24U);
+  EXPECT_EQ(body.positions.size(), 16U);
+  EXPECT_DOUBLE_EQ(body.height_m, 1.7);
+}
+
+TEST(CollisionBody, RefusesWhatIsNotAClosedBody) {
+  EXPECT_NE(complaint(ObjMesh{}, LengthUnit::automatic).find("expected a closed surface"), std::string::npos);
+  ObjMesh open = box_of_height(1.7);
+  open.triangles.pop_back();
+  open.group.pop_back();
+  EXPECT_NE(complaint(open, LengthUnit::automatic).find("figure.obj"), std::string::npos);
+  ObjMesh inside_out = box_of_height(1.7);
+  for (Triangle& t : inside_out.triangles) std::swap(t[1], t[2]);
+  EXPECT_NE(complaint(inside_out, LengthUnit::automatic), "");
+  ObjMesh endless = box_of_height(1.7);
+  endless.positions[3].x() = 1.0 / 0.0;
+  EXPECT_NE(complaint(endless, LengthUnit::automatic).find("vertex 3: expected finite"), std::string::npos);
+  ObjMesh dangling = box_of_height(1.7);
+  dangling.triangles[4][1] = 99;
+  EXPECT_NE(complaint(dangling, LengthUnit::automatic).find("triangle 4"), std::string::npos);
+}
+
+TEST(CollisionBody, IsMadeFromTheMannequinToo) {
+  const Mannequin m = make_mannequin();
+  const CollisionBody body = from_mannequin(m);
+  EXPECT_EQ(body.positions.size(), m.positions.size());
+  EXPECT_EQ(body.triangles, m.triangles);
+  EXPECT_NEAR(body.height_m, 1.72, 0.005);
+  EXPECT_EQ(body.name, "mannequin");
+}
+
+TEST(CollisionBody, ReadsTheBodyOfMakeHumansBaseMesh) {
+  const std::string file = std::string(TOILE_SHARED_DATA) + "/bodies/makehuman/base.obj";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
+  const ObjMesh mesh = load_obj(file);
+  const CollisionBody body = make_collision_body(mesh, file, LengthUnit::dm);
+  EXPECT_EQ(body.positions.size(), 13380U);
+  EXPECT_EQ(body.triangles.size(), 26756U);
+  EXPECT_GT(body.height_m, 1.5);
+  EXPECT_LT(body.height_m, 1.9);
+  EXPECT_NE(complaint(mesh, LengthUnit::automatic).find("--body-unit dm"), std::string::npos);
+}
+
+TEST(CollisionBody, ReadsTheBodyOfGarmentCode) {
+  const std::string file = std::string(TOILE_SHARED_DATA) + "/bodies/garmentcode/mean_all.obj";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
+  const CollisionBody body = make_collision_body(load_obj(file), file, LengthUnit::automatic);
+  EXPECT_EQ(body.positions.size(), 23752U);
+  EXPECT_EQ(body.triangles.size(), 47500U);
+  EXPECT_NEAR(body.height_m, 1.7199, 0.01);
+}
+
+}  // namespace
+}  // namespace toile
