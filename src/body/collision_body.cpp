@@ -72,8 +72,8 @@ class DisjointSets {
   std::vector<Index> parent_;
 };
 
-// The triangles of the closed parts that are large enough; all triangles when no part is closed, so that the check of the
-// whole can say where it is open.
+// The triangles of the closed parts that are large enough; all triangles when no part is closed, so that the check
+// of the whole can say where it is open.
 std::vector<Triangle> closed_parts(const ObjMesh& mesh) {
   struct Part {
     double volume = 0;

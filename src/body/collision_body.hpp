@@ -1,7 +1,8 @@
 // body/collision_body.hpp: the body that cloth collides with: one closed mesh in metres, whoever made it.
 //
-// Files differ in unit (GarmentCode: m, MakeHuman: dm, others cm) and carry more than the body (MakeHuman's base mesh has clothes helpers and joint
-// cubes).  The unit is never guessed: metres are taken, and a height that no body has is an error that names the unit that would fit.
+// Files differ in unit (GarmentCode: m, MakeHuman: dm, others cm) and carry more than the body (MakeHuman's base
+// mesh has clothes helpers and joint cubes).  The unit is never guessed: metres are taken, and a height that no
+// body has is an error that names the unit that would fit.
 #pragma once
 #include "body/mannequin.hpp"
 #include "io/obj.hpp"
@@ -21,13 +22,15 @@ struct CollisionBody {
 
 enum class LengthUnit { automatic, m, dm, cm };  // automatic: metres, or an error
 
-// Keeps the body and drops what is not: the group or object named `body` (in any case) if there is one, otherwise, of the connected parts
-// that are closed, the one that encloses most and those that enclose at least a tenth as much (a separate head stays, eyeballs go).
-// Vertices that nobody uses go too; the others keep their order.
+// Keeps the body and drops what is not: the group or object named `body` (in any case) if there is one, otherwise,
+// of the connected parts that are closed, the one that encloses most and those that enclose at least a tenth as
+// much (a separate head stays, eyeballs go). Vertices that nobody uses go too; the others keep their order.
 //
 // Throws InputError, with `file` as its place, when
-//   there are no triangles, or the body is not closed: the first bad edge or vertex is named              [mesh/check.hpp]
-//   the unit is `automatic` and the height lies outside 0.5 .. 2.5 m: asks for --body-unit and says which unit would fit
+//   there are no triangles, or the body is not closed: the first bad edge or vertex is named
+//   [mesh/check.hpp]
+//   the unit is `automatic` and the height lies outside 0.5 .. 2.5 m: asks for --body-unit and says which unit
+//   would fit
 // With a unit given, every height is taken: dolls and giants may be dressed.
 CollisionBody make_collision_body(const ObjMesh& mesh, std::string_view file, LengthUnit unit);
 

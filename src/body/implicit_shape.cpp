@@ -15,7 +15,8 @@ namespace {
 // A shape farther than this from a point cannot take part in any blend there; its exact distance does not matter.
 constexpr double far_m = 0.12;
 
-// Second derivatives of the natural cubic spline through (t, y): the usual tridiagonal system, solved forwards and back.
+// Second derivatives of the natural cubic spline through (t, y): the usual tridiagonal system, solved forwards and
+// back.
 std::vector<double> natural_spline(std::span<const double> t, std::span<const double> y) {
   const std::size_t n = t.size();
   std::vector<double> second(n, 0.0), upper(n, 0.0);

@@ -1,10 +1,11 @@
-// body/implicit_shape.hpp: the pieces that a body is blended from: lofts, ellipsoids and round cones as signed distances.
+// body/implicit_shape.hpp: the pieces that a body is blended from: lofts, ellipsoids, round cones as signed distances.
 //
-// A shape is a function f with f < 0 inside and f = 0 on the surface; near the surface f is about the distance in metres, which
-// is all that blending and Newton steps need.
-//   loft          sections along a straight axis; their centre, half-widths and squareness are natural cubic splines of height
-//   section       |(u/a, v/b)| in the norm of a squircle, rho^2 = (q + sqrt(q^2 - 4 s^2 U^2 V^2)) / 2, q = U^2 + V^2: an ellipse for
-//                 s = 0, a rectangle for s = 1.  b differs for v > 0 (front) and v < 0 (back): bellies and backs are not alike.
+// A shape is a function f with f < 0 inside and f = 0 on the surface; near the surface f is about the distance in
+// metres, which is all that blending and Newton steps need.
+//   loft          sections along a straight axis; their centre, half-widths and squareness are natural cubic splines
+//   section       rho(u/a, v/b) = 1 in the norm of a squircle, rho^2 = (q + sqrt(q^2 - 4 s^2 U^2 V^2)) / 2 with
+//                 q = U^2 + V^2: an ellipse for s = 0, a rectangle for s = 1.  b differs for v > 0 (front) and
+//                 v < 0 (back): bellies and backs are not alike
 //   blend         cubic smooth minimum of width k: min(a, b) - k h^3 / 6 with h = max(0, 1 - |a - b| / k)
 // Only + - * / sqrt are used, so that every machine computes the same bits; nothing here calls sin, pow or exp.
 #pragma once

@@ -39,8 +39,8 @@ Girth extreme_girth(const Mannequin& m, double low, double high, double sign) {
   return best;
 }
 
-// The acromion: going outwards on the shoulder's upper outline (in the plane z of the shoulder joint), the point at which it first falls
-// more steeply than 0.62, half-way between the slope of the shoulder and that of the arm.
+// The acromion: going outwards on the shoulder's upper outline (in the plane z of the shoulder joint), the point at
+// which it first falls more steeply than 0.62, half-way between the slope of the shoulder and that of the arm.
 Vec3 acromion(const Mannequin& m) {
   const double plane_z = joint_position(m, "shoulder_left").z();
   const auto outline = section(m.positions, m.triangles, Vec3(0, 0, plane_z), Vec3(0, 0, 1));

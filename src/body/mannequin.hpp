@@ -1,7 +1,8 @@
 // body/mannequin.hpp: a human body made by our own code: an implicit surface over a skeleton of joints.
 //
-// Closed, about 10,000 vertices, A-pose, facing +z (so +x is her left), feet on y = 0, metres.  Deterministic: the same bits
-// everywhere, and symmetric in x to the last bit.  Skin weights are kept so that the moving mannequin can come later without a new body.
+// Closed, about 10,000 vertices, A-pose, facing +z (so +x is her left), feet on y = 0, metres.  Deterministic: the
+// same bits everywhere, and symmetric in x to the last bit.  Skin weights are kept so that the moving mannequin can
+// come later without a new body.
 //                                                                                                     docs/mannequin.md
 #pragma once
 #include "core/types.hpp"

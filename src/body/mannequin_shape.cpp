@@ -1,7 +1,7 @@
 // body/mannequin_shape.cpp: the numbers of the mannequin: sections of trunk, head and limbs, and how softly they blend.
 //
-// Every part is written for the left side (x > 0).  Parts beside the middle come with their image, so that breasts, buttocks and thighs
-// blend with each other across x = 0 instead of meeting in a crease.
+// Every part is written for the left side (x > 0).  Parts beside the middle come with their image, so that breasts,
+// buttocks and thighs blend with each other across x = 0 instead of meeting in a crease.
 #include "body/mannequin_shape.hpp"
 
 #include <algorithm>

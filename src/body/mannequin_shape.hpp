@@ -1,7 +1,8 @@
 // body/mannequin_shape.hpp: the shape of the mannequin as a field, and the joints that it is built around.
 //
-// An adult woman of 1.72 m with the proportions of a dress form; metres, y up, facing +z, so that +x is her left.  The field is symmetric
-// in x.  Its numbers are ours: heights and girths near the middle of published anthropometric ranges, shapes judged by eye.
+// An adult woman of 1.72 m with the proportions of a dress form; metres, y up, facing +z, so that +x is her left.
+// The field is symmetric in x.  Its numbers are ours: heights and girths near the middle of published
+// anthropometric ranges, shapes judged by eye.
 #pragma once
 #include "body/implicit_shape.hpp"
 #include "body/mannequin.hpp"

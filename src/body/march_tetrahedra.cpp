@@ -1,7 +1,8 @@
 // body/march_tetrahedra.cpp: the rough mesh of an implicit surface, and the mirroring of a half.
 //
-// A tetrahedron (a, b, c, d) with det(b-a, c-a, d-a) > 0 and only a inside gives the triangle (ab, ac, ad), which looks away from
-// a; with a, b inside it gives the quad ab -> (ac, ad, bd, bc).  Other cases are even permutations of these two.
+// A tetrahedron (a, b, c, d) with det(b-a, c-a, d-a) > 0 and only a inside gives the triangle (ab, ac, ad), which
+// looks away from a; with a, b inside it gives the quad ab -> (ac, ad, bd, bc).  Other cases are even permutations
+// of these two.
 #include "body/polygonise.hpp"
 #include "core/parallel.hpp"
 

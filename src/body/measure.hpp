@@ -9,8 +9,8 @@
 
 namespace toile {
 
-// The closed curves in which the plane (p - origin) . normal = 0 cuts a closed mesh, each as points in order; curves are
-// ordered by the first edge of the mesh that they cross.  A vertex on the plane counts as above it.
+// The closed curves in which the plane (p - origin) . normal = 0 cuts a closed mesh, each as points in order;
+// curves are ordered by the first edge of the mesh that they cross.  A vertex on the plane counts as above it.
 std::vector<std::vector<Vec3>> section(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                        const Vec3& origin, const Vec3& normal);
 

@@ -1,10 +1,13 @@
 // body/polygonise.hpp: triangles of an implicit surface: a rough mesh by marching tetrahedra, then isotropic remeshing.
 //
-// Both work on the half x >= 0 of a field that is symmetric in x; the plane x = 0 cuts the surface along a border, whose vertices have
-// x = 0 exactly, so that the mirrored half fits without a seam and the whole is symmetric to the last bit.
-//   rough mesh    each cube of a grid as six tetrahedra around its main diagonal (Kuhn): no ambiguous case, always manifold
-//   remeshing     split edges longer than 4/3 L, collapse those shorter than 4/5 L, flip towards valence 6 (4 on the border), move vertices in
-//                 the tangent plane towards the centroid of their neighbours, and back onto f = 0 by Newton.  [Botsch & Kobbelt 2004]
+// Both work on the half x >= 0 of a field that is symmetric in x; the plane x = 0 cuts the surface along a border,
+// whose vertices have x = 0 exactly, so that the mirrored half fits without a seam and the whole is symmetric to
+// the last bit.
+//   rough mesh    each cube of a grid as six tetrahedra around its main diagonal (Kuhn): no ambiguous case, always
+//                 manifold
+//   remeshing     split edges longer than 4/3 L, collapse those shorter than 4/5 L, flip towards valence 6 (4 on the
+//                 border), move vertices in the tangent plane towards the centroid of their neighbours, and back onto
+//                 f = 0 by Newton.                                                       [Botsch & Kobbelt 2004]
 // Every decision compares numbers made of + - * / sqrt, in a fixed order: the same mesh everywhere.
 #pragma once
 #include "core/types.hpp"

@@ -24,7 +24,8 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return std::sqrt(d.dot(d));
 }
 
-// 0 for the other side's limbs, 1 for the own side's, smooth across the middle: thighs that are close do not share bones.
+// 0 for the other side's limbs, 1 for the own side's, smooth across the middle: thighs that are close do not share
+// bones.
 double same_side(const Joint& joint, const Vec3& p) {
   const bool left = joint.name.ends_with("_left"), right = joint.name.ends_with("_right");
   if (!left && !right) return 1;

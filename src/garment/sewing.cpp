@@ -9,6 +9,7 @@ namespace toile {
 namespace {
 
 constexpr int most_escalations = 3;      // friction off, then two doublings of the pull
+constexpr double thinning_per_frame = 0.9;
 constexpr double coincident_m = 1e-7;    // below it the direction of a pair means nothing: its spring is isotropic
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -94,6 +95,10 @@ void Sewing::judge_progress() {
   if (gap < options_.weld_gap_m) {
     status_ = SewingStatus::closed;
     return;
+  }
+  if (escalations_ > 0 && thickness_scale_ > options_.thinnest) {
+    thickness_scale_ = std::max(options_.thinnest, thinning_per_frame * thickness_scale_);
+    stepper_->integrator().contact_rows().set_thickness_scale(thickness_scale_);
   }
   if (gap < 0.95 * best_gap_m_) {        // still closing
     best_gap_m_ = gap;

@@ -4,8 +4,9 @@
 //   pull        F = min( k (|d| - l)+, f_max ) along d,     f_max = 300 N per metre of seam,  k = f_max / 3 mm
 //   in A        secant stiffness F / (|d| - l) along d, the geometric F / |d| across it, damping 0.02 s x the secant
 //
-// Gravity is off while sewing (with it on, folds get caught).  If a seam still gapes when l = 0, the body's friction goes to 0; then
-// f_max doubles, at most twice; then the garment is reported as blocked, by seam.
+// Gravity is off while sewing (with it on, folds get caught).  If a seam still gapes when l = 0, the body's friction goes to 0 and the
+// layers of cloth are thinned (where four panels meet, their thickness alone holds a corner open by a centimetre); then f_max doubles, at
+// most twice; then the garment is reported as blocked, by seam.
 #pragma once
 #include "garment/garment_mesh.hpp"
 #include "step/adaptive_step.hpp"
@@ -24,7 +25,8 @@ struct SewingOptions {
   double friction = 0.3;             // of the body, at most
   double offset_m = 4e-3;            // contact distance while sewing, at least
   double weld_gap_m = 1e-3;
-  double patience_s = 0.8;           // without progress, before friction goes, and before each doubling of the pull
+  double patience_s = 0.4;           // without progress, before friction goes, and before each doubling of the pull
+  double thinnest = 0.1;             // of the fabrics' contact distance
   double fps = 60;
 };
 
@@ -53,6 +55,7 @@ class Sewing {
   // Seams by gap, widest first.
   std::vector<SeamGap> gaps() const;
   double widest_gap_m() const;
+  const ImplicitEuler& integrator() const { return stepper_->integrator(); }
   const PhaseSeconds& seconds() const { return stepper_->integrator().seconds(); }
 
  private:
@@ -69,6 +72,7 @@ class Sewing {
   double longest_m_ = 0, pull_factor_ = 1, time_s_ = 0;
   double best_gap_m_ = 0, best_time_s_ = 0;
   int escalations_ = 0;
+  double thickness_scale_ = 1;
   SewingStatus status_ = SewingStatus::sewing;
 };
 

@@ -53,7 +53,7 @@ void fill(Delaunay& mesh, const std::vector<GridPoint>& lattice, double edge) {
 PlanarMesh triangulate(std::span<const Vec2> outline, double edge_m) {
   constexpr double shortest_edge_m = 64 * grid_step_m;  // below it the grid itself would spoil the angles
   if (!(edge_m >= shortest_edge_m) || !std::isfinite(edge_m))
-    throw InputError("", "edge_m", "an edge length of at least 0.00007 m", std::to_string(edge_m));
+    throw InputError("", "edge_m", "an edge length of at least 0.00007 m", shortest_text(edge_m));
   const GridOutline grid = snap_outline(outline);
   const double edge = edge_m / grid_step_m;
   Delaunay mesh(grid.points);
@@ -82,7 +82,7 @@ PlanarMesh triangulate(std::span<const Vec2> outline, double edge_m) {
 PlanarMesh equilateral_sheet(double width_m, double height_m, double edge_m) {
   const auto check = [](double value, const char* name) {
     if (!(value > 0) || !std::isfinite(value))
-      throw InputError("", name, "a length greater than zero", std::to_string(value));
+      throw InputError("", name, "a length greater than zero", shortest_text(value));
   };
   check(width_m, "width_m");
   check(height_m, "height_m");

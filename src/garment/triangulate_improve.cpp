@@ -27,7 +27,9 @@ struct Plane {  // a point or vector in grid steps, with fractions
 // A needle's circumcentre can be anywhere.  Clamped to the predicates' range it is still outside, and refused as such.
 GridPoint snapped(const Plane& p) {
   constexpr double most = (1 << 25) - 1;
-  const auto snap = [](double value) { return static_cast<std::int32_t>(std::lround(std::clamp(value, -most, most))); };
+  const auto snap = [most](double value) {
+    return static_cast<std::int32_t>(std::lround(std::clamp(value, -most, most)));
+  };
   return {snap(p.x), snap(p.y)};
 }
 

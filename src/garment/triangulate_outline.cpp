@@ -18,13 +18,6 @@ constexpr double reach_m = 16.0;  // the farthest a point may be from the centre
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-// The shortest text that reads back as `value`.
-std::string number(double value) {
-  std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
 std::string point_name(Index i) { return "point " + std::to_string(i); }
 
 // True when the closed segments ab and cd have a point in common.
@@ -95,6 +88,12 @@ void check_repeats(std::span<const GridPoint> points) {
 
 }  // namespace
 
+std::string shortest_text(double value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
 GridOutline snap_outline(std::span<const Vec2> outline) {
   if (outline.size() < 3)
     throw InputError("", "outline", "3 or more points", std::to_string(outline.size()) + " points");
@@ -112,7 +111,7 @@ GridOutline snap_outline(std::span<const Vec2> outline) {
     if ((outline[i] - centre).cwiseAbs().maxCoeff() > reach_m || outline[i].cwiseAbs().maxCoeff() > 1e6)
       throw InputError("", point_name(static_cast<Index>(i)),
                        "an outline at most 32 m wide and within 1000 km of the origin",
-                       "(" + number(outline[i].x()) + ", " + number(outline[i].y()) + ")");
+                       "(" + shortest_text(outline[i].x()) + ", " + shortest_text(outline[i].y()) + ")");
   // The origin is itself on the grid, so that equal shapes a whole number of grid steps apart get equal meshes.
   result.origin_m = Vec2(std::round(centre.x() / grid_step_m), std::round(centre.y() / grid_step_m)) * grid_step_m;
   result.points.reserve(outline.size());
@@ -151,8 +150,8 @@ std::vector<GridPoint> lattice_inside(std::span<const GridPoint> outline, double
   constexpr double most_points = 1 << 24;
   if (columns * rows > most_points)
     throw InputError("", "edge_m", "an edge length that needs fewer than 16,777,216 points",
-                     number(edge * grid_step_m) + " m on a panel " + number(width * grid_step_m) + " m wide and " +
-                         number(height * grid_step_m) + " m high");
+                     shortest_text(edge * grid_step_m) + " m on a panel " + shortest_text(width * grid_step_m) +
+                         " m wide and " + shortest_text(height * grid_step_m) + " m high");
   const double dx = width / columns, dy = height / rows;
 
   // Which edges come near a row, by buckets of rows: edge segments within `margin` of it.

@@ -5,6 +5,7 @@
 #include "garment/exact_predicates.hpp"
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace toile {
@@ -24,5 +25,8 @@ GridOutline snap_outline(std::span<const Vec2> outline);
 // that whole cells fit the polygon's extent: on a rectangle whose sides are cut at `edge` the rows at the top and
 // bottom match the outline.
 std::vector<GridPoint> lattice_inside(std::span<const GridPoint> outline, double edge, double margin);
+
+// The shortest decimal number that reads back as `value`, for error messages.
+std::string shortest_text(double value);
 
 }  // namespace toile

@@ -18,8 +18,8 @@ std::string read_file(const std::string& path, std::size_t limit_bytes = std::si
 std::FILE* open_regular_file(const std::string& path, std::uint64_t& size_bytes);
 
 // Writes to "<path>.tmp" and renames in commit(); destroyed without commit, nothing is left and what stood under the
-// name stays.  Throws IoError, naming the path and the system's reason, from every call.  The data are on the disk before
-// the name is.  A symbolic link that waits under the temporary name is removed, not followed.
+// name stays.  Throws IoError, naming the path and the system's reason, from every call.  The data are on the disk
+// before the name is.  A symbolic link that waits under the temporary name is removed, not followed.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);

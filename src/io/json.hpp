@@ -1,8 +1,8 @@
 // io/json.hpp: JSON that remembers where everything stood, so that an error can name file, line and pointer.
 //
 // Values keep their source line and column (both from 1; columns count characters, not bytes) and objects the order of
-// their keys.  Errors: a duplicate key, a number beyond double, text that is not UTF-8, a NUL byte, and whatever exceeds
-// the limits below.  The getters throw InputError of the form
+// their keys.  Errors: a duplicate key, a number beyond double, text that is not UTF-8, a NUL byte, and whatever
+// exceeds the limits below.  The getters throw InputError of the form
 //   scene.json:14:22: /cloth/0/density_kg_per_m2: expected a finite number > 0, got -0.2
 //
 // Easily missed: a Json refers to nothing outside itself.  It may be copied out of its parent and outlive it, and still
@@ -76,7 +76,8 @@ class Json {
   friend class JsonBuilder;
 
   // A place is a step from the one around it, so that a long key costs once and not in every pointer below it.
-  // Elements of an array that are neither array nor object share the place of the array; all other values have their own.
+  // Elements of an array that are neither array nor object share the place of the array; all other values have their
+  // own.
   struct Place {
     std::shared_ptr<const std::string> file;
     std::shared_ptr<const Place> around;  // none at the root

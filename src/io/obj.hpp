@@ -1,11 +1,12 @@
-// io/obj.hpp: Wavefront OBJ.  Ours, because vertex order, panels and per-corner uv must survive, and hostile files must not.
+// io/obj.hpp: Wavefront OBJ.  Ours, because vertex order, panels and per-corner uv must survive, and hostile files must
+// not.
 //
 // Read: v, vt, f (v, v/vt, v//vn, v/vt/vn; negative indices count back from the last), g, o, "\" at the end of a line.
 // Checked and then ignored: normals, colours and weights, materials, smoothing, lines and points.  Refused: free-form
 // surfaces and whatever else the format does not have.
 //
-// Easily missed: `g` and `o` are independent and each holds until the next of its kind; one group name in two objects is
-// one group.
+// Easily missed: `g` and `o` are independent and each holds until the next of its kind; one group name in two objects
+// is one group.
 #pragma once
 #include "core/types.hpp"
 
@@ -30,8 +31,8 @@ struct ObjMesh {
 constexpr std::size_t obj_vertex_limit = 20'000'000;
 constexpr std::size_t obj_triangle_limit = 40'000'000;
 
-// Throws IoError or InputError ("body.obj:88213: face: expected an index in 1..12736, got 4000000000").  Lines are counted
-// from 1, as in the file.  A degenerate or duplicate face is no error here: mesh/check.hpp judges the surface.
+// Throws IoError or InputError ("body.obj:88213: face: expected an index in 1..12736, got 4000000000").  Lines are
+// counted from 1, as in the file.  A degenerate or duplicate face is no error here: mesh/check.hpp judges the surface.
 ObjMesh parse_obj(std::string_view text, std::string_view file);
 ObjMesh load_obj(const std::string& path);
 

@@ -1,6 +1,7 @@
 // io/pc2.hpp: point cache version 1 ("POINTCACHE2"): float32 positions per frame, little-endian.
 //
-//   "POINTCACHE2\0", int32 version = 1, int32 points, float start, float rate, int32 samples, then samples * points * xyz
+//   "POINTCACHE2\0", int32 version = 1, int32 points, float start, float rate, int32 samples,
+//   then samples * points * xyz
 //
 // Easily missed: values are not judged.  A NaN in a cache is read as a NaN, for whoever audits the run.
 #pragma once

@@ -18,7 +18,8 @@ struct HalfEdge {
   bool forward;      // the triangle walks from a to b
 };
 
-// Throws InputError(where, "triangle 12", ...) for the first corner that is not in 0..particle_count-1 or is used twice.
+// Throws InputError(where, "triangle 12", ...) for the first corner that is not in 0..particle_count-1 or is used
+// twice.
 void check_corners(std::string_view where, Index particle_count, std::span<const Triangle> triangles);
 
 // Sorted by (a, b, triangle).  The corners must have passed check_corners.

@@ -37,7 +37,8 @@ struct Topology {
 };
 
 // Throws InputError, naming the edge and its triangles, when an edge has three or more triangles or two that
-// walk it in the same direction (one of them is flipped); naming the triangle when a corner is out of range or used twice.
+// walk it in the same direction (one of them is flipped); naming the triangle when a corner
+// is out of range or used twice.
 Topology build_topology(Index particle_count, std::span<const Triangle> triangles);
 
 }  // namespace toile

@@ -107,7 +107,8 @@ Image Renderer::render(const PreviewScene& scene, const Camera& camera) {
 
   const LightRig light(axes.forward.cast<float>());
   const CameraRays rays(axes, options.width, options.height, centre);
-  const auto radius = static_cast<float>(0.5 * (high - low).norm());
+  // Of the subject, or of its height above the ground: a flag on its mast keeps its shadow.
+  const auto radius = static_cast<float>(std::max(0.5 * (high - low).norm(), centre.y() - scene.ground_y_m));
   const PathTracer tracer(state_->scene, light, rays, options, static_cast<float>(scene.ground_y_m - centre.y()),
                           Vec3f::Zero(), radius);
 

@@ -53,7 +53,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
   h_s_ = h_s;
   if (tree_.triangle_count() == 0) tree_ = TriangleTree(state.x, model_->mesh.triangles);
   double thickest = 0;
-  for (const double r : reach_m_) thickest = std::max(thickest, r);
+  for (const double r : reach_m_) thickest = std::max(thickest, thickness_scale_ * r);
   const double r_max = std::max(options_.cloth_cloth ? thickest : 0, body_ ? body_r_m_ : 0);
   const double range = (1 + options_.look_ahead) * r_max;
 
@@ -64,7 +64,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
       double r = std::numeric_limits<double>::infinity(), friction = 0;
       for (std::size_t k = 0; k < 4; ++k) {
         if (contact.particle[k] < 0) continue;
-        r = std::min(r, reach_m_[at(contact.particle[k])]);
+        r = std::min(r, thickness_scale_ * reach_m_[at(contact.particle[k])]);
         friction = std::max(friction, model_->friction[at(contact.particle[k])]);
       }
       Pair pair{{contact.kind, false, {contact.particle[0], contact.particle[1], contact.particle[2], contact.particle[3], -1}}, {}, contact.gap_m, r, friction};

@@ -43,6 +43,10 @@ class ContactRows {
   Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> y, double h_s, bool may_drop);
   void accept(const ClothState& end_state);
 
+  // Scales the distance at which layers of cloth meet (1: the fabrics' own).  Four layers in a corner of a seam are a centimetre thick:
+  // sewing thins them to let the corner close.
+  void set_thickness_scale(double scale) { thickness_scale_ = scale; }
+
   int active() const;
   std::size_t candidates() const { return pairs_.size(); }
   double cloth_seconds = 0, body_seconds = 0;   // time spent in detect, accumulated; for reports
@@ -82,7 +86,7 @@ class ContactRows {
   std::vector<BodyContact> body_contacts_;
   std::vector<Pair> pairs_;                      // sorted by key
   std::vector<Memory> memory_;                   // sorted by key
-  double h_s_ = 0;
+  double h_s_ = 0, thickness_scale_ = 1;
 };
 
 }  // namespace toile

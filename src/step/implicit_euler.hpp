@@ -80,6 +80,7 @@ class ImplicitEuler {
   const Elements& elements() const { return elements_; }
   const BodyConstraints& body_constraints() const { return body_; }
   BodyConstraints& body_constraints() { return body_; }
+  ContactRows& contact_rows() { return rows_; }
   std::span<const Vec3> constraint_impulse() const { return e_; }   // e = A dv - b of the last pass, N s
   const PhaseSeconds& seconds() const;
   // f + h K terms of the last assembled system, for tests.

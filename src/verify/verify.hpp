@@ -2,7 +2,7 @@
 //
 // The judge shares no code with contact: its own tree, its own predicates.  It reads positions as they were written
 // (float32, which double holds exactly) and believes nothing that report.json says about them.
-// docs/theory/verify.md
+// Theory: docs/theory/verify.md.
 //
 //   predicates.hpp   signs, exactly                      crossings.hpp    edges through triangles
 //   box_tree.hpp     candidates                          statistics.hpp   stretch, shear, gap, speed
@@ -17,7 +17,6 @@
 #include "verify/predicates.hpp"
 #include "verify/statistics.hpp"
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>

@@ -189,8 +189,8 @@ TEST(Mannequin, IsTheSameOnOneThreadAndOnMany) {
   for (std::size_t i = 0; i < one.positions.size(); ++i) ASSERT_TRUE(one.positions[i] == many.positions[i]) << i;
 }
 
-// A golden hash.  When the shape is changed on purpose, put in the new one (docs/mannequin.md); when it changes between machines,
-// something has crept in that is not rounded alike everywhere.
+// A golden hash.  When the shape is changed on purpose, put in the new one (docs/mannequin.md); when it changes
+// between machines, something has crept in that is not rounded alike everywhere.
 TEST(Mannequin, HasTheSameBitsEverywhere) {
   const Mannequin& m = mannequin();
   Hash hash;

@@ -1,4 +1,5 @@
-// Our own patterns against our own mannequin: seams that fit, panels that start clear of the body, and threads that do not cut it.
+// Our own patterns against our own mannequin: seams that fit, panels that start clear of the body, and threads that
+// do not cut it.
 //
 // Reads the JSON by itself, in few lines, so that the pattern reader is not judged by its own eyes.
 #include "body/closed_mesh.hpp"

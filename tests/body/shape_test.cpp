@@ -13,7 +13,8 @@ namespace {
 
 using test::at;
 
-// The whole surface inside the cube of half-width `reach`; marched on cells of `cell`, remeshed to `edge` when sweeps > 0.
+// The whole surface inside the cube of half-width `reach`; marched on cells of `cell`, remeshed to `edge` when
+// sweeps > 0.
 HalfSurface meshed(const ScalarField& field, double reach, double cell, double edge, int sweeps) {
   HalfSurface half = march_tetrahedra(field, Vec3(0, -reach, -reach), Vec3(reach, reach, reach), cell);
   const ScalarField edge_m = [edge](const Vec3&) { return edge; };

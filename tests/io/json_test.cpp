@@ -222,6 +222,7 @@ TEST(Json, RefusesAKeyTwice) {
             "s.json:2:10: /x/a: expected each key once, got \"a\" again, first in line 1");
   EXPECT_EQ(complaint("{\"b\":0,\n\"a\":0,\n\"b\":0,\n\"a\":0}"),
             "s.json:3:1: /b: expected each key once, got \"b\" again, first in line 1");
+  EXPECT_NE(complaint("{\"a\":0,\n\"b\":0,\n\"a\":0,\n\"b\":0}").find("s.json:3:1: /a: "), std::string::npos);
   EXPECT_NE(complaint("{\"a\": 1, \"\\u0061\": 2}"), "none");
   EXPECT_EQ(complaint("[{\"a\": 1}, {\"a\": 2}]"), "none");
 }

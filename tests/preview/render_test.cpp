@@ -95,7 +95,7 @@ TEST(Render, PutsNearClothBeforeTheBodyAndDrawsItInItsColour) {
   EXPECT_GT(red[0], 100);
 }
 
-TEST(Render, CastsAShadowOnTheGroundThatFadesToThePlainBackground) {
+TEST(Render, CastsAShadowOnTheGroundAndLeavesTheRestAsItWas) {
   const Sheet ball = sphere({0, 0.3, 0}, 0.3);
   PreviewScene with, without;
   with.body_triangles = ball.triangles;
@@ -111,6 +111,20 @@ TEST(Render, CastsAShadowOnTheGroundThatFadesToThePlainBackground) {
   EXPECT_GT(darker_at({0.35, 0, -0.25}), 60);  // away from the key light
   EXPECT_LT(darker_at({-0.6, 0, 0.7}), 25);    // towards it
   EXPECT_EQ(pixel(a, 1, 94), pixel(b, 1, 94));
+}
+
+TEST(Render, KeepsTheShadowOfWhatHangsHighAboveTheGround) {
+  const Sheet ball = sphere({0, 2, 0}, 0.3);
+  PreviewScene with, without;
+  with.body_triangles = ball.triangles;
+  with.body_positions = ball.positions;
+  const Camera camera{{0, 6, 9}, {0, 0, 0}, 40};
+  const Image a = render(with, camera, small()), b = render(without, camera, small());
+  // The key light comes from the left and the front, about 47 degrees high.
+  const Vec3 p = project(camera, 96, 96, {1.40, 0, -1.23});
+  const int x = static_cast<int>(p.x()), y = static_cast<int>(p.y());
+  EXPECT_GT(brightness(pixel(b, x, y)) - brightness(pixel(a, x, y)), 30);
+  EXPECT_EQ(pixel(a, 48, 94), pixel(b, 48, 94));
 }
 
 // The same triangles in space, with half the pattern coordinates: cloth stretched to twice its size.

@@ -1,0 +1,189 @@
+#include "sim/report.hpp"
+
+#include "sim/json_text.hpp"
+
+#ifndef TOILE_VERSION
+#error "TOILE_VERSION comes from the build"
+#endif
+
+namespace toile {
+namespace {
+
+void add(JsonText& text, std::string_view key, const PenetrationCount& count) {
+  text.key(key);
+  text.begin_object();
+  text.member("max", count.max);
+  text.member("last", count.last);
+  text.member("frames", count.frames);
+  text.end_object();
+}
+
+void add_seconds_per_frame(JsonText& text, const PhaseReport& phase) {
+  const double n = phase.frames > 0 ? phase.frames : 1;
+  const double parts = phase.eval + phase.cg + phase.cloth_cloth + phase.cloth_solid;
+  text.key("seconds_per_frame");
+  text.begin_object();
+  text.member("total", phase.seconds / n);
+  text.member("eval", phase.eval / n);
+  text.member("cg", phase.cg / n);
+  text.member("cloth_cloth", phase.cloth_cloth / n);
+  text.member("cloth_solid", phase.cloth_solid / n);
+  text.member("other", (phase.seconds - parts) / n);
+  text.end_object();
+}
+
+void add_steps(JsonText& text, const PhaseReport& phase) {
+  text.member("steps", phase.steps);
+  text.member("steps_rejected", phase.steps_rejected);
+  text.member("step_min_ms", 1e3 * phase.step_min_s);
+  text.member("step_max_ms", 1e3 * phase.step_max_s);
+}
+
+void add_cg(JsonText& text, const PhaseReport& phase) {
+  text.key("cg_iterations");
+  text.begin_object();
+  text.member("mean", phase.steps > 0 ? static_cast<double>(phase.cg_iterations) / static_cast<double>(phase.steps) : 0.0);
+  text.member("max", phase.cg_max);
+  text.end_object();
+}
+
+void add_verdict(JsonText& text, const Report& report) {
+  text.member("verdict", report.verdict.pass ? "pass" : "fail");
+  text.key("reasons");
+  text.begin_array();
+  for (const Reason& reason : report.verdict.reasons) text.value(reason.code);
+  text.end_array();
+  text.key("reason_details");
+  text.begin_object();
+  for (const Reason& reason : report.verdict.reasons) text.member(reason.code, reason.detail);
+  text.end_object();
+  const Limits& limits = report.verdict.limits;
+  text.key("limits");
+  text.begin_object();
+  text.member("cloth_body_edges", limits.cloth_body_edges);
+  text.member("cloth_cloth_edges", limits.cloth_cloth_edges);
+  text.member("stretch_p99", limits.stretch_p99);
+  text.member("stretch_max", limits.stretch_max);
+  text.key("still_mm_per_s");
+  if (limits.must_be_still) {
+    text.value(limits.still_mm_per_s);
+  } else {
+    text.null();
+  }
+  text.end_object();
+}
+
+void add_measurements(JsonText& text, const Report& report) {
+  const StretchStatistics& s = report.audit.stretch;
+  text.key("stretch");
+  text.begin_object();
+  text.member("p50", s.p50);
+  text.member("p99", s.p99);
+  text.member("max", s.max);
+  text.member("judged_p99", s.judged_p99);
+  text.member("judged_max", s.judged_max);
+  text.end_object();
+  text.key("shear_degrees");
+  text.begin_object();
+  text.member("p50", s.shear_p50_deg);
+  text.member("p99", s.shear_p99_deg);
+  text.member("max", s.shear_max_deg);
+  text.end_object();
+  text.key("penetrations");
+  text.begin_object();
+  add(text, "cloth_body_edges", report.audit.cloth_body_edges);
+  add(text, "cloth_cloth_edges", report.audit.cloth_cloth_edges);
+  text.end_object();
+  text.key("gap_mm");
+  text.begin_object();
+  text.key("min");
+  report.audit.has_body ? text.value(report.audit.gap.min_mm) : text.null();
+  text.key("p50");
+  report.audit.has_body ? text.value(report.audit.gap.p50_mm) : text.null();
+  text.end_object();
+  text.key("still");
+  text.begin_object();
+  text.member("speed_mm_per_s_p99", report.audit.still_mm_per_s_p99);
+  text.end_object();
+}
+
+}  // namespace
+
+std::string_view toile_version() { return TOILE_VERSION; }
+
+std::string to_json(const Report& report, int indent) {
+  JsonText text(indent);
+  text.begin_object();
+  text.member("toile_version", toile_version());
+  text.member("name", report.name);
+  text.member("command", report.command);
+  text.member("input_hash", report.input_hash);
+  text.member("state_hash", report.state_hash);
+  add_verdict(text, report);
+  text.member("ended", report.ended);
+  text.key("warnings");
+  text.begin_array();
+  for (const std::string& warning : report.warnings) text.value(warning);
+  text.end_array();
+  text.member("threads", report.threads);
+  text.key("units");
+  text.begin_object();
+  text.member("length", "m");
+  text.member("time", "s");
+  text.member("mass", "kg");
+  text.member("up", "y");
+  text.end_object();
+  text.key("cloth");
+  text.begin_object();
+  text.member("vertices", report.vertices);
+  text.member("triangles", report.triangles);
+  text.member("panels", report.panels);
+  text.member("seams", report.seams);
+  text.end_object();
+  text.key("body");
+  text.begin_object();
+  text.member("vertices", report.body_vertices);
+  text.member("triangles", report.body_triangles);
+  text.end_object();
+  text.member("fps", report.fps);
+  text.member("frames", report.frames);
+  add_steps(text, report.drape);
+  text.member("seconds_total", report.seconds_total);
+  add_seconds_per_frame(text, report.drape);
+  add_cg(text, report.drape);
+  if (!report.rest_stretch.empty()) {
+    text.key("rest_stretch");
+    text.begin_object();
+    for (const auto& [panel, b] : report.rest_stretch) {
+      text.key(panel);
+      text.begin_array();
+      text.value(b[0]);
+      text.value(b[1]);
+      text.end_array();
+    }
+    text.end_object();
+  }
+  add_measurements(text, report);
+  text.key("sewing");
+  if (report.seams == 0) {
+    text.null();
+  } else {
+    text.begin_object();
+    text.member("frames", report.sewing.frames);
+    text.member("simulated_s", report.sewing.simulated_s);
+    text.member("seconds", report.sewing.seconds);
+    add_steps(text, report.sewing);
+    add_seconds_per_frame(text, report.sewing);
+    add_cg(text, report.sewing);
+    text.key("shift_m");
+    text.begin_array();
+    for (const double d : report.shift_m) text.value(d);
+    text.end_array();
+    text.end_object();
+  }
+  text.member("peak_memory_mb", report.peak_memory_mb);
+  text.end_object();
+  return text.str();
+}
+
+}  // namespace toile

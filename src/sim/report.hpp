@@ -1,0 +1,48 @@
+// sim/report.hpp: what a run has to say about itself: report.json.                                   docs/reports.md
+//
+// Keys are stable: add, never rename.  Times and memory differ between two runs of one command; everything else is the
+// same to the bit.
+#pragma once
+#include "verify/verdict.hpp"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace toile {
+
+struct PhaseReport {  // of the sewing, or of everything after it
+  int frames = 0;     // simulated: one less than the samples of the cache
+  double seconds = 0, eval = 0, cg = 0, cloth_cloth = 0, cloth_solid = 0;  // wall time, s
+  long steps = 0, steps_rejected = 0, passes = 0, cg_iterations = 0;
+  int cg_max = 0;
+  double step_min_s = 0, step_max_s = 0;
+  double simulated_s = 0;
+};
+
+struct Report {
+  std::string command, name;
+  std::string input_hash, state_hash;
+  std::string ended;  // "still", "time", "seam_blocked", "step_collapsed", "interrupted"
+  int threads = 1;
+  int vertices = 0, triangles = 0, panels = 0, seams = 0;
+  int body_vertices = 0, body_triangles = 0;
+  double fps = 30;
+  int frames = 0;  // samples of cloth.pc2
+  double seconds_total = 0;
+  PhaseReport sewing, drape;
+  Vec3 shift_m{0, 0, 0};  // by which the flat panels were moved before sewing
+  std::vector<std::string> warnings;
+  std::vector<std::pair<std::string, std::array<double, 2>>> rest_stretch;  // panel, b along the two axes of vt
+  VerifyReport audit;
+  Verdict verdict;
+  double peak_memory_mb = 0;
+};
+
+std::string to_json(const Report& report, int indent = 2);
+
+// The program's version, from the build.
+std::string_view toile_version();
+
+}  // namespace toile

@@ -1,0 +1,103 @@
+// sim/scene.hpp: everything that one simulation is told, and the JSON file that says it.          docs/scenes.md
+//
+// Every key has a default, so that {"cloth": [{"pattern": "p.json"}], "body": {"mesh": "b.obj"}} is a complete scene.
+// The command `dress` fills the same struct from its options.
+//
+// What is easily got wrong: a key that is understood but not available yet (wind, motion) is an error here, never
+// ignored; a scene that runs has been obeyed in every word.
+#pragma once
+#include "body/collision_body.hpp"
+#include "io/json.hpp"
+#include "material/fabric.hpp"
+#include "material/membrane.hpp"
+#include "solver/modified_pcg.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace toile {
+
+struct ScenePanel {  // what one panel has of its own
+  std::string name;
+  std::optional<Fabric> fabric;
+  double rest_stretch_u = 1, rest_stretch_v = 1;  // b of the warp and the weft; < 1 pulls together
+  std::string where, pointer;                     // in the file, for the message that there is no such panel
+};
+
+struct ScenePin {
+  Vec3 near_m{0, 0, 0};  // the particle nearest to it at the start is held
+  bool on_path = false;
+  struct Key {
+    double t_s;
+    Vec3 x_m;
+  };
+  std::vector<Key> path;  // ascending times; straight in between, at rest before and after
+  std::string where, pointer;
+};
+
+struct SceneGrid {
+  double width_m = 1, height_m = 1, edge_m = 0.02;
+};
+
+struct SceneCloth {
+  std::string name;
+  std::string pattern;            // path, resolved; empty for a grid
+  std::optional<SceneGrid> grid;  // drawn in the plane z = 0 around the origin, facing +z, before it is placed
+  double resolution_m = 0.01;
+  Fabric fabric;
+  std::vector<ScenePanel> panels;
+  Vec3 translation_m{0, 0, 0};
+  Vec3 rotation_deg{0, 0, 0};  // R = Rz Ry Rx, as in patterns
+  std::vector<ScenePin> pins;
+};
+
+struct SceneCylinder {  // an upright solid whose rims are rounded: sim/cylinder.hpp
+  double radius_m = 0.2, height_m = 0.5;
+  Vec3 top_m{0, 0, 0};  // middle of the top
+};
+
+struct SceneBody {
+  enum class Kind { none, mannequin, mesh, cylinder };
+  Kind kind = Kind::none;
+  std::string mesh;  // path, resolved
+  LengthUnit unit = LengthUnit::automatic;
+  SceneCylinder cylinder;
+  std::optional<double> friction;  // absent: the fabric's
+  double offset_m = 2.5e-3;
+};
+
+struct Scene {
+  std::string name = "scene";
+  std::vector<SceneCloth> cloth;
+  SceneBody body;
+  Vec3 gravity_m_per_s2{0, -9.81, 0};
+
+  double fps = 30, seconds = 5;
+  std::optional<double> step_max_s;  // absent: 1/60 s for patterns, a frame for grids
+  bool until_still = false;          // stop when at rest; then `seconds` is a limit, and moving at the end a failure
+
+  std::optional<Preconditioner> preconditioner;  // absent: the best for the size
+  double tolerance = 1e-3;
+  bool paper_scaling = false;
+  DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
+
+  std::optional<double> contact_thickness_m, contact_friction;  // of all fabrics, when given
+  bool self_contact = true;
+  bool strict_start = false;
+
+  std::string output_dir;  // empty: out/<name>
+  std::optional<bool> preview;
+};
+
+// Throws InputError naming file, line, JSON pointer, expected and got.  Relative paths resolve against the folder of
+// `file`, but for output.dir, which resolves against the folder where the program runs.
+Scene parse_scene(std::string_view text, const std::string& file);
+
+// Where the texts of scenes and patterns come from: the disk, or the files inside the program.
+using TextSource = std::function<std::string(const std::string& path)>;
+std::string read_text_file(const std::string& path);
+
+}  // namespace toile

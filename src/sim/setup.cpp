@@ -1,0 +1,215 @@
+#include "sim/setup.hpp"
+
+#include "core/error.hpp"
+#include "garment/triangulate.hpp"
+#include "io/file.hpp"
+#include "io/obj.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <string_view>
+
+namespace toile {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+bool is_set(const Vec3& v) { return !v.isZero(0); }
+
+// R = Rz Ry Rx: the same convention as a panel's, and by the same code, exact at multiples of 90 degrees.
+Mat3 rotation(const SceneCloth& cloth) {
+  Panel panel;
+  panel.rotation_deg = cloth.rotation_deg;
+  return panel.rotation();
+}
+
+Index nearest_particle(std::span<const Vec3> x, const Vec3& p) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if ((x[i] - p).squaredNorm() < (x[best] - p).squaredNorm()) best = i;
+  return static_cast<Index>(best);
+}
+
+Vec3 along(const std::vector<ScenePin::Key>& path, double t_s) {
+  if (t_s <= path.front().t_s) return path.front().x_m;
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    if (t_s > path[k].t_s) continue;
+    const double s = (t_s - path[k - 1].t_s) / (path[k].t_s - path[k - 1].t_s);
+    return (1 - s) * path[k - 1].x_m + s * path[k].x_m;
+  }
+  return path.back().x_m;
+}
+
+void add(Hash& hash, double x) { hash.add_bytes(&x, sizeof x); }
+void add(Hash& hash, const Vec3& v) { hash.add_bytes(v.data(), 3 * sizeof(double)); }
+void add(Hash& hash, std::string_view text) {
+  add(hash, static_cast<double>(text.size()));
+  hash.add_bytes(text.data(), text.size());
+}
+void add(Hash& hash, const std::optional<double>& x) {
+  add(hash, x ? 1.0 : 0.0);
+  add(hash, x.value_or(0));
+}
+void add(Hash& hash, const Fabric& f) {
+  for (const double x : {f.density_kg_per_m2, f.stretch_u_N_per_m, f.stretch_v_N_per_m, f.shear_N_per_m, f.bend_u_N_m, f.bend_v_N_m,
+                         f.stretch_damping_s, f.shear_damping_s, f.bend_damping_s, f.friction, f.thickness_m})
+    add(hash, x);
+}
+
+}  // namespace
+
+SolidMesh load_body(const SceneBody& body, Hash& inputs) {
+  switch (body.kind) {
+    case SceneBody::Kind::none: return {};
+    case SceneBody::Kind::cylinder: return rounded_cylinder(body.cylinder.radius_m, body.cylinder.height_m, body.cylinder.top_m);
+    case SceneBody::Kind::mannequin: {
+      CollisionBody made = from_mannequin(make_mannequin());
+      return {std::move(made.positions), std::move(made.triangles)};
+    }
+    case SceneBody::Kind::mesh: break;
+  }
+  const std::string text = read_file(body.mesh);
+  inputs.add_bytes(text.data(), text.size());
+  CollisionBody read = make_collision_body(parse_obj(text, printable(body.mesh)), printable(body.mesh), body.unit);
+  return {std::move(read.positions), std::move(read.triangles)};
+}
+
+PlacedGrid make_grid(const SceneCloth& cloth) {
+  const SceneGrid& g = *cloth.grid;
+  const PlanarMesh sheet = equilateral_sheet(g.width_m, g.height_m, g.edge_m);
+  const Vec2 middle(0.5 * g.width_m, 0.5 * g.height_m);
+  const Mat3 turn = rotation(cloth);
+  PlacedGrid grid;
+  grid.mesh.particle_count = static_cast<Index>(sheet.points.size());
+  grid.mesh.triangles = sheet.triangles;
+  grid.mesh.panel.assign(sheet.triangles.size(), 0);
+  grid.mesh.panel_names = {cloth.name};
+  const auto uv = [&](Index i) { return Vec2(sheet.points[at(i)].y(), -sheet.points[at(i)].x()); };  // grain up, as in panels
+  for (const Triangle& t : sheet.triangles) grid.mesh.uv.push_back({uv(t[0]), uv(t[1]), uv(t[2])});
+  for (const Vec2& p : sheet.points) {
+    const Vec2 q = p - middle;
+    grid.x.push_back(turn * Vec3(q.x(), q.y(), 0) + cloth.translation_m);
+  }
+  return grid;
+}
+
+GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& inputs) {
+  const std::string text = read(cloth.pattern);
+  inputs.add_bytes(text.data(), text.size());
+  const std::string file = printable(cloth.pattern);
+  const Pattern pattern = parse_pattern(text, file);
+  GarmentMesh garment;
+  try {
+    garment = mesh_garment(pattern, cloth.resolution_m);
+  } catch (const InputError& error) {
+    throw Error(error.code(), file + ": " + error.what());
+  }
+  if (!cloth.name.empty()) garment.name = cloth.name;
+  if (is_set(cloth.translation_m) || is_set(cloth.rotation_deg)) {
+    const Mat3 turn = rotation(cloth);
+    for (Vec3& x : garment.x) x = turn * x + cloth.translation_m;
+  }
+  return garment;
+}
+
+std::vector<Fabric> fabrics_of(const Scene& scene, const ClothMesh& mesh) {
+  const SceneCloth& cloth = scene.cloth.front();
+  std::vector<Fabric> fabrics(mesh.panel_names.size(), cloth.fabric);
+  for (const ScenePanel& panel : cloth.panels) {
+    const auto place = std::find(mesh.panel_names.begin(), mesh.panel_names.end(), panel.name);
+    if (place == mesh.panel_names.end()) {
+      const std::vector<std::string_view> names(mesh.panel_names.begin(), mesh.panel_names.end());
+      throw InputError(panel.where, panel.pointer,
+                       "a panel of the cloth; nearest is \"" + printable(nearest_name(panel.name, names.data(), names.size())) + '"',
+                       '"' + printable(panel.name) + '"');
+    }
+    if (panel.fabric) fabrics[static_cast<std::size_t>(place - mesh.panel_names.begin())] = *panel.fabric;
+  }
+  for (Fabric& fabric : fabrics) {
+    fabric.thickness_m = scene.contact_thickness_m.value_or(fabric.thickness_m);
+    fabric.friction = scene.contact_friction.value_or(fabric.friction);
+  }
+  return fabrics;
+}
+
+std::vector<Vec2> rest_stretch_of(const SceneCloth& cloth, const ClothMesh& mesh) {
+  std::vector<Vec2> b(mesh.panel_names.size(), Vec2(1, 1));
+  for (const ScenePanel& panel : cloth.panels)
+    for (std::size_t p = 0; p < b.size(); ++p)
+      if (mesh.panel_names[p] == panel.name) b[p] = Vec2(panel.rest_stretch_u, panel.rest_stretch_v);
+  return b;
+}
+
+std::vector<Pin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) {
+  std::vector<Pin> pins;
+  for (const ScenePin& given : cloth.pins) {
+    Pin pin;
+    pin.particle = nearest_particle(x, given.near_m);
+    for (std::size_t k = 0; k < pins.size(); ++k)
+      if (pins[k].particle == pin.particle)
+        throw InputError(given.where, given.pointer, "pins that hold different particles",
+                         "particle " + std::to_string(pin.particle) + ", held by pin " + std::to_string(k) + " already");
+    if (given.on_path) pin.path = [path = given.path](double t_s) { return along(path, t_s); };
+    pins.push_back(std::move(pin));
+  }
+  return pins;
+}
+
+StepOptions step_options(const Scene& scene, const Fabric& fabric) {
+  StepOptions step;
+  if (scene.preconditioner) step.pcg.preconditioner = *scene.preconditioner;
+  step.pcg.tolerance = scene.tolerance;
+  step.rows.cloth_cloth = scene.self_contact;
+  step.body.offset_m = scene.body.offset_m;
+  step.body.friction = scene.body.friction.value_or(fabric.friction);
+  return step;
+}
+
+void add_to_hash(const Scene& scene, Hash& hash) {
+  for (const SceneCloth& cloth : scene.cloth) {
+    if (cloth.grid)
+      for (const double x : {cloth.grid->width_m, cloth.grid->height_m, cloth.grid->edge_m}) add(hash, x);
+    add(hash, cloth.resolution_m);
+    add(hash, cloth.fabric);
+    for (const ScenePanel& panel : cloth.panels) {
+      add(hash, std::string_view(panel.name));
+      add(hash, panel.fabric.value_or(cloth.fabric));
+      add(hash, panel.rest_stretch_u);
+      add(hash, panel.rest_stretch_v);
+    }
+    add(hash, cloth.translation_m);
+    add(hash, cloth.rotation_deg);
+    for (const ScenePin& pin : cloth.pins) {
+      add(hash, pin.near_m);
+      for (const ScenePin::Key& key : pin.path) {
+        add(hash, key.t_s);
+        add(hash, key.x_m);
+      }
+    }
+  }
+  const SceneBody& body = scene.body;
+  add(hash, static_cast<double>(body.kind));
+  add(hash, static_cast<double>(body.unit));
+  if (body.kind == SceneBody::Kind::cylinder) {
+    add(hash, body.cylinder.radius_m);
+    add(hash, body.cylinder.height_m);
+    add(hash, body.cylinder.top_m);
+  }
+  add(hash, body.friction);
+  add(hash, body.offset_m);
+  add(hash, scene.gravity_m_per_s2);
+  add(hash, scene.fps);
+  add(hash, scene.seconds);
+  add(hash, scene.step_max_s);
+  add(hash, scene.until_still ? 1.0 : 0.0);
+  add(hash, scene.preconditioner ? 1.0 + static_cast<double>(*scene.preconditioner) : 0.0);
+  add(hash, scene.tolerance);
+  add(hash, scene.paper_scaling ? 1.0 : 0.0);
+  add(hash, static_cast<double>(scene.damping_jacobian));
+  add(hash, scene.contact_thickness_m);
+  add(hash, scene.contact_friction);
+  add(hash, scene.self_contact ? 1.0 : 0.0);
+}
+
+}  // namespace toile

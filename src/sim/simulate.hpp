@@ -1,0 +1,46 @@
+// sim/simulate.hpp: runs a scene from its files to its report.                                       docs/theory/sewing.md
+//
+//   pattern   mesh -> place -> sew (gravity off) -> weld -> 0.2 s weightless -> 0.3 s ramp of gravity -> drape
+//   grid      place -> run
+//
+// A garment is draped until still (p99 speed <= 2 mm/s over 0.5 s, and <= 5 mm/s over the last second, which is what
+// the verdict asks) or until `seconds` are over; Report::ended says which.
+//
+// What is easily got wrong: physics that goes badly is not an exception.  A blocked seam, a collapsed step and an
+// interruption end in a report with verdict fail, and the files up to there stay.
+#pragma once
+#include "sim/report.hpp"
+#include "sim/scene.hpp"
+
+#include <functional>
+#include <string>
+
+namespace toile {
+
+struct Progress {
+  std::string_view phase;   // "meshing", "placing", "sewing", "draping", "picturing"
+  double share = 0;         // of the phase, 0 ... 1
+  double seconds_left = -1; // of the phase; -1: unknown
+};
+
+struct RunOptions {
+  std::string directory;
+  std::string command;       // as typed, for the report
+  TextSource read = read_text_file;
+  std::function<void(const Progress&)> progress;  // may be empty
+  std::function<bool()> stop;                     // asked between frames; may be empty
+};
+
+namespace reason {
+inline constexpr std::string_view seam_blocked = "seam_blocked";
+inline constexpr std::string_view step_collapsed = "step_collapsed";
+inline constexpr std::string_view interrupted = "interrupted";
+}  // namespace reason
+
+// Throws InputError, IoError, and Error(bad_start) with `strict_start`.  Writes report.json in every other case.
+Report simulate(const Scene& scene, const RunOptions& options);
+
+// ok, simulation_failed or interrupted.
+ExitCode exit_code(const Report& report);
+
+}  // namespace toile

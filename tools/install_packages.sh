@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Installs the Debian 12 packages that building, testing and running Toile need.  Does nothing when all are there.
+set -euo pipefail
+
+packages=(
+  g++ make cmake ninja-build ccache                                   # build
+  libeigen3-dev libtbb-dev nlohmann-json3-dev libcli11-dev libfmt-dev # core, io, command line
+  libembree-dev libpng-dev ffmpeg                                     # preview: pictures and film
+  libgtest-dev libbenchmark-dev python3                               # tests, benchmarks
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)
+  [ "$status" = "install ok installed" ] || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+if ! command -v apt-get >/dev/null; then
+  echo "toile: these packages are missing and there is no apt-get to install them: ${missing[*]}" >&2
+  exit 1
+fi
+sudo=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "toile: run as root, or install: ${missing[*]}" >&2
+    exit 1
+  fi
+  sudo=(sudo)
+fi
+echo "toile: installing ${missing[*]}"
+export DEBIAN_FRONTEND=noninteractive
+"${sudo[@]}" apt-get update -qq
+"${sudo[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
