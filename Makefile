@@ -1,5 +1,5 @@
 # The commands of the README.  Everything real happens in CMake; this file only says what is run.
-.PHONY: build demo test test-long bench tidy format clean
+.PHONY: build demo test test-long bench tidy format clean packages
 JOBS ?= $(shell nproc)
 
 build: packages
@@ -18,7 +18,7 @@ test-long: build
 bench: build
 	build/release/bench/toile_bench
 
-# Checks that need clang's tools; not part of `make test`.
+# These need clang's tools, which `packages` does not install.
 tidy: build
 	tools/run_clang_tidy.sh
 format:
@@ -29,4 +29,3 @@ packages:
 
 clean:
 	rm -rf build
-.PHONY: packages

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails when a module of src/ includes one that is not below it in src/layers.txt.
+"""Fails when a module of src/ includes one that is not below it in src/layers.txt, or one that it is not linked with.
 
 Usage: check_layers.py [SOURCE_ROOT]      prints every offence as file:line: ...; exit 1 if there is any.
 """
@@ -7,26 +7,60 @@ import pathlib
 import re
 import sys
 
-root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent)
-layer = {}
-for number, line in enumerate(l for l in (root / "src/layers.txt").read_text().splitlines() if l and not l.startswith("#")):
-    for module in line.split():
-        layer[module] = number
 
-offences = []
-for path in sorted((root / "src").glob("*/*.[ch]pp")):
-    module = path.parent.name
-    if module not in layer:
-        offences.append(f"{path.relative_to(root)}: module '{module}' is not in src/layers.txt")
-        continue
-    for number, line in enumerate(path.read_text().splitlines(), 1):
-        found = re.match(r'\s*#\s*include\s+"([a-z_0-9]+)/', line)
-        if not found or found.group(1) == module:
+def read_layers(text):
+    """{module: number of its line}"""
+    lines = [line.split("#")[0].split() for line in text.splitlines()]
+    return {module: number for number, line in enumerate(lines) for module in line}
+
+
+def read_links(cmake):
+    """{module: every module that it is linked with}, from the calls toile_module(name DEPENDS ...)"""
+    depends = {}
+    for call in re.findall(r"toile_module\(([^)]*)\)", cmake):
+        words = call.split()
+        names = words[words.index("DEPENDS") + 1:] if "DEPENDS" in words else []
+        depends[words[0]] = names[:names.index("LIBRARIES")] if "LIBRARIES" in names else names
+    reached = {}
+    for module, direct in depends.items():
+        reached[module], pending = set(), list(direct)
+        while pending:
+            other = pending.pop()
+            if other not in reached[module]:
+                reached[module].add(other)
+                pending += depends.get(other, [])
+    return reached
+
+
+def offences(root):
+    layer = read_layers((root / "src/layers.txt").read_text())
+    links = read_links((root / "src/CMakeLists.txt").read_text())
+    for path in sorted((root / "src").glob("*/*.[ch]pp")):
+        module, place = path.parent.name, path.relative_to(root)
+        if module not in layer:
+            yield f"{place}: module '{module}' is not in src/layers.txt"
             continue
-        other = found.group(1)
-        if other not in layer:
-            offences.append(f"{path.relative_to(root)}:{number}: includes unknown module '{other}'")
-        elif layer[other] >= layer[module]:
-            offences.append(f"{path.relative_to(root)}:{number}: '{module}' may not include '{other}'")
-print("\n".join(offences) if offences else f"{len(layer)} modules in order")
-sys.exit(1 if offences else 0)
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            found = re.match(r'\s*#\s*include\s+"([a-z_0-9]+)/', line)
+            if not found or found.group(1) == module:
+                continue
+            other = found.group(1)
+            if other not in layer:
+                yield f"{place}:{number}: includes unknown module '{other}'"
+            elif layer[other] >= layer[module]:
+                yield f"{place}:{number}: '{module}' may not include '{other}'"
+            elif other not in links.get(module, set()):
+                yield f"{place}:{number}: '{module}' includes '{other}' but src/CMakeLists.txt does not link it"
+    for module in sorted(layer.keys() - links.keys()):
+        yield f"src/layers.txt: module '{module}' is not in src/CMakeLists.txt"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent)
+    found = list(offences(root))
+    print("\n".join(found) if found else "layers: all modules in order")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

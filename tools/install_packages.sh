@@ -17,18 +17,21 @@ done
 [ ${#missing[@]} -eq 0 ] && exit 0
 
 if ! command -v apt-get >/dev/null; then
-  echo "toile: these packages are missing and there is no apt-get to install them: ${missing[*]}" >&2
+  echo "toile: needs these Debian 12 packages, and there is no apt-get to install them: ${missing[*]}" >&2
+  echo "toile: if you have them under other names, build with: cmake --preset release && cmake --build --preset release" >&2
   exit 1
 fi
-sudo=()
+root=()
 if [ "$(id -u)" -ne 0 ]; then
   if ! command -v sudo >/dev/null; then
     echo "toile: run as root, or install: ${missing[*]}" >&2
     exit 1
   fi
-  sudo=(sudo)
+  root=(sudo)
 fi
+
+# sudo drops the environment, so the setting is passed behind it.
+apt=("${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq)
 echo "toile: installing ${missing[*]}"
-export DEBIAN_FRONTEND=noninteractive
-"${sudo[@]}" apt-get update -qq
-"${sudo[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+"${apt[@]}" update
+"${apt[@]}" install -y --no-install-recommends "${missing[@]}" >/dev/null

@@ -13,8 +13,8 @@ constexpr double touching_m = 1e-9;  // nearer than this the body's own normal i
 
 using Memory = ProximityWorkspace::Memory;
 
-// A straight edge of length l whose ends keep their distance dips by l/4 times the bend at a ridge under its middle.  A ridge
-// counts where that is more than the allowed share of the range; otherwise the cloth's vertices hold the gap.
+// A straight edge of length l whose ends keep their distance dips by l/4 times the bend at a ridge under its middle.
+// A ridge counts where that is more than the allowed share of the range; otherwise the cloth's vertices hold the gap.
 bool ridge_counts(double bend, double length2, double range_m) {
   const double allowed = 4 * ridge_dip_share * range_m;
   return bend * bend * length2 > allowed * allowed;
@@ -121,8 +121,8 @@ class BodyQuery {
   const Memory& memory_;
 };
 
-// What each triangle of the body has to ask: its own vertices, and those of its ridges that count for the longest edge of the
-// cloth.  Most of a smooth body's edges end here.
+// What each triangle of the body has to ask: its own vertices, and those of its ridges that count for the longest
+// edge of the cloth.  Most of a smooth body's edges end here.
 void mark_features(const ClothTopology& cloth, std::span<const Vec3> x, const BodySurface& body,
                    const ProximityOptions& options, Memory& memory) {
   double longest2 = 0;

@@ -1,8 +1,8 @@
 // contact/body_surface.hpp: a moving closed body: nearest point, inside or outside, where a point of it goes.
 //
-// The side of p is the sign of (p - c) . N with c the nearest point and N the angle-weighted pseudonormal of the feature that
-// c lies on: a face's normal, the sum of an edge's two face normals, the sum of a vertex's face normals weighted by
-// the angles there.                                                                     [Baerentzen & Aanaes 2005]
+// The side of p is the sign of (p - c) . N with c the nearest point and N the angle-weighted pseudonormal of the
+// feature that c lies on: a face's normal, the sum of an edge's two face normals, the sum of a vertex's face normals
+// weighted by the angles there.                                                        [Baerentzen & Aanaes 2005]
 //
 // Easily got wrong: the mean of the face normals, or an area weight, gives the wrong side near sharp vertices.
 #pragma once
@@ -24,8 +24,9 @@ struct BodyPoint {
   double gap_m = 0;            // signed distance: negative inside
 };
 
-// A closed, outward-wound triangle mesh.  Throws InputError (from build_topology) when an edge has three triangles or two that
-// disagree.  An open mesh is accepted, but "inside" means nothing beyond its rim: check_closed first (mesh/check.hpp).
+// A closed, outward-wound triangle mesh.  Throws InputError (from build_topology) when an edge has three triangles or
+// two that disagree.  An open mesh is accepted, but "inside" means nothing beyond its rim: check_closed first
+// (mesh/check.hpp).
 class BodySurface {
  public:
   BodySurface() = default;
@@ -56,8 +57,8 @@ class BodySurface {
   const Vec3& vertex_normal(Index vertex) const { return vertex_normals_[static_cast<std::size_t>(vertex)]; }
   const Vec3& edge_normal(Index edge) const { return edge_normals_[static_cast<std::size_t>(edge)]; }
 
-  // How far an edge stands out of the body: the length of the difference of its face normals (2 sin of half the bend), or 0
-  // where it is flat to 1e-3 or hollow.
+  // How far an edge stands out of the body: the length of the difference of its face normals (2 sin of half the
+  // bend), or 0 where it is flat to 1e-3 or hollow.
   double ridge_bend(Index edge) const { return ridge_bend_[static_cast<std::size_t>(edge)]; }
 
   // Features that this triangle speaks for (contact/features.hpp), of its edges only those with a ridge_bend.

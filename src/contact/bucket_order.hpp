@@ -1,4 +1,5 @@
-// contact/bucket_order.hpp: sorts keys (first, second) by counting the firsts; linear where few share a first.  Internal.
+// contact/bucket_order.hpp: sorts keys (first, second) by counting the firsts; linear where few share a first.
+// Internal.
 #pragma once
 #include "core/types.hpp"
 

@@ -141,8 +141,8 @@ class ClothQuery {
     found.edges.push_back(record);
   }
 
-  // Gap and normal from the vector between the closest points, or from `instead` where they coincide; false when neither
-  // has a direction.
+  // Gap and normal from the vector between the closest points, or from `instead` where they coincide; false when
+  // neither has a direction.
   template <class Instead>
   static bool set_direction(ClothContact& record, const Vec3& between, Instead&& instead) {
     record.gap_m = between.norm();

@@ -7,7 +7,8 @@
 namespace toile {
 namespace {
 
-// Squared sine below which a triangle is treated as its three edges: they then hold its every point to 1e-6 of its size.
+// Squared sine below which a triangle is treated as its three edges: they then hold its every point to 1e-6 of its
+// size.
 constexpr double flat_corner_sine2 = 1e-12;
 
 // Parameter in [0, 1] of the point of a -> b nearest to p; 0 for an edge without length.
@@ -113,8 +114,8 @@ EdgeEdge closest_edge_edge(const Vec3& p0, const Vec3& p1, const Vec3& q0, const
   offer(closest_parameter(q0, p0, p1), 0);
   offer(closest_parameter(q1, p0, p1), 1);
 
-  // Nearly parallel edges may still cross between their ends.  The ill-conditioned s costs little there, as the distance hardly
-  // depends on it, and the answer is only taken where it is nearer.
+  // Nearly parallel edges may still cross between their ends.  The ill-conditioned s costs little there, as the
+  // distance hardly depends on it, and the answer is only taken where it is nearer.
   const Vec3 p = p1 - p0, q = q1 - q0, r = p0 - q0;
   const double pp = p.dot(p), qq = q.dot(q), pq = p.dot(q);
   const double determinant = pp * qq - pq * pq;

@@ -2,8 +2,8 @@
 //
 // Symbols: lengths in m.  Barycentric coordinates belong to the corners in the order in which they were given.
 //
-// Degenerate input is legal: a triangle without area is its three edges, an edge without length is a point.  Nothing here
-// divides by zero and nothing returns NaN for finite input.
+// Degenerate input is legal: a triangle without area is its three edges, an edge without length is a point.  Nothing
+// here divides by zero and nothing returns NaN for finite input.
 //
 // Easily got wrong: for nearly parallel edges the interior solution is a ratio of two vanishing numbers.  It is not
 // trusted below `parallel_sine2`; the ends of the edges decide instead, and `interior` is then false.

@@ -1,10 +1,11 @@
 // contact/features.hpp: which triangle speaks for which vertex and edge, and what surrounds them.     [Curtis 2008]
 //
-// A vertex with six triangles over a face with six neighbours would be met 36 times if every pair of triangles tested its
-// corners.  Each vertex and each edge is therefore owned by one representative triangle, and only that one tests it.
+// A vertex with six triangles over a face with six neighbours would be met 36 times if every pair of triangles tested
+// its corners.  Each vertex and each edge is therefore owned by one representative triangle, and only that one tests
+// it.
 //
-// Easily got wrong: two particles that a seam will weld are one vertex for the question "do these features touch?", yet each has
-// its own owner, because until the weld they are at two places.
+// Easily got wrong: two particles that a seam will weld are one vertex for the question "do these features touch?",
+// yet each has its own owner, because until the weld they are at two places.
 #pragma once
 #include "core/types.hpp"
 #include "mesh/topology.hpp"
@@ -37,7 +38,8 @@ IndexRows particle_corners(std::size_t particle_count, std::span<const Triangle>
 // `topology` must outlive it.
 //
 // merged_particle[i] is the particle that i will be welded to (or i); chains and mutual pairs are understood.
-// Empty: nothing is merged.  Throws InputError when its length is not the number of particles or an entry is out of range.
+// Empty: nothing is merged.  Throws InputError when its length is not the number of particles or an entry is out of
+// range.
 class ClothTopology {
  public:
   ClothTopology(std::size_t particle_count, std::span<const Triangle> triangles, const Topology& topology,

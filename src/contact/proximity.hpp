@@ -6,22 +6,24 @@
 // Feature ownership: every vertex-face, vertex-edge, vertex-vertex and edge-edge pair appears once, whichever triangles
 // reported it.  Edge-edge records have both parameters interior.  Of what is left, two kinds are dropped:
 //
-//   not a least distance   A vertex-edge or vertex-vertex record where the vertex also has a record with a face around that
-//                          edge or vertex, or (vertex-vertex) with an edge at that vertex: the point is nearer there.
-//   the region test        Let u be the unit vector from the feature's point to the other side.  The record counts only if
-//                          u . t <= region_tolerance for every direction t that leads from the feature into the cloth
-//                          around it: across the edge into each of its triangles, along each edge that leaves the
-//                          vertex.  For edge-edge both edges must pass.  Without it a vertex over a face also gets rows of
-//                          the edges nearby, with sideways normals that lock two sheets like gears.
-//                                                                  [the cones of offset geometric contact, Chen et al. 2025]
+//   not a least distance   A vertex-edge or vertex-vertex record where the vertex also has a record with a face around
+//                          that edge or vertex, or (vertex-vertex) with an edge at that vertex: the point is nearer
+//                          there.
+//   the region test        Let u be the unit vector from the feature's point to the other side.  The record counts only
+//                          if u . t <= region_tolerance for every direction t that leads from the feature into the
+//                          cloth around it: across the edge into each of its triangles, along each edge that leaves
+//                          the vertex.  For edge-edge both edges must pass.  Without it a vertex over a face also gets
+//                          rows of the edges nearby, with sideways normals that lock two sheets like gears.
+//                                                             [the cones of offset geometric contact, Chen et al. 2025]
 //
 // A vertex-vertex record must pass as seen from both of its vertices.
 //
 // Two edges that are both flat (flat_edge_sine) are not reported: between two planes the rows of their vertices
 // already hold the gap, and parallel sheets would otherwise carry three rows of edges for each of vertices.
 //
-// Easily got wrong: for vertex-edge the region test is about the edge only.  Whether the direction leans into the cloth around
-// the vertex is not asked, so a vertex of a lower sheet just outside the hem of an upper one has a slanting row with that hem.
+// Easily got wrong: for vertex-edge the region test is about the edge only.  Whether the direction leans into the
+// cloth around the vertex is not asked, so a vertex of a lower sheet just outside the hem of an upper one has a
+// slanting row with that hem.
 #pragma once
 #include "contact/body_surface.hpp"
 #include "contact/distance.hpp"
@@ -38,8 +40,8 @@ namespace toile {
 // Cosine of the angle to a direction within the cloth above which a record leans into the feature's own surroundings.
 inline constexpr double region_tolerance = 0.1;
 
-// Two faces of the cloth that meet at an edge are flat there when the sine of their bend is below this: an edge of length l
-// then hides at most l/40 of the gap that its vertices show.
+// Two faces of the cloth that meet at an edge are flat there when the sine of their bend is below this: an edge of
+// length l then hides at most l/40 of the gap that its vertices show.
 inline constexpr double flat_edge_sine = 0.1;
 
 // Below this cosine between a body record's direction and the body's pseudonormal (84 degrees) its sign is doubtful.
@@ -102,13 +104,13 @@ void find_cloth_contacts(const ClothTopology& cloth, const TriangleTree& tree, s
                          const ProximityOptions& options, ProximityWorkspace& workspace,
                          std::vector<ClothContact>& contacts);
 
-// Body vertices near cloth faces and body ridges near cloth edges, at x and the body's present positions; sorted by (kind,
-// body vertices, particles).  Of `cloth_tree` only the hierarchy is used.
+// Body vertices near cloth faces and body ridges near cloth edges, at x and the body's present positions; sorted by
+// kind, then the body's vertex or edge, then the cloth's triangle or edge.  Of `cloth_tree` only the hierarchy is used.
 //
 // The sign of the gap comes from the body's pseudonormal, so a body feature that has passed through the cloth pushes it
-// back out.  A penetrating record must be confirmed: its point of the cloth has to be inside the body, with its nearest way out
-// on the same side.  Otherwise the far side of a finger or an ear would pull cloth through it.
-// A body vertex whose nearest cloth feature is not the face's interior is left to the edge and L1 constraints, and so are
+// back out.  A penetrating record must be confirmed: its point of the cloth has to be inside the body, with its
+// nearest way out on the same side.  Otherwise the far side of a finger or an ear would pull cloth through it. A body
+// vertex whose nearest cloth feature is not the face's interior is left to the edge and L1 constraints, and so are
 // body edges that are hollow or nearly flat (ridge_dip_share): there the cloth's vertices hold the gap.
 void find_body_contacts(const ClothTopology& cloth, const TriangleTree& cloth_tree, std::span<const Vec3> x,
                         const BodySurface& body, const ProximityOptions& options, ProximityWorkspace& workspace,

@@ -28,8 +28,8 @@ void cut_tasks(std::vector<TreeTask>& tasks, Big&& big, Split&& split) {
   tasks.resize(kept);
 }
 
-// Orders the triangles so that the first `n` lie before the others along the longest axis of their centroids; returns n, about
-// half, a multiple of four so that leaves are full.
+// Orders the triangles so that the first `n` lie before the others along the longest axis of their centroids; returns
+// n, about half, a multiple of four so that leaves are full.
 std::size_t split(std::span<const Vec3> centroids, std::span<Index> triangles) {
   const auto centroid = [&](Index t) -> const Vec3& { return centroids[static_cast<std::size_t>(t)]; };
   Vec3 low = centroid(triangles[0]), high = low;

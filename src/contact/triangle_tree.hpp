@@ -1,12 +1,12 @@
 // contact/triangle_tree.hpp: a tree of boxes over triangles; built once, refitted every step.      (L0 of contact)
 //
-// Four children to a node, in one array in depth-first order, so that one vector instruction looks at all four.  The tree
-// is built by splitting near the median along the longest axis of the centroids of the positions given to build it.
-// The topology of the mesh is fixed, so it is never rebuilt; only boxes change.  Queries visit nodes in a fixed order: the
-// same input gives the same list at any thread count.
+// Four children to a node, in one array in depth-first order, so that one vector instruction looks at all four.  The
+// tree is built by splitting near the median along the longest axis of the centroids of the positions given to build
+// it. The topology of the mesh is fixed, so it is never rebuilt; only boxes change.  Queries visit nodes in a fixed
+// order: the same input gives the same list at any thread count.
 //
-// Boxes are single precision, rounded outward: half the memory traffic, and never smaller than the exact box.  At 2 m from the
-// origin the rounding adds 0.2 micrometres.  Coordinates must be below 1e30 m.
+// Boxes are single precision, rounded outward: half the memory traffic, and never smaller than the exact box.  At 2 m
+// from the origin the rounding adds at most 0.4 micrometres.  Coordinates must be below 1e30 m.
 //
 // Easily got wrong: a copy of a tree shares the original's hierarchy (cheap to hold) but has boxes of its own.
 #pragma once
@@ -61,8 +61,8 @@ struct OuterBox {
   }
 };
 
-// A piece of a query, cut so that pieces can be worked on by several threads: node a against node b, or (within one tree,
-// a = b) node a against itself.
+// A piece of a query, cut so that pieces can be worked on by several threads: node a against node b, or (within one
+// tree, a = b) node a against itself.
 struct TreeTask {
   Index a, b;
 };
@@ -128,8 +128,8 @@ class TriangleTree {
   // Boxes hold every triangle at `start` and at `end` (linear motion between), grown by `margin_m`.
   void refit(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
 
-  // Pairs (a, b) with a < b of this tree's triangles whose boxes overlap, sorted.  A pair that shares a particle is kept:
-  // its other features may still be close.
+  // Pairs (a, b) with a < b of this tree's triangles whose boxes overlap, sorted.  A pair that shares a particle is
+  // kept: its other features may still be close.
   void self_pairs(std::vector<std::pair<Index, Index>>& pairs, PairWorkspace& workspace) const;
   void self_pairs(std::vector<std::pair<Index, Index>>& pairs) const;
 
@@ -141,12 +141,13 @@ class TriangleTree {
   // Triangles whose box overlaps `box`, ascending.
   void overlapping(const Box& box, std::vector<Index>& triangles) const;
 
-  // Visits triangles whose box is nearer to p than the bound, nearest boxes first; visit(triangle, bound2) returns the new
-  // bound (distance squared).  Returns the last bound.
+  // Visits triangles whose box is nearer to p than the bound, nearest boxes first; visit(triangle, bound2) returns
+  // the new bound (distance squared).  Returns the last bound.
   template <class Visit>
   double nearest(const Vec3& p, double bound2, Visit&& visit) const;
 
-  // The same walks as self_pairs and cross_pairs in pieces, unsorted, for callers that look at each pair once and keep little.
+  // The same walks as self_pairs and cross_pairs in pieces, unsorted, for callers that look at each pair once and
+  // keep little.
   // visit(a, b) with a, b triangles.  Within one tree a != b, and each unordered pair comes once.
   // The number of tasks depends on the mesh and the boxes only.
   void self_tasks(std::vector<TreeTask>& tasks) const;
@@ -186,8 +187,9 @@ class TriangleTree {
 };
 
 // ---------------------------------------------------------------------------------------------------------------------
-// Walks with an explicit stack.  A node with n triangles has children with at most n/4 + 8, so the depth is below 20 for any
-// 31-bit count; a pair is replaced by at most 16, and the two sides may go down one after the other: 15 * 40 + 1 entries.
+// Walks with an explicit stack.  A node with n triangles has children with at most n/4 + 8, so the depth is below 20
+// for any 31-bit count; a pair is replaced by at most 16, and the two sides may go down one after the other: 15 * 40
+// + 1 entries.
 
 namespace tree_walk {
 inline constexpr std::size_t pair_stack = 640, node_stack = 96;

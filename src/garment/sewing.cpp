@@ -37,6 +37,7 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
   adaptive.step_max_s = 1 / options.fps;
   adaptive.floor_halvings = 3;           // the pull of a seam is not divergence
   stepper_.emplace(model_, world_, sewing_step, adaptive);
+  stepper_->integrator().contact_rows().set_thickness_scale(thickness_scale_);
   if (garment.pairs.empty()) status_ = SewingStatus::closed;
 }
 

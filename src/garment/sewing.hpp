@@ -1,6 +1,6 @@
 // garment/sewing.hpp: from flat placed panels to one closed garment, with contact on.                docs/theory/sewing.md
 //
-//   seam pair   offset d between its two particles, wanted distance l(t), which shrinks from the start distance to 0 at 1 m/s
+//   seam pair   offset d between its two particles, wanted distance l(t), which shrinks from the start distance to 0 at 0.5 m/s
 //   pull        F = min( k (|d| - l)+, f_max ) along d,     f_max = 300 N per metre of seam,  k = f_max / 3 mm
 //   in A        secant stiffness F / (|d| - l) along d, the geometric F / |d| across it, damping 0.02 s x the secant
 //
@@ -18,12 +18,12 @@
 namespace toile {
 
 struct SewingOptions {
-  double closing_speed_m_per_s = 1;
+  double closing_speed_m_per_s = 0.5;
   double pull_N_per_m = 300;
   double give_m = 3e-3;              // at this gap beyond l the pull is at its limit
   double damping_s = 0.02;
   double friction = 0.3;             // of the body, at most
-  double offset_m = 4e-3;            // contact distance while sewing, at least
+  double offset_m = 4e-3;            // contact distance from the body while sewing, at least
   double weld_gap_m = 1e-3;
   double patience_s = 0.4;           // without progress, before friction goes, and before each doubling of the pull
   double thinnest = 0.1;             // of the fabrics' contact distance
@@ -72,7 +72,7 @@ class Sewing {
   double longest_m_ = 0, pull_factor_ = 1, time_s_ = 0;
   double best_gap_m_ = 0, best_time_s_ = 0;
   int escalations_ = 0;
-  double thickness_scale_ = 1;
+  double thickness_scale_ = 1.6;     // layers keep 4 mm apart where the fabric asks for 2.5
   SewingStatus status_ = SewingStatus::sewing;
 };
 

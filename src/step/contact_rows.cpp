@@ -52,27 +52,30 @@ void ContactRows::detect(const ClothState& state, double h_s) {
   pairs_.clear();
   h_s_ = h_s;
   if (tree_.triangle_count() == 0) tree_ = TriangleTree(state.x, model_->mesh.triangles);
+  // How far ahead pairs are watched does not shrink with a thinned r: how fast they close has nothing to do with it.
   double thickest = 0;
-  for (const double r : reach_m_) thickest = std::max(thickest, thickness_scale_ * r);
-  const double r_max = std::max(options_.cloth_cloth ? thickest : 0, body_ ? body_r_m_ : 0);
+  for (const double r : reach_m_) thickest = std::max(thickest, r);
+  const double scale = std::max(1.0, thickness_scale_);
+  const double r_max = std::max(options_.cloth_cloth ? scale * thickest : 0, body_ ? body_r_m_ : 0);
   const double range = (1 + options_.look_ahead) * r_max;
 
   if (options_.cloth_cloth) {
     const Timed timed(cloth_seconds);
     find_cloth_contacts(topology_, tree_, state.x, {range, 0}, workspace_, cloth_contacts_);
     for (const ClothContact& contact : cloth_contacts_) {
-      double r = std::numeric_limits<double>::infinity(), friction = 0;
+      double full = std::numeric_limits<double>::infinity(), friction = 0;
       for (std::size_t k = 0; k < 4; ++k) {
         if (contact.particle[k] < 0) continue;
-        r = std::min(r, thickness_scale_ * reach_m_[at(contact.particle[k])]);
+        full = std::min(full, reach_m_[at(contact.particle[k])]);
         friction = std::max(friction, model_->friction[at(contact.particle[k])]);
       }
+      const double r = thickness_scale_ * full;
       Pair pair{{contact.kind, false, {contact.particle[0], contact.particle[1], contact.particle[2], contact.particle[3], -1}}, {}, contact.gap_m, r, friction};
       pair.spring.particle = contact.particle;
       pair.spring.weight = contact.weight;
       pair.spring.direction = contact.normal;
       const double closing = std::max(0.0, -contact.normal.dot(relative_velocity(pair, state.v, h_s))) * h_s;
-      if (contact.gap_m < r + std::min(options_.look_ahead * r, closing + h_s * h_s * model_->gravity_m_per_s2.norm())) pairs_.push_back(pair);
+      if (contact.gap_m < r + std::min(options_.look_ahead * std::max(r, full), closing + h_s * h_s * model_->gravity_m_per_s2.norm())) pairs_.push_back(pair);
     }
   }
   if (body_) {

@@ -228,8 +228,8 @@ TEST(BodySurface, KnowsInsideFromOutsideOnARealBody) {
   const Mesh mesh = read_body(std::string(TOILE_SHARED_DATA) + "/bodies/garmentcode/mean_all.obj");
   if (mesh.triangles.empty()) GTEST_SKIP() << "no bodies/garmentcode/mean_all.obj in " TOILE_SHARED_DATA;
   const BodySurface body(mesh.x, mesh.triangles);
-  // The body runs into itself in a few places (fingers, lips): inside twice is inside, but then the nearest face may be one of
-  // the buried ones.  So the winding number decides only where it is 0 or 1.
+  // The body runs into itself in a few places (fingers, lips): inside twice is inside, but then the nearest face may
+  // be one of the buried ones.  So the winding number decides only where it is 0 or 1.
   Random random(7);
   int inside = 0, checked = 0;
   for (int n = 0; n < 400; ++n) {

@@ -341,8 +341,8 @@ TEST(ClothContacts, TwoCrossedRidgesHaveOneRowBetweenTheirEdges) {
 }
 
 TEST(ClothContacts, ASeamThatIsNearlyShutActsAsOneSheet) {
-  // Two flat panels 0.3 mm apart; a vertex above the left one, 1 mm from the seam.  Without the merge the rim of the right panel
-  // pushes it sideways.
+  // Two flat panels 0.3 mm apart; a vertex above the left one, 1 mm from the seam.  Without the merge the rim of the
+  // right panel pushes it sideways.
   Mesh mesh;
   contact_test::add_sheet(mesh, 3, 4, 0.01, Vec3::Zero());
   const auto right = static_cast<Index>(mesh.x.size());
@@ -370,7 +370,8 @@ TEST(ClothContacts, ASeamThatIsNearlyShutActsAsOneSheet) {
 }
 
 TEST(ClothContacts, FeaturesThatWillBeWeldedDoNotRepelEachOther) {
-  // Two panels one above the other, every particle merged with the one above: their vertices touch nothing of their own ring.
+  // Two panels one above the other, every particle merged with the one above: their vertices touch nothing of their
+  // own ring.
   Mesh mesh;
   contact_test::add_sheet(mesh, 4, 4, 0.01, Vec3::Zero());
   const std::size_t half = mesh.x.size();

@@ -9,7 +9,8 @@ namespace {
 
 using contact_test::Random;
 
-// z = p - c is the shortest vector to a convex set exactly if no corner w of the set lies nearer to p: z . (w - c) <= 0.
+// z = p - c is the shortest vector to a convex set exactly if no corner w of the set lies nearer to p: z . (w - c) <=
+// 0.
 void expect_closest(const Vec3& p, const std::array<Vec3, 3>& corner, double tolerance) {
   const VertexTriangle at = closest_vertex_triangle(p, corner[0], corner[1], corner[2]);
   ASSERT_NEAR(at.barycentric.sum(), 1, 1e-14);

@@ -33,8 +33,8 @@ struct Mesh {
   std::vector<Triangle> triangles;
 };
 
-// Adds a sheet of nx by ny cells in the plane y = height, rows shifted by half an edge as in an equilateral mesh; seen from above
-// it is counter-clockwise.
+// Adds a sheet of nx by ny cells in the plane y = height, rows shifted by half an edge as in an equilateral mesh;
+// seen from above it is counter-clockwise.
 inline void add_sheet(Mesh& mesh, Index nx, Index ny, double edge_m, const Vec3& corner) {
   const auto first = static_cast<Index>(mesh.x.size());
   for (Index j = 0; j <= ny; ++j) {
@@ -116,7 +116,8 @@ inline Mesh box(const Vec3& low, const Vec3& high) {
   return mesh;
 }
 
-// How often the surface winds round p: 1 inside, 0 outside.                                 [van Oosterom & Strackee 1983]
+// How often the surface winds round p: 1 inside, 0 outside.                                 [van Oosterom & Strackee
+// 1983]
 inline double winding_number(const Mesh& mesh, const Vec3& p) {
   double angle = 0;
   for (const auto& [i, j, k] : mesh.triangles) {

@@ -1,0 +1,99 @@
+#include "command_line.hpp"
+
+#include "core/error.hpp"
+#include "sim/report.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <string_view>
+
+namespace toile {
+namespace {
+
+void add_common(CLI::App& command, CommandLine& line) {
+  command.add_option("--out", line.out, "Directory of the run's files (default: ./out/NAME)");
+  command.add_option("--threads", line.threads, "Threads; 0: one per core. The result does not depend on it")->check(CLI::Range(0, 1024));
+  command.add_flag("--no-preview", line.no_preview, "No pictures");
+  command.add_flag("--quiet", line.quiet, "Print errors only");
+  command.add_flag("--json", line.json, "Print the result as one JSON object");
+}
+
+void add_garment_options(CLI::App& command, CommandLine& line) {
+  command.add_option("--fabric", line.fabric, "silk, cotton, wool, denim or knit");
+  command.add_option("--resolution", line.resolution_cm, "Edge length of the cloth's triangles, cm")->check(CLI::Range(0.1, 20.0));
+  command.add_option("--fps", line.fps, "Frames per second of the output")->check(CLI::Range(1.0, 1000.0));
+  command.add_option("--seconds", line.seconds, "Longest drape, s")->check(CLI::Range(0.001, 3600.0));
+}
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return printable(text);
+}
+
+}  // namespace
+
+bool wants_json(int argc, const char* const* argv) {
+  return std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
+}
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+  CommandLine line;
+  for (int i = 0; i < argc; ++i) line.typed += (i == 0 ? "" : " ") + std::string(i == 0 ? "toile" : argv[i]);
+
+  CLI::App app("Toile: sewing pattern and body in, clothing out.", "toile");
+  app.set_version_flag("--version", std::string(toile_version()));
+  app.require_subcommand(0, 1);
+  std::string name;
+
+  CLI::App* demo = app.add_subcommand("demo", "Run a scene that is built in: no files needed");
+  demo->add_option("NAME", name, "Name of the demo (default: tshirt)");
+  demo->add_flag("--list", line.list, "List the demos");
+  add_garment_options(*demo, line);
+
+  CLI::App* dress = app.add_subcommand("dress", "Sew a pattern around a body and drape it");
+  dress->add_option("PATTERN", line.inputs, "Pattern file, GarmentCode JSON")->required();
+  dress->add_option("--body", line.body, "Body mesh (OBJ), or \"mannequin\"")->required();
+  dress->add_option("--body-unit", line.body_unit, "Unit of the body's file")->check(CLI::IsMember({"m", "dm", "cm"}));
+  dress->add_option("--motion", line.motion, "Motion of the body (not available yet)");
+  dress->add_flag("--strict-start", line.strict_start, "End with exit code 4 when the start already intersects");
+  add_garment_options(*dress, line);
+
+  CLI::App* run = app.add_subcommand("run", "Run a scene file");
+  run->add_option("SCENE", line.inputs, "Scene file")->required()->expected(1);
+
+  CLI::App* check = app.add_subcommand("check", "Check scenes, patterns and meshes; simulate nothing");
+  check->add_option("FILE", line.inputs, "Scene or pattern (.json), mesh (.obj)")->required();
+
+  CLI::App* verify = app.add_subcommand("verify", "Audit a finished run");
+  verify->add_option("DIR", line.inputs, "Directory of the run")->required()->expected(1);
+
+  CLI::App* preview = app.add_subcommand("preview", "Make preview.png and preview.mp4 of a finished run");
+  preview->add_option("DIR", line.inputs, "Directory of the run")->required()->expected(1);
+
+  for (CLI::App* command : {demo, dress, run, check, verify, preview}) add_common(*command, line);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    line.help = app.help();
+    return line;
+  } catch (const CLI::CallForVersion&) {
+    line.help = std::string(toile_version()) + "\n";
+    return line;
+  } catch (const CLI::ParseError& error) {
+    throw Error(ExitCode::usage, one_line(error.what()) + " (toile --help lists what there is)");
+  }
+  if (app.get_subcommands().empty()) throw Error(ExitCode::usage, "a command is missing: demo, dress, run, check, verify or preview (toile --help)");
+
+  const CLI::App* chosen = app.get_subcommands().front();
+  using Command = CommandLine::Command;
+  const std::pair<const CLI::App*, Command> commands[] = {{demo, Command::demo},   {dress, Command::dress},   {run, Command::run},
+                                                          {check, Command::check}, {verify, Command::verify}, {preview, Command::preview}};
+  for (const auto& [command, value] : commands)
+    if (command == chosen) line.command = value;
+  if (chosen == demo && !name.empty()) line.inputs = {name};
+  return line;
+}
+
+}  // namespace toile

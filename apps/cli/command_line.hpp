@@ -1,0 +1,33 @@
+// apps/cli/command_line.hpp: what was typed.                                                        docs/command-line.md
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace toile {
+
+struct CommandLine {
+  enum class Command { help, demo, dress, run, check, verify, preview };
+  Command command = Command::help;
+  std::string help;                 // Command::help: what to print
+  std::vector<std::string> inputs;  // patterns, scene, files, directory, or the demo's name
+  std::string typed;                // the whole line, for the report
+
+  std::string out;  // empty: ./out/NAME
+  int threads = 0;  // 0: one per core
+  bool no_preview = false, quiet = false, json = false;
+
+  std::string body, body_unit, motion;
+  std::optional<std::string> fabric;
+  std::optional<double> resolution_cm, fps, seconds;
+  bool strict_start = false;
+  bool list = false;
+};
+
+// Throws Error(usage) with one line.
+CommandLine parse_command_line(int argc, const char* const* argv);
+
+// Whether --json is among the words: known even when the rest is wrong.
+bool wants_json(int argc, const char* const* argv);
+
+}  // namespace toile

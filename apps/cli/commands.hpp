@@ -1,0 +1,13 @@
+// apps/cli/commands.hpp: one function per command.  Each prints its result and returns the exit code, or throws.
+#pragma once
+#include "command_line.hpp"
+#include "core/error.hpp"
+
+namespace toile {
+
+ExitCode simulate_command(const CommandLine& line);  // demo, dress, run
+ExitCode check_command(const CommandLine& line);
+ExitCode verify_command(const CommandLine& line);
+ExitCode preview_command(const CommandLine& line);
+
+}  // namespace toile

@@ -1,0 +1,66 @@
+// apps/cli/main.cpp: the program `toile`.  Whatever happens, it ends with one of the exit codes of core/error.hpp and, if
+// that is not 0 or the verdict of a run, with one line on stderr.
+#include "commands.hpp"
+#include "core/parallel.hpp"
+#include "sim/json_text.hpp"
+#include "terminal.hpp"
+
+#include <cstdio>
+#include <new>
+
+namespace toile {
+namespace {
+
+ExitCode run_command(const CommandLine& line) {
+  switch (line.command) {
+    case CommandLine::Command::help: print(line.help); return ExitCode::ok;
+    case CommandLine::Command::demo:
+    case CommandLine::Command::dress:
+    case CommandLine::Command::run: return simulate_command(line);
+    case CommandLine::Command::check: return check_command(line);
+    case CommandLine::Command::verify: return verify_command(line);
+    case CommandLine::Command::preview: return preview_command(line);
+  }
+  return ExitCode::internal;
+}
+
+ExitCode fail(ExitCode code, const char* message, bool json) noexcept {
+  std::fprintf(stderr, "toile: %s\n", message);
+  if (json) {
+    try {
+      JsonText text(0);
+      text.begin_object();
+      text.member("exit_code", static_cast<int>(code));
+      text.member("error", message);
+      text.end_object();
+      std::printf("%s\n", text.str().c_str());
+    } catch (...) {
+      return code;
+    }
+  }
+  return code;
+}
+
+ExitCode guarded_main(int argc, char** argv) noexcept {
+  const bool json = wants_json(argc, argv);
+  try {
+    listen_for_interrupts();
+    const CommandLine line = parse_command_line(argc, argv);
+    ExitCode code = ExitCode::internal;
+    with_threads(line.threads, [&] { code = run_command(line); });
+    return code;
+  } catch (const Error& error) {
+    return fail(error.code(), error.what(), json);
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::resource_limit, "out of memory", json);
+  } catch (const std::exception& error) {
+    return fail(ExitCode::internal, (std::string("internal error: ") + error.what()).c_str(), json);
+  } catch (...) {
+    return fail(ExitCode::internal, "internal error", json);
+  }
+}
+
+}  // namespace
+}  // namespace toile
+
+int main(int argc, char** argv) { return static_cast<int>(toile::guarded_main(argc, argv)); }

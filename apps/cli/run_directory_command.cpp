@@ -1,0 +1,135 @@
+// apps/cli/run_directory_command.cpp: `toile verify` and `toile preview`: what is done to a finished run.
+#include "commands.hpp"
+#include "io/json.hpp"
+#include "sim/json_text.hpp"
+#include "sim/picture_run.hpp"
+#include "terminal.hpp"
+#include "verify/verdict.hpp"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+
+namespace toile {
+namespace {
+
+// A run whose seams did not close has a report but no cloth to measure: then its own word is all there is, and it is no pass.
+bool is_without_cloth(const std::string& directory) {
+  const std::filesystem::path folder(directory);
+  if (std::filesystem::exists(folder / "cloth.obj") || std::filesystem::exists(folder / "cloth.pc2")) return false;
+  return Json::load((folder / "report.json").string()).number_or("frames", -1) == 0;
+}
+
+void add_count(JsonText& json, std::string_view key, const PenetrationCount& count) {
+  json.key(key);
+  json.begin_object();
+  json.member("max", count.max);
+  json.member("last", count.last);
+  json.member("frames", count.frames);
+  json.end_object();
+}
+
+std::string as_json(const VerifyReport& audit, const Verdict& verdict) {
+  JsonText json;
+  json.begin_object();
+  json.member("verdict", verdict.pass ? "pass" : "fail");
+  json.key("reasons");
+  json.begin_array();
+  for (const Reason& reason : verdict.reasons) json.value(reason.code);
+  json.end_array();
+  json.key("reason_details");
+  json.begin_object();
+  for (const Reason& reason : verdict.reasons) json.member(reason.code, reason.detail);
+  json.end_object();
+  json.member("frames", audit.frames);
+  json.member("finite", audit.finite);
+  json.key("penetrations");
+  json.begin_object();
+  add_count(json, "cloth_body_edges", audit.cloth_body_edges);
+  add_count(json, "cloth_cloth_edges", audit.cloth_cloth_edges);
+  json.end_object();
+  json.key("stretch");
+  json.begin_object();
+  json.member("p50", audit.stretch.p50);
+  json.member("p99", audit.stretch.p99);
+  json.member("max", audit.stretch.max);
+  json.end_object();
+  json.key("gap_mm");
+  json.begin_object();
+  json.member("min", audit.gap.min_mm);
+  json.member("p50", audit.gap.p50_mm);
+  json.end_object();
+  json.key("still");
+  json.begin_object();
+  json.member("speed_mm_per_s_p99", audit.still_mm_per_s_p99);
+  json.end_object();
+  json.end_object();
+  return json.str() + '\n';
+}
+
+std::string as_text(const std::string& directory, const VerifyReport& audit, const Verdict& verdict) {
+  std::array<char, 512> text;
+  std::string out = directory + ": " + (verdict.pass ? "pass" : "fail") + '\n';
+  for (const Reason& reason : verdict.reasons) out += "  " + reason.code + ": " + reason.detail + '\n';
+  std::snprintf(text.data(), text.size(), "  %d frames, %s\n", audit.frames, audit.finite ? "all finite" : "not finite");
+  out += text.data();
+  const auto line = [&](const char* what, const PenetrationCount& count) {
+    std::snprintf(text.data(), text.size(), "  edges through triangles, %s: last frame %d, most %d, in %d frames\n", what, count.last, count.max, count.frames);
+    out += text.data();
+  };
+  if (audit.has_body) line("cloth and body", audit.cloth_body_edges);
+  line("cloth and cloth", audit.cloth_cloth_edges);
+  std::snprintf(text.data(), text.size(), "  stretch p50 %.2f %%, p99 %.2f %%, max %.2f %%; shear p99 %.1f degrees; still %.2f mm/s\n", 100 * audit.stretch.p50,
+                100 * audit.stretch.p99, 100 * audit.stretch.max, audit.stretch.shear_p99_deg, audit.still_mm_per_s_p99);
+  out += text.data();
+  if (audit.has_body) {
+    std::snprintf(text.data(), text.size(), "  gap to the body: least %.2f mm, median %.2f mm\n", audit.gap.min_mm, audit.gap.p50_mm);
+    out += text.data();
+  }
+  return out;
+}
+
+}  // namespace
+
+ExitCode verify_command(const CommandLine& line) {
+  const std::string& directory = line.inputs.front();
+  VerifyReport audit;
+  Limits limits;
+  if (is_without_cloth(directory)) {
+    const Json report = Json::load((std::filesystem::path(directory) / "report.json").string());
+    if (const Json* reasons = report.find("reasons"))
+      for (const Json& reason : reasons->array()) audit.reported_reasons.push_back(reason.string());
+  } else {
+    audit = verify_directory(directory);
+    limits.must_be_still = audit.must_be_still;
+  }
+  const Verdict verdict = judge(audit, limits);
+  if (line.json) {
+    print(as_json(audit, verdict));
+  } else if (!line.quiet) {
+    print(as_text(directory, audit, verdict));
+  }
+  return verdict.pass ? ExitCode::ok : ExitCode::simulation_failed;
+}
+
+ExitCode preview_command(const CommandLine& line) {
+  const std::string& directory = line.inputs.front();
+  ProgressBar bar(line);
+  picture_run(directory, {}, [&](double share) { bar.show({"picturing", share, -1}); }, interrupted);
+  bar.clear();
+  const std::filesystem::path folder(directory);
+  const std::string png = (folder / "preview.png").string(), mp4 = (folder / "preview.mp4").string();
+  JsonText json(0);
+  json.begin_object();
+  json.member("png", png);
+  json.member("mp4", mp4);
+  json.end_object();
+  if (line.json) {
+    print(json.str() + '\n');
+  } else if (!line.quiet) {
+    print(png + '\n' + mp4 + '\n');
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace toile

@@ -1,0 +1,59 @@
+#include "terminal.hpp"
+
+#include "core/error.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+namespace toile {
+namespace {
+
+volatile std::sig_atomic_t stop_asked = 0;
+
+void ask_to_stop(int) { stop_asked = 1; }
+
+}  // namespace
+
+void listen_for_interrupts() {
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+bool interrupted() { return stop_asked != 0; }
+
+ProgressBar::ProgressBar(const CommandLine& line) : on_(!line.quiet && isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() { clear(); }
+
+void ProgressBar::show(const Progress& progress) {
+  if (!on_) return;
+  constexpr int width = 30;
+  const int done = std::clamp(static_cast<int>(progress.share * width), 0, width);
+  std::string left;
+  if (progress.seconds_left >= 0) left = std::to_string(static_cast<long>(progress.seconds_left + 0.5)) + " s left";
+  std::fprintf(stderr, "\r%-10.10s [%s%s] %3d %% %-16s", std::string(progress.phase).c_str(), std::string(static_cast<std::size_t>(done), '#').c_str(),
+               std::string(static_cast<std::size_t>(width - done), '.').c_str(), static_cast<int>(100 * progress.share), left.c_str());
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+void ProgressBar::clear() {
+  if (!shown_) return;
+  std::fprintf(stderr, "\r%-72s\r", "");
+  std::fflush(stderr);
+  shown_ = false;
+}
+
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw IoError("standard output", std::strerror(errno));
+}
+
+}  // namespace toile

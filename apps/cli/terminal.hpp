@@ -1,0 +1,32 @@
+// apps/cli/terminal.hpp: what a person sees while waiting, and the wish to stop.
+#pragma once
+#include "command_line.hpp"
+#include "sim/simulate.hpp"
+
+#include <string_view>
+
+namespace toile {
+
+// From here on SIGINT and SIGTERM ask the run to end after the current frame, and a closed pipe is an error like any other.
+void listen_for_interrupts();
+bool interrupted();
+
+// One line on stderr that overwrites itself; nothing unless stderr is a terminal, or with --quiet.
+class ProgressBar {
+ public:
+  explicit ProgressBar(const CommandLine& line);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+  void show(const Progress& progress);
+  void clear();
+
+ private:
+  bool on_;
+  bool shown_ = false;
+};
+
+// To stdout; throws IoError when it is closed or full.
+void print(std::string_view text);
+
+}  // namespace toile

@@ -1,0 +1,100 @@
+"""The checks of the project, each against a small tree with one mistake planted in it.
+
+Usage: checkers_test.py FOLDER_OF_TOOLS
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+tools = pathlib.Path(sys.argv.pop(1)).resolve()
+
+sound_tree = {
+    "src/layers.txt": "# lowest first\ncore\nmesh\nio material\n",
+    "src/CMakeLists.txt": "toile_module(core LIBRARIES TBB::tbb)\ntoile_module(mesh DEPENDS core)\n"
+                          "toile_module(io DEPENDS mesh)\ntoile_module(material DEPENDS core)\n",
+    "src/core/types.hpp": "// docs/units.md#length\n",
+    "src/mesh/mesh.hpp": '#include "core/types.hpp"\n#include "mesh/mesh.hpp"\n#include <vector>\n',
+    "src/io/obj.cpp": '#include "core/types.hpp"\n#include "mesh/mesh.hpp"\n',
+    "tests/mesh/mesh_test.cpp": "TEST(Mesh, IsOne) {}\n",
+    "docs/units.md": "# Units\n\n## Length\n\nSee [home](../README.md#toile), `src/core/types.hpp`, `src/{io,mesh}/*.*pp`, "
+                     "`Mesh.IsOne` and units.md.\n",
+    "README.md": "# Toile\n\n[units](docs/units.md#length)\n\n```sh\nmake build   # comment\n"
+                 "build/release/toile check shirt.json\nbuild/release/toile check \\\n    bad.json   # exit 3\n"
+                 "build/release/toile dress PATTERN\nbuild/release/toile check ../elsewhere/body.obj\n```\n\n"
+                 "```sh long\nbuild/release/toile demo\n```\n",
+    "Makefile": "JOBS := 2\nbuild:\n\techo\n",
+    "shirt.json": "{}",
+    "bad.json": "{}",
+    # Stands for the program: 3 for a bad file, 5 for a demo, 0 otherwise.
+    "build/release/toile": '#!/bin/sh\ncase "$*" in *bad*) exit 3;; *demo*) exit 5;; esac\nmkdir -p out && touch out/trace\n',
+}
+
+
+class Checkers(unittest.TestCase):
+    def run_tool(self, tool, planted=None, arguments=()):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for name, text in {**sound_tree, **(planted or {})}.items():
+                path = root / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text)
+            (root / "build/release/toile").chmod(0o755)
+            command = [sys.executable, str(tools / tool)]
+            command += ["--root", folder, *arguments] if tool == "run_docs_commands.py" else [folder]
+            result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+            self.assertFalse((root / "out").exists(), "a document's command wrote into the source tree")
+            return result.returncode, result.stdout
+
+    def accepts(self, tool, planted=None, arguments=()):
+        code, text = self.run_tool(tool, planted, arguments)
+        self.assertEqual(code, 0, text)
+        return text
+
+    def refuses(self, tool, planted, words, arguments=()):
+        code, text = self.run_tool(tool, planted, arguments)
+        self.assertEqual(code, 1, text)
+        self.assertIn(words, text)
+
+    def test_a_sound_tree_passes(self):
+        for tool in ("check_layers.py", "check_docs.py", "run_docs_commands.py"):
+            self.accepts(tool)
+
+    def test_layers(self):
+        tool = "check_layers.py"
+        self.refuses(tool, {"src/core/a.cpp": '\n#include "mesh/mesh.hpp"\n'}, "src/core/a.cpp:2: 'core' may not include 'mesh'")
+        self.refuses(tool, {"src/material/a.cpp": '#include "io/obj.hpp"\n'}, "'material' may not include 'io'")
+        self.refuses(tool, {"src/material/a.cpp": '#include "mesh/mesh.hpp"\n'}, "does not link it")
+        self.refuses(tool, {"src/material/a.cpp": '#include "util/a.hpp"\n'}, "unknown module 'util'")
+        self.refuses(tool, {"src/util/a.cpp": "\n"}, "module 'util' is not in src/layers.txt")
+
+    def test_links(self):
+        tool = "check_docs.py"
+        self.refuses(tool, {"docs/a.md": "\n[x](gone.md)\n"}, "docs/a.md:2: 'gone.md'")
+        self.refuses(tool, {"docs/a.md": "[x](units.md#mass)\n"}, "'units.md#mass': there is no such heading")
+        self.refuses(tool, {"docs/a.md": "as solver.md derives\n"}, "'solver.md': there is no such document")
+        self.refuses(tool, {"docs/a.md": "`src/core/type.hpp`\n"}, "'src/core/type.hpp'")
+        self.refuses(tool, {"docs/a.md": "`src/{io,solver}/*.cpp` `tests/*/gone_*.cpp`\n"}, "gone_")
+        self.refuses(tool, {"docs/a.md": "`Mesh.IsTwo`\n"}, "'Mesh.IsTwo': there is no such test")
+        self.refuses(tool, {"src/core/a.cpp": "// docs/gone.md\n"}, "src/core/a.cpp:1")
+        self.refuses(tool, {"src/core/a.cpp": "// docs/units.md#mass.\n"}, "docs/units.md#mass")
+        self.accepts(tool, {"docs/a.md": "```\n[x](gone.md)\n```\n\n    [y](gone.md)\n\n<https://example.org/gone.md>\n"})
+
+    def test_commands(self):
+        tool = "run_docs_commands.py"
+        text = self.accepts(tool)
+        self.assertIn("PATTERN is for the reader to fill in", text)
+        self.assertIn("../elsewhere/body.obj is not in the repository", text)
+        self.assertIn("demo   (takes minutes", text)
+        self.refuses(tool, {}, "demo: expected exit 0, got 5", ["--long"])
+        block = "```sh\n{}\n```\n"
+        self.refuses(tool, {"docs/a.md": block.format("build/release/toile check bad.json")}, "expected exit 0, got 3")
+        self.refuses(tool, {"docs/a.md": block.format("build/release/toile check shirt.json -v  # exit 3")}, "expected exit 3, got 0")
+        self.refuses(tool, {"docs/a.md": block.format("make everything")}, "no such target")
+        self.refuses(tool, {"README.md": "# Toile\n"}, "no command was run")
+        self.accepts(tool, {"docs/a.md": "```\nbuild/release/toile check bad.json\n```\n"})
+
+
+if __name__ == "__main__":
+    unittest.main()
