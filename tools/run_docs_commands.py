@@ -116,7 +116,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
     parser.add_argument("--program-dir", type=pathlib.Path)
-    parser.add_argument("--long", action="store_true", help="run the blocks marked long, and those only they need")
+    parser.add_argument("--long", action="store_true", help="run the blocks marked long, too")
     parser.add_argument("--list", action="store_true")
     options = parser.parse_args()
     root = options.root.resolve()
@@ -135,9 +135,10 @@ def main():
             for command in commands_of(document, root):
                 if command.makes():
                     offences += check_make(command, targets)
-                if not command.runs() or command.line in seen:
+                once = (tuple(command.words), command.expected)
+                if not command.runs() or once in seen:
                     continue
-                seen.add(command.line)
+                seen.add(once)
                 skip = "takes minutes: run with --long" if command.long and not options.long else reason_to_skip(command, work)
                 if skip:
                     print(f"skipped  {command.line}   ({skip})", flush=True)

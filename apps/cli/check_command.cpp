@@ -3,17 +3,14 @@
 #include "core/hash.hpp"
 #include "garment/garment_mesh.hpp"
 #include "garment/pattern_check.hpp"
+#include "io/file.hpp"
 #include "io/json.hpp"
 #include "io/obj.hpp"
-#include "io/file.hpp"
 #include "mesh/check.hpp"
 #include "sim/json_text.hpp"
 #include "sim/setup.hpp"
 #include "terminal.hpp"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -66,20 +63,11 @@ std::string describe(const Pattern& pattern, const GarmentMesh& garment, double 
   return text;
 }
 
-void check_areas(const std::string& file, const ObjMesh& mesh) {
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto corner = [&](std::size_t k) -> const Vec3& { return mesh.positions[static_cast<std::size_t>(mesh.triangles[t][k])]; };
-    const Vec3 a = corner(1) - corner(0), b = corner(2) - corner(0);
-    const double area = 0.5 * a.cross(b).norm();
-    if (!(area > 1e-12 * std::max(a.squaredNorm(), b.squaredNorm()))) throw InputError(file, "triangle " + std::to_string(t), "an area above zero", words("%g", area));
-  }
-}
-
 std::string check_mesh(const std::string& path, JsonText& json) {
   const std::string file = printable(path);
   const ObjMesh mesh = parse_obj(read_file(path), file);
   check_triangles(file, mesh.positions, mesh.triangles);
-  check_areas(file, mesh);
+  check_areas(file, mesh.positions, mesh.triangles);
   std::string open;
   try {
     check_closed(file, mesh.positions, mesh.triangles);

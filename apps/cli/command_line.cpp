@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace toile {
@@ -61,6 +62,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
 
   CLI::App* run = app.add_subcommand("run", "Run a scene file");
   run->add_option("SCENE", line.inputs, "Scene file")->required()->expected(1);
+  add_garment_options(*run, line);
 
   CLI::App* check = app.add_subcommand("check", "Check scenes, patterns and meshes; simulate nothing");
   check->add_option("FILE", line.inputs, "Scene or pattern (.json), mesh (.obj)")->required();
@@ -87,6 +89,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   if (app.get_subcommands().empty()) throw Error(ExitCode::usage, "a command is missing: demo, dress, run, check, verify or preview (toile --help)");
 
   const CLI::App* chosen = app.get_subcommands().front();
+  for (const auto& [option, value] : {std::pair{"--resolution", line.resolution_cm}, {"--fps", line.fps}, {"--seconds", line.seconds}})
+    if (value && !std::isfinite(*value)) throw Error(ExitCode::usage, std::string(option) + ": expected a finite number");  // Range lets NaN pass
   using Command = CommandLine::Command;
   const std::pair<const CLI::App*, Command> commands[] = {{demo, Command::demo},   {dress, Command::dress},   {run, Command::run},
                                                           {check, Command::check}, {verify, Command::verify}, {preview, Command::preview}};

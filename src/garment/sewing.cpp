@@ -8,8 +8,8 @@
 namespace toile {
 namespace {
 
-constexpr int most_escalations = 3;      // friction off, then two doublings of the pull
-constexpr double thinning_per_frame = 0.9;
+constexpr int most_escalations = 4;      // thin layers, friction off, then two doublings of the pull
+constexpr double thinning_per_frame = 0.95;
 constexpr double coincident_m = 1e-7;    // below it the direction of a pair means nothing: its spring is isotropic
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -32,11 +32,13 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
   world_.springs = [this](const ClothState& state, double h_s, std::vector<LinearSpring>& springs) { append_springs(state, h_s, springs); };
   StepOptions sewing_step = step;
   sewing_step.body.friction = std::min(step.body.friction, options.friction);
+  sewing_step.rows.look_ahead = 2;
   sewing_step.body.offset_m = std::max(step.body.offset_m, options.offset_m);
   AdaptiveOptions adaptive;
   adaptive.step_max_s = 1 / options.fps;
-  adaptive.floor_halvings = 3;           // the pull of a seam is not divergence
+  adaptive.stretch_floor = 3;            // the pull of a seam is not divergence
   stepper_.emplace(model_, world_, sewing_step, adaptive);
+  thickness_scale_.assign(garment.x.size(), options.thickness_scale);
   stepper_->integrator().contact_rows().set_thickness_scale(thickness_scale_);
   if (garment.pairs.empty()) status_ = SewingStatus::closed;
 }
@@ -97,10 +99,7 @@ void Sewing::judge_progress() {
     status_ = SewingStatus::closed;
     return;
   }
-  if (escalations_ > 0 && thickness_scale_ > options_.thinnest) {
-    thickness_scale_ = std::max(options_.thinnest, thinning_per_frame * thickness_scale_);
-    stepper_->integrator().contact_rows().set_thickness_scale(thickness_scale_);
-  }
+  if (escalations_ > 0) thin_layers();
   if (gap < 0.95 * best_gap_m_) {        // still closing
     best_gap_m_ = gap;
     best_time_s_ = time_s_;
@@ -111,14 +110,24 @@ void Sewing::judge_progress() {
     status_ = SewingStatus::blocked;
     return;
   }
-  if (escalations_ == 0) {
-    stepper_->integrator().body_constraints().set_friction(0);
-  } else {
-    pull_factor_ *= 2;
-  }
+  if (escalations_ == 1) stepper_->integrator().body_constraints().set_friction(0);
+  if (escalations_ > 1) pull_factor_ *= 2;
   ++escalations_;
   best_gap_m_ = gap;
   best_time_s_ = time_s_;
+}
+
+void Sewing::thin_layers() {
+  std::vector<Vec3> open;
+  for (const SeamPair& pair : garment_->pairs) {
+    const Vec3 &a = state_.x[at(pair.a)], &b = state_.x[at(pair.b)];
+    if ((a - b).norm() > options_.weld_gap_m) open.push_back(0.5 * (a + b));
+  }
+  for (std::size_t i = 0; i < thickness_scale_.size(); ++i) {
+    const bool beside = std::any_of(open.begin(), open.end(), [&](const Vec3& p) { return (state_.x[i] - p).norm() < options_.thin_radius_m; });
+    if (beside) thickness_scale_[i] = std::max(options_.thinnest, thinning_per_frame * thickness_scale_[i]);
+  }
+  stepper_->integrator().contact_rows().set_thickness_scale(thickness_scale_);
 }
 
 double Sewing::widest_gap_m() const {
@@ -150,6 +159,15 @@ std::vector<SeamGap> Sewing::gaps() const {
   }
   std::stable_sort(gaps.begin(), gaps.end(), [](const SeamGap& a, const SeamGap& b) { return a.gap_m > b.gap_m; });
   return gaps;
+}
+
+std::vector<double> weld_thickness(const WeldedMesh& welded, const std::vector<double>& scale) {
+  std::vector<double> joined(at(welded.mesh.particle_count), 1);
+  for (std::size_t i = 0; i < scale.size(); ++i) {
+    double& s = joined[at(welded.particle_of[i])];
+    s = std::min(s, scale[i]);
+  }
+  return joined;
 }
 
 ClothState weld_state(const GarmentMesh& garment, const WeldedMesh& welded, const ClothModel& model, const ClothState& state) {

@@ -4,9 +4,9 @@
 //   pull        F = min( k (|d| - l)+, f_max ) along d,     f_max = 300 N per metre of seam,  k = f_max / 3 mm
 //   in A        secant stiffness F / (|d| - l) along d, the geometric F / |d| across it, damping 0.02 s x the secant
 //
-// Gravity is off while sewing (with it on, folds get caught).  If a seam still gapes when l = 0, the body's friction goes to 0 and the
-// layers of cloth are thinned (where four panels meet, their thickness alone holds a corner open by a centimetre); then f_max doubles, at
-// most twice; then the garment is reported as blocked, by seam.
+// Gravity is off while sewing (with it on, folds get caught).  If a seam still gapes when l = 0, the layers of cloth around the gap are
+// thinned (where four panels meet, their thickness alone holds a corner open by a centimetre); then the body's friction goes to 0; then f_max
+// doubles, at most twice; then the garment is reported as blocked, by seam.
 #pragma once
 #include "garment/garment_mesh.hpp"
 #include "step/adaptive_step.hpp"
@@ -24,9 +24,11 @@ struct SewingOptions {
   double damping_s = 0.02;
   double friction = 0.3;             // of the body, at most
   double offset_m = 4e-3;            // contact distance from the body while sewing, at least
-  double weld_gap_m = 1e-3;
+  double weld_gap_m = 1.5e-3;
   double patience_s = 0.4;           // without progress, before friction goes, and before each doubling of the pull
-  double thinnest = 0.1;             // of the fabrics' contact distance
+  double thickness_scale = 1.6;      // of the fabrics' contact distance, while sewing
+  double thinnest = 0.2;             // the same, within `thin_radius_m` of a seam that will not close
+  double thin_radius_m = 0.03;
   double fps = 60;
 };
 
@@ -52,6 +54,7 @@ class Sewing {
   double closed_share() const;       // 0 ... 1 of the way, for a progress bar
   const ClothState& state() const { return state_; }
   const ClothModel& model() const { return model_; }
+  const std::vector<double>& thickness_scale() const { return thickness_scale_; }
   // Seams by gap, widest first.
   std::vector<SeamGap> gaps() const;
   double widest_gap_m() const;
@@ -61,6 +64,7 @@ class Sewing {
  private:
   void append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const;
   void judge_progress();
+  void thin_layers();
 
   const GarmentMesh* garment_;
   SewingOptions options_;
@@ -72,11 +76,14 @@ class Sewing {
   double longest_m_ = 0, pull_factor_ = 1, time_s_ = 0;
   double best_gap_m_ = 0, best_time_s_ = 0;
   int escalations_ = 0;
-  double thickness_scale_ = 1.6;     // layers keep 4 mm apart where the fabric asks for 2.5
+  std::vector<double> thickness_scale_;    // [particle]
   SewingStatus status_ = SewingStatus::sewing;
 };
 
 // Position and velocity of the welded cloth: mass-weighted means over each class.
 ClothState weld_state(const GarmentMesh& garment, const WeldedMesh& welded, const ClothModel& unwelded_model, const ClothState& state);
+
+// The layers that sewing thinned, on the welded cloth: scale per particle, at most 1.  The drape grows them back.
+std::vector<double> weld_thickness(const WeldedMesh& welded, const std::vector<double>& scale);
 
 }  // namespace toile

@@ -1,7 +1,7 @@
 // sim/picture_run.hpp: a still and a film of a finished run, from its files.                         docs/command-line.md#preview
 //
 //   preview.png   front, side and back of the last frame; crossings in red
-//   preview.mp4   the sewing, if there was one, then the cloth; at most about six seconds
+//   preview.mp4   the sewing, if there was one, then the cloth; at most about four seconds
 #pragma once
 #include <functional>
 #include <string>
@@ -12,7 +12,7 @@ struct PictureOptions {
   int sheet_width = 400, sheet_height = 560, sheet_samples = 12;  // of one view
   int film_width = 360, film_height = 480, film_samples = 6;
   double film_fps = 15;
-  int most_film_frames = 90;
+  int most_film_frames = 60;
 };
 
 // `progress` gets the share done and may be empty; `stop` may be empty.  Throws IoError or InputError for files that are missing or wrong.

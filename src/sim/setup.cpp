@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cstdio>
 #include <string_view>
 
 namespace toile {
@@ -59,6 +60,19 @@ void add(Hash& hash, const Fabric& f) {
 
 }  // namespace
 
+void check_areas(std::string_view file, std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+  constexpr double smallest = 1e-9;  // of the longer side's square
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Vec3& origin = positions[at(triangles[t][0])];
+    const Vec3 a = positions[at(triangles[t][1])] - origin, b = positions[at(triangles[t][2])] - origin;
+    const double area = 0.5 * a.cross(b).norm();
+    if (area > smallest * std::max(a.squaredNorm(), b.squaredNorm())) continue;
+    std::array<char, 32> text;
+    std::snprintf(text.data(), text.size(), "%g", area);
+    throw InputError(file, "triangle " + std::to_string(t), "an area above zero", text.data());
+  }
+}
+
 SolidMesh load_body(const SceneBody& body, Hash& inputs) {
   switch (body.kind) {
     case SceneBody::Kind::none: return {};
@@ -72,6 +86,7 @@ SolidMesh load_body(const SceneBody& body, Hash& inputs) {
   const std::string text = read_file(body.mesh);
   inputs.add_bytes(text.data(), text.size());
   CollisionBody read = make_collision_body(parse_obj(text, printable(body.mesh)), printable(body.mesh), body.unit);
+  check_areas(printable(body.mesh), read.positions, read.triangles);
   return {std::move(read.positions), std::move(read.triangles)};
 }
 

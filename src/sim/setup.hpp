@@ -14,6 +14,9 @@ namespace toile {
 // Empty for a scene without body.  Adds the bytes of its file to `inputs`.  Throws IoError, InputError.
 SolidMesh load_body(const SceneBody& body, Hash& inputs);
 
+// Throws InputError for the first triangle whose corners lie on a line.
+void check_areas(std::string_view file, std::span<const Vec3> positions, std::span<const Triangle> triangles);
+
 // Flat sheet, placed; one panel with the cloth's name.
 struct PlacedGrid {
   ClothMesh mesh;

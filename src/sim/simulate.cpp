@@ -22,6 +22,7 @@ namespace {
 constexpr double weightless_s = 0.2, ramp_s = 0.3;   // after the weld
 constexpr double at_rest_mm_per_s = 2, rest_s = 0.5;  // when a drape may stop
 constexpr double sewing_film_fps = 30;
+constexpr double thickness_recovery = 1.1;             // per frame, of layers that were thinned to close a seam
 
 template <class... Values>
 std::string words(const char* format, Values... values) {
@@ -203,6 +204,7 @@ class Run {
     }
     const WeldedMesh welded = weld(garment_);
     start_ = weld_state(garment_, welded, sewing.model(), sewing.state());
+    thickness_scale_ = weld_thickness(welded, sewing.thickness_scale());
     mesh_ = welded.mesh;
     report_.vertices = mesh_.particle_count;
     return true;
@@ -273,6 +275,8 @@ class Run {
       if (sewn) {
         model.gravity_m_per_s2 = ramp(t_s) * scene_.gravity_m_per_s2;
         set_rest_stretch(model, ramp(t_s));
+        stepper.integrator().contact_rows().set_thickness_scale(thickness_scale_);
+        for (double& scale : thickness_scale_) scale = std::min(1.0, thickness_recovery * scale);
       }
       FrameReport frame;
       {
@@ -340,6 +344,7 @@ class Run {
   GarmentMesh garment_;
   ClothMesh mesh_;
   std::string name_;
+  std::vector<double> thickness_scale_;   // [welded particle]
   ClothState start_, final_;
   std::vector<Fabric> fabrics_;
   std::vector<Vec2> b_of_panel_;

@@ -25,9 +25,9 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
     while (true) {
       const long step_ticks = ticks_per_base >> halvings_;
       const double h = base_s / static_cast<double>(1L << halvings_);
-      const bool at_floor = halvings_ >= options_.floor_halvings;
-      const double limit = at_floor && options_.floor_halvings < options_.most_halvings ? std::numeric_limits<double>::infinity() : options_.stretch_limit;
-      report.last = integrator_.attempt(state, t_s + static_cast<double>(now) * tick_s, h, limit, candidate_);
+      StepLimits limits{options_.stretch_limit, halvings_ < options_.passing_floor};
+      if (halvings_ >= options_.stretch_floor) limits.stretch = std::numeric_limits<double>::infinity();
+      report.last = integrator_.attempt(state, t_s + static_cast<double>(now) * tick_s, h, limits, candidate_);
       report.passes += report.last.passes;
       report.cg_iterations += report.last.cg_iterations;
       if (report.last) {

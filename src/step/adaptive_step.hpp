@@ -1,6 +1,7 @@
 // step/adaptive_step.hpp: how long a step may be, from what it does to the threads.                               [BW98 7]
 //
 //   accept   while no |w_u| or |w_v| changes by more than `stretch_limit` in the step and the solve converged
+//            and no pair of cloth in contact has changed sides
 //   reject   otherwise: h <- h / 2, the state is untouched and no element is evaluated again
 //   grow     after two accepted steps try 2 h, up to h_max; after a failed increase wait 2, 4, 8 ... 40 accepted steps
 //
@@ -18,7 +19,8 @@ struct AdaptiveOptions {
   double step_max_s = 1.0 / 30;
   double stretch_limit = 0.05;         // change of |w| per step
   int most_halvings = 10;              // frame / 1024: then the run has collapsed
-  int floor_halvings = 10;             // at this many the stretch is no longer judged (sewing), only solver and finiteness
+  int stretch_floor = 11;              // from this many halvings on the stretch is no longer judged (sewing sets it lower)
+  int passing_floor = 6;               // likewise for pairs that change sides: what a shorter step cannot hold is the safe filter's business
 };
 
 struct FrameReport {

@@ -54,22 +54,22 @@ void ContactRows::detect(const ClothState& state, double h_s) {
   if (tree_.triangle_count() == 0) tree_ = TriangleTree(state.x, model_->mesh.triangles);
   // How far ahead pairs are watched does not shrink with a thinned r: how fast they close has nothing to do with it.
   double thickest = 0;
-  for (const double r : reach_m_) thickest = std::max(thickest, r);
-  const double scale = std::max(1.0, thickness_scale_);
-  const double r_max = std::max(options_.cloth_cloth ? scale * thickest : 0, body_ ? body_r_m_ : 0);
+  for (std::size_t i = 0; i < reach_m_.size(); ++i) thickest = std::max(thickest, std::max(1.0, thickness_scale(i)) * reach_m_[i]);
+  const double r_max = std::max(options_.cloth_cloth ? thickest : 0, body_ ? body_r_m_ : 0);
   const double range = (1 + options_.look_ahead) * r_max;
 
   if (options_.cloth_cloth) {
     const Timed timed(cloth_seconds);
     find_cloth_contacts(topology_, tree_, state.x, {range, 0}, workspace_, cloth_contacts_);
     for (const ClothContact& contact : cloth_contacts_) {
-      double full = std::numeric_limits<double>::infinity(), friction = 0;
+      double r = std::numeric_limits<double>::infinity(), full = r, friction = 0;
       for (std::size_t k = 0; k < 4; ++k) {
         if (contact.particle[k] < 0) continue;
-        full = std::min(full, reach_m_[at(contact.particle[k])]);
+        const std::size_t i = at(contact.particle[k]);
+        full = std::min(full, reach_m_[i]);
+        r = std::min(r, thickness_scale(i) * reach_m_[i]);
         friction = std::max(friction, model_->friction[at(contact.particle[k])]);
       }
-      const double r = thickness_scale_ * full;
       Pair pair{{contact.kind, false, {contact.particle[0], contact.particle[1], contact.particle[2], contact.particle[3], -1}}, {}, contact.gap_m, r, friction};
       pair.spring.particle = contact.particle;
       pair.spring.weight = contact.weight;
@@ -175,6 +175,25 @@ void ContactRows::accept(const ClothState& end_state) {
     memory_.push_back({pair.key, pair.spring.stiffness_N_per_m, pair.spring.stiffness_N_per_m * std::max(0.0, pair.r_m - pair.predicted_m),
                        velocity - n.dot(velocity) * n});
   }
+}
+
+int ContactRows::passed_through(const Vec3s& start, const Vec3s& end) const {
+  // Six times the volume of the tetrahedron of the four particles: its sign tells the sides of a vertex and a face, or of two edges.
+  const auto side = [](const Vec3s& x, const std::array<Index, 4>& p) {
+    return (x[at(p[1])] - x[at(p[0])]).cross(x[at(p[2])] - x[at(p[0])]).dot(x[at(p[3])] - x[at(p[0])]);
+  };
+  int count = 0;
+  for (const Pair& pair : pairs_) {
+    if (pair.key.body || (pair.key.kind != ContactKind::vertex_face && pair.key.kind != ContactKind::edge_edge)) continue;
+    const std::array<Index, 4>& p = pair.spring.particle;
+    if ((side(start, p) > 0) == (side(end, p) > 0)) continue;
+    if (pair.key.kind == ContactKind::vertex_face) {
+      if (closest_vertex_triangle(end[at(p[0])], end[at(p[1])], end[at(p[2])], end[at(p[3])]).feature == Feature::face) ++count;
+    } else if (closest_edge_edge(end[at(p[0])], end[at(p[1])], end[at(p[2])], end[at(p[3])]).interior) {
+      ++count;
+    }
+  }
+  return count;
 }
 
 int ContactRows::active() const {

@@ -43,9 +43,13 @@ class ContactRows {
   Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> y, double h_s, bool may_drop);
   void accept(const ClothState& end_state);
 
-  // Scales the distance at which layers of cloth meet (1: the fabrics' own).  Four layers in a corner of a seam are a centimetre thick:
-  // sewing thins them to let the corner close.
-  void set_thickness_scale(double scale) { thickness_scale_ = scale; }
+  // Scales the distance at which layers of cloth meet, per particle (empty: the fabrics' own everywhere).  Four layers in a corner of a seam
+  // are a centimetre thick: sewing thins them there to let the corner close.
+  void set_thickness_scale(std::vector<double> scale) { thickness_scale_ = std::move(scale); }
+
+  // Pairs of the last detect() that have changed sides between the state's positions and `end`: the step was too long for their normals.
+  // Not a proof (that is the safe filter's business): only pairs that were near are asked, and only where they end.
+  int passed_through(const Vec3s& start, const Vec3s& end) const;
 
   int active() const;
   std::size_t candidates() const { return pairs_.size(); }
@@ -72,6 +76,7 @@ class ContactRows {
     double stiffness, lambda_N;
     Vec3 slip_m_per_s;
   };
+  double thickness_scale(std::size_t particle) const { return thickness_scale_.empty() ? 1 : thickness_scale_[particle]; }
   Vec3 relative_velocity(const Pair& pair, const Vec3s& v, double h_s) const;
 
   const ClothModel* model_;
@@ -86,7 +91,8 @@ class ContactRows {
   std::vector<BodyContact> body_contacts_;
   std::vector<Pair> pairs_;                      // sorted by key
   std::vector<Memory> memory_;                   // sorted by key
-  double h_s_ = 0, thickness_scale_ = 1;
+  double h_s_ = 0;
+  std::vector<double> thickness_scale_;          // [particle]
 };
 
 }  // namespace toile

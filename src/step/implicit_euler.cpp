@@ -18,6 +18,7 @@ std::string_view to_string(StepStatus status) {
     case StepStatus::accepted: return "accepted";
     case StepStatus::solver_failed: return "solver_failed";
     case StepStatus::stretched: return "stretched";
+    case StepStatus::passed_through: return "passed_through";
     case StepStatus::too_fast: return "too_fast";
     case StepStatus::not_finite: return "not_finite";
   }
@@ -33,6 +34,9 @@ std::string StepReport::explain() const {
     case StepStatus::solver_failed: return "linear solver: " + pcg.explain();
     case StepStatus::stretched:
       std::snprintf(text, sizeof text, "h = %.3g ms: stretch of triangle %d changes by %.3g in one step", 1e3 * h_s, worst_triangle, stretch_change);
+      break;
+    case StepStatus::passed_through:
+      std::snprintf(text, sizeof text, "h = %.3g ms: %d pairs of cloth in contact pass through each other", 1e3 * h_s, passed_through);
       break;
     case StepStatus::too_fast:
       std::snprintf(text, sizeof text, "h = %.3g ms: particle %d is faster than the limit", 1e3 * h_s, worst_particle);
@@ -93,7 +97,7 @@ void ImplicitEuler::hold_pins(const ClothState& state, double t_s, double h_s) {
   }
 }
 
-StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_s, double stretch_limit, ClothState& candidate) {
+StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_s, const StepLimits& limits, ClothState& candidate) {
   StepReport report;
   report.h_s = h_s;
   const std::size_t n = force_.size();
@@ -165,13 +169,13 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     candidate.v[i] = state.v[i] + dv_[i];
     candidate.x[i] = state.x[i] + h_s * candidate.v[i] + y_[i];
   }
-  judge(stretch_limit, candidate, report);
+  judge(state, limits, candidate, report);
   h_last_s_ = report ? h_s : h_last_s_;
   if (report) dv_last_ = dv_;
   return report;
 }
 
-void ImplicitEuler::judge(double stretch_limit, const ClothState& candidate, StepReport& report) {
+void ImplicitEuler::judge(const ClothState& state, const StepLimits& limits, const ClothState& candidate, StepReport& report) {
   for (std::size_t i = 0; i < candidate.x.size(); ++i) {
     const double speed2 = candidate.v[i].squaredNorm();
     if (!std::isfinite(speed2 + candidate.x[i].squaredNorm())) {
@@ -197,7 +201,9 @@ void ImplicitEuler::judge(double stretch_limit, const ClothState& candidate, Ste
       report.worst_triangle = static_cast<Index>(t);
     }
   }
-  if (report.stretch_change > stretch_limit) report.status = StepStatus::stretched;
+  if (report.stretch_change > limits.stretch) report.status = StepStatus::stretched;
+  report.passed_through = rows_.passed_through(state.x, candidate.x);
+  if (report.passed_through > 0 && limits.passing && report) report.status = StepStatus::passed_through;
 }
 
 void ImplicitEuler::accept(const ClothState& candidate) {

@@ -36,18 +36,25 @@ struct StepOptions {
   double max_speed_m_per_s = 100;               // beyond this the step is refused
 };
 
+// What a step must not do.
+struct StepLimits {
+  double stretch = 0.05;                        // largest accepted change of |w_u| or |w_v| away from rest
+  bool passing = true;                          // refuse when contact pairs of cloth change sides
+};
+
 // Time per phase, for reports; s.
 struct PhaseSeconds {
   double eval = 0, cg = 0, cloth_cloth = 0, cloth_solid = 0;
 };
 
-enum class StepStatus { accepted, solver_failed, stretched, too_fast, not_finite };
+enum class StepStatus { accepted, solver_failed, stretched, passed_through, too_fast, not_finite };
 std::string_view to_string(StepStatus status);
 
 struct StepReport {                             // what happened, in numbers a log can plot
   StepStatus status = StepStatus::accepted;
   double h_s = 0;
   int passes = 0, cg_iterations = 0;
+  int passed_through = 0;                       // contact pairs that changed sides
   int touching = 0, rows = 0;                   // body constraints and contact rows of the last pass
   double stretch_change = 0;                    // max over triangles of | |w|' - |w| | away from rest
   Index worst_triangle = -1, worst_particle = -1;
@@ -72,8 +79,7 @@ class ImplicitEuler {
   // Evaluates elements and near pairs at the state; `base_h_s` is the longest step that will be tried from it.
   void prepare(const ClothState& state, double base_h_s);
   // Tries a step of h_s from the prepared state (at time t_s) and writes the candidate.  The state is not touched.
-  // `stretch_limit`: largest accepted change of |w_u| or |w_v|; infinity accepts any.
-  [[nodiscard]] StepReport attempt(const ClothState& state, double t_s, double h_s, double stretch_limit, ClothState& candidate);
+  [[nodiscard]] StepReport attempt(const ClothState& state, double t_s, double h_s, const StepLimits& limits, ClothState& candidate);
   // The candidate of the last attempt becomes the state: contacts and forces are remembered.
   void accept(const ClothState& candidate);
 
@@ -90,7 +96,7 @@ class ImplicitEuler {
 
  private:
   void hold_pins(const ClothState& state, double t_s, double h_s);
-  void judge(double stretch_limit, const ClothState& candidate, StepReport& report);
+  void judge(const ClothState& state, const StepLimits& limits, const ClothState& candidate, StepReport& report);
 
   const ClothModel* model_;
   const StepWorld* world_;

@@ -1,0 +1,186 @@
+// Whatever is wrong with an input: the right exit code, one line on stderr that names file, place, what was expected and what is
+// there, and no directory that looks like a finished run.
+#include "cli/program.hpp"
+#include "io/json.hpp"
+#include "io/obj.hpp"
+#include "sim/cylinder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace toile {
+namespace {
+
+using test::Ended;
+using test::run_toile;
+
+void expect_refused(const Scratch& scratch, const Ended& ended, int exit_code, std::initializer_list<std::string_view> words) {
+  EXPECT_EQ(ended.signal, 0);
+  EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
+  EXPECT_EQ(ended.err_lines(), 1) << ended.err;
+  for (const std::string_view word : words) EXPECT_NE(ended.err.find(word), std::string::npos) << '"' << word << "\" is not in: " << ended.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/report.json"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/cloth.pc2"));
+}
+
+std::string put_body(const Scratch& scratch, double scale = 1, std::string_view name = "body.obj") {
+  SolidMesh solid = rounded_cylinder(0.2 * scale, 1.0 * scale, Vec3(0, scale, 0));
+  ObjMesh obj;
+  obj.positions = solid.positions;
+  obj.triangles = solid.triangles;
+  write_obj(scratch / name, obj);
+  return std::string(name);
+}
+
+// Two rectangles in front of and behind the body, sewn at both sides.
+std::string pattern(std::string_view front_edges, std::string_view stitches, std::string_view front_vertices = "[[-30,0],[30,0],[30,40],[-30,40]]") {
+  return R"({"pattern": {"panels": {
+    "front": {"translation": [0, 40, 30], "rotation": [0, 0, 0], "vertices": )" +
+         std::string(front_vertices) + R"(, "edges": [)" + std::string(front_edges) + R"(]},
+    "back": {"translation": [0, 40, -30], "rotation": [0, 0, 0], "vertices": [[-30,0],[-30,40],[30,40],[30,0]],
+      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
+    "stitches": [)" + std::string(stitches) + R"(]}, "properties": {"units_in_meter": 100}})";
+}
+const std::string good_edges = R"({"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]})";
+const std::string good_stitches = R"([{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}])";
+
+void expect_pattern_refused(const std::string& text, std::initializer_list<std::string_view> words) {
+  const Scratch scratch;
+  scratch.put("p.json", text);
+  put_body(scratch);
+  expect_refused(scratch, run_toile(scratch, {"dress", "p.json", "--body", "body.obj", "--out", "out", "--quiet"}), 3, words);
+  const Ended check = run_toile(scratch, {"check", "p.json"});
+  EXPECT_EQ(check.exit_code, 3) << "toile check finds the same";
+}
+
+void expect_body_refused(const std::string& text, int code, std::initializer_list<std::string_view> words) {
+  const Scratch scratch;
+  scratch.put("p.json", pattern(good_edges, good_stitches));
+  scratch.put("body.obj", text);
+  expect_refused(scratch, run_toile(scratch, {"dress", "p.json", "--body", "body.obj", "--out", "out", "--quiet"}), code, words);
+}
+
+void expect_scene_refused(const std::string& text, std::initializer_list<std::string_view> words) {
+  const Scratch scratch;
+  scratch.put("s.json", text);
+  expect_refused(scratch, run_toile(scratch, {"run", "s.json", "--out", "out", "--quiet"}), 3, words);
+}
+
+TEST(BadInput, AMissingFileIsAnOutputError) {
+  const Scratch scratch;
+  put_body(scratch);
+  expect_refused(scratch, run_toile(scratch, {"dress", "none.json", "--body", "body.obj", "--out", "out"}), 6, {"none.json"});
+  expect_refused(scratch, run_toile(scratch, {"run", "none.json", "--out", "out"}), 6, {"none.json"});
+  expect_refused(scratch, run_toile(scratch, {"check", "none.obj"}), 6, {"none.obj"});
+  scratch.put("p.json", pattern(good_edges, good_stitches));
+  expect_refused(scratch, run_toile(scratch, {"dress", "p.json", "--body", "none.obj", "--out", "out"}), 6, {"none.obj"});
+}
+
+TEST(BadInput, ATruncatedFileIsNamedWithItsLine) {
+  const std::string whole = pattern(good_edges, good_stitches);
+  expect_pattern_refused(whole.substr(0, whole.size() / 2), {"p.json:", "expected", "got"});
+}
+
+TEST(BadInput, NotANumberInABody) { expect_body_refused("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n", 3, {"body.obj:3", "expected", "nan"}); }
+TEST(BadInput, AnEmptyMesh) { expect_body_refused("v 0 0 0\n", 3, {"body.obj", "expected", "got"}); }
+TEST(BadInput, AnIndexOutOfRange) { expect_body_refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", 3, {"body.obj:4", "expected an index in 1..3", "got 9"}); }
+
+TEST(BadInput, ABodyThatIsNotClosed) {
+  expect_body_refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n", 3, {"body.obj", "edge", "expected", "got"});
+}
+
+TEST(BadInput, ATriangleWithoutArea) {
+  const Scratch scratch;
+  scratch.put("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  expect_refused(scratch, run_toile(scratch, {"check", "flat.obj"}), 3, {"flat.obj", "triangle 0", "expected an area above zero", "got 0"});
+  // The same in a closed body: one edge of the tetrahedron has a corner in its middle.
+  expect_body_refused(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0 0\nf 1 3 2\nf 1 2 5\nf 1 5 4\nf 5 2 4\nf 2 3 4\nf 1 4 3\n", 3,
+      {"body.obj", "triangle 1", "expected", "got"});
+}
+
+TEST(BadInput, ABodyInTheWrongUnitIsAskedFor) {
+  const Scratch scratch;
+  scratch.put("p.json", pattern(good_edges, good_stitches));
+  put_body(scratch, 100);
+  expect_refused(scratch, run_toile(scratch, {"dress", "p.json", "--body", "body.obj", "--out", "out"}), 3, {"body.obj", "--body-unit", "cm"});
+}
+
+TEST(BadInput, APatternWithAnOpenLoop) {
+  expect_pattern_refused(pattern(R"({"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]})", good_stitches), {"p.json:", "front", "expected", "got"});
+}
+TEST(BadInput, APanelThatCrossesItself) {
+  expect_pattern_refused(pattern(good_edges, good_stitches, "[[-30,0],[30,40],[30,0],[-30,40]]"), {"p.json", "front", "expected", "got"});
+}
+TEST(BadInput, AStitchToAMissingEdge) {
+  expect_pattern_refused(pattern(good_edges, R"([{"panel": "front", "edge": 7}, {"panel": "back", "edge": 2}])"), {"p.json:", "stitches/0", "expected", "got 7"});
+}
+TEST(BadInput, AnEdgeStitchedTwice) {
+  expect_pattern_refused(
+      pattern(good_edges, R"([{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 1}, {"panel": "back", "edge": 0}])"),
+      {"p.json:", "stitches/1", "expected", "got"});
+}
+TEST(BadInput, ATwistedSeam) {
+  expect_pattern_refused(
+      pattern(good_edges, R"([{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}, "right_wrong"], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}])"),
+      {"p.json", "seam front.3 - back.0", "twisted"});
+}
+TEST(BadInput, AnUnknownCurve) {
+  expect_pattern_refused(pattern(R"({"endpoints": [0,1], "curvature": {"type": "spline", "params": [[0.5, 0.1]]}}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]})",
+                                 good_stitches),
+                         {"p.json:", "curvature", "expected", "spline"});
+}
+
+TEST(BadInput, ANegativeStiffnessOrDensity) {
+  expect_scene_refused("{\"cloth\": [{\"grid\": {},\n \"fabric\": {\"density_kg_per_m2\": -0.2}}]}", {"s.json:2", "/cloth/0/fabric/density_kg_per_m2", "expected a number above zero", "got -0.2"});
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}, \"fabric\": {\"stretch_u_N_per_m\": -1}}]}", {"s.json:1", "stretch_u_N_per_m", "got -1"});
+}
+TEST(BadInput, AnUnknownKeyIsAnsweredWithTheNearest) {
+  expect_scene_refused("{\"cloth\": [{\"grid\": {\"widht_m\": 2}}]}", {"s.json:1", "/cloth/0/grid", "width_m", "widht_m"});
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"wrold\": {}}", {"world", "wrold"});
+}
+TEST(BadInput, AFabricThatDoesNotExistIsAnsweredWithTheNearest) {
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}, \"fabric\": \"coton\"}]}", {"/cloth/0/fabric", "nearest is \"cotton\"", "coton"});
+}
+TEST(BadInput, WhatIsNotAvailableYetIsRefusedAndNotIgnored) {
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"world\": {\"wind_m_per_s\": [1, 0, 0]}}", {"/world/wind_m_per_s", "not available yet"});
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"body\": {\"mannequin\": \"woman\", \"motion\": \"walk\"}}", {"/body/motion", "not available yet"});
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}}, {\"grid\": {}}]}", {"/cloth", "not available yet"});
+}
+
+TEST(BadInput, AnOutputThatCannotBeWritten) {
+  const Scratch scratch;
+  scratch.put("s.json", "{\"cloth\": [{\"grid\": {\"edge_m\": 0.2}}], \"time\": {\"seconds\": 0.1}}");
+  scratch.put("file", "not a directory");
+  const Ended ended = run_toile(scratch, {"run", "s.json", "--out", "file/out"});
+  EXPECT_EQ(ended.exit_code, 6) << ended.err;
+  EXPECT_EQ(ended.err_lines(), 1) << ended.err;
+  EXPECT_NE(ended.err.find("file"), std::string::npos);
+}
+
+TEST(Usage, EndsWithTwoAndOneLine) {
+  const Scratch scratch;
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {}, {"fly"}, {"run"}, {"dress", "p.json"}, {"demo", "tshrit"}, {"demo", "--threads", "-3"}, {"demo", "--seconds", "nan"}, {"run", "s.json", "--nonsense"},
+           {"dress", "p.json", "--body", "mannequin", "--body-unit", "inch"}, {"dress", "p.json", "--body", "mannequin", "--motion", "walk.bvh"}}) {
+    const Ended ended = run_toile(scratch, words);
+    EXPECT_EQ(ended.exit_code, 2) << (words.empty() ? "" : words.front()) << ": " << ended.err;
+    EXPECT_EQ(ended.err_lines(), 1) << ended.err;
+    EXPECT_EQ(ended.out, "");
+  }
+}
+
+TEST(Usage, AnErrorWithJsonIsOneObjectOnStdout) {
+  const Scratch scratch;
+  const Ended ended = run_toile(scratch, {"run", "none.json", "--json"});
+  EXPECT_EQ(ended.exit_code, 6);
+  EXPECT_NO_THROW({
+    const Json json = Json::parse(ended.out, "stdout");
+    EXPECT_EQ(json.at("exit_code").integer(), 6);
+  }) << ended.out;
+}
+
+}  // namespace
+}  // namespace toile

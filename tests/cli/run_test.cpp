@@ -1,0 +1,169 @@
+// Runs that succeed, or fail for a reason: files, exit codes and equal bits.
+#include "cli/program.hpp"
+#include "io/json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <thread>
+
+namespace toile {
+namespace {
+
+using test::Ended;
+using test::run_toile;
+
+// A small cloth that falls on a cylinder and folds: contact of both kinds.
+const char* const small_scene = R"({"cloth": [{"grid": {"width_m": 0.5, "height_m": 0.5, "edge_m": 0.03},
+    "placement": {"translation_m": [0, 0.01, 0], "rotation_deg": [-90, 0, 0]}}],
+  "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.4}}, "time": {"seconds": 0.7}})";
+
+Json run_small(const Scratch& scratch, const std::string& out, std::vector<std::string> more) {
+  std::vector<std::string> words = {"run", "s.json", "--json", "--out", out};
+  words.insert(words.end(), more.begin(), more.end());
+  const Ended ended = run_toile(scratch, words);
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(ended.err, "");
+  return Json::parse(ended.out, "stdout");
+}
+
+TEST(Run, GivesTheSameBitsTwiceAndForAnyNumberOfThreads) {
+  const Scratch scratch;
+  scratch.put("s.json", small_scene);
+  const Json first = run_small(scratch, "a", {"--threads", "1"});
+  const std::string hash = first.at("state_hash").string(), cache = scratch.get("a/cloth.pc2");
+  EXPECT_EQ(hash.size(), 16u);
+  EXPECT_FALSE(cache.empty());
+  for (const char* threads : {"1", "2", "5"}) {
+    const Json again = run_small(scratch, std::string("b") + threads, {"--threads", threads});
+    EXPECT_EQ(again.at("state_hash").string(), hash) << threads << " threads";
+    EXPECT_EQ(again.at("input_hash").string(), first.at("input_hash").string());
+    EXPECT_EQ(scratch.get(std::string("b") + threads + "/cloth.pc2"), cache) << threads << " threads";
+  }
+}
+
+TEST(Run, AnotherInputHasAnotherHash) {
+  const Scratch scratch;
+  scratch.put("s.json", small_scene);
+  const Json first = run_small(scratch, "a", {"--seconds", "0.1"}), second = run_small(scratch, "b", {"--seconds", "0.2"});
+  const Json third = run_small(scratch, "c", {"--seconds", "0.1", "--fabric", "silk"});
+  EXPECT_NE(first.at("input_hash").string(), second.at("input_hash").string());
+  EXPECT_NE(first.at("input_hash").string(), third.at("input_hash").string());
+  EXPECT_NE(first.at("state_hash").string(), second.at("state_hash").string());
+  EXPECT_NE(first.at("state_hash").string(), third.at("state_hash").string());
+}
+
+TEST(Run, WritesTheFilesOfTheContractAndVerifyAgrees) {
+  const Scratch scratch;
+  scratch.put("s.json", small_scene);
+  const Json said = run_small(scratch, "a", {});
+  for (const char* name : {"cloth.obj", "cloth.pc2", "body.obj", "body.pc2", "report.json"}) EXPECT_TRUE(std::filesystem::exists(scratch / (std::string("a/") + name))) << name;
+  for (const auto& entry : std::filesystem::directory_iterator(scratch / "a")) EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+  const Json report = Json::load(scratch / "a/report.json");
+  EXPECT_EQ(report.at("state_hash").string(), said.at("state_hash").string()) << "--json prints the report";
+  for (const char* key : {"toile_version", "command", "input_hash", "state_hash", "verdict", "reasons", "limits", "threads", "units", "cloth", "body", "fps", "frames", "steps",
+                          "steps_rejected", "step_min_ms", "step_max_ms", "seconds_total", "seconds_per_frame", "cg_iterations", "stretch", "shear_degrees", "penetrations",
+                          "gap_mm", "still", "peak_memory_mb"})
+    EXPECT_NE(report.find(key), nullptr) << key;
+  EXPECT_EQ(report.at("frames").integer(), 21) << "0.7 s at 30 per second, frame 0 included";
+  std::int32_t samples = 0;
+  std::memcpy(&samples, scratch.get("a/cloth.pc2").data() + 28, 4);
+  EXPECT_EQ(samples, 21);
+
+  const Ended verify = run_toile(scratch, {"verify", "a", "--json"});
+  EXPECT_EQ(verify.exit_code, 0) << verify.err << verify.out;
+  const Json judged = Json::parse(verify.out, "stdout");
+  EXPECT_EQ(judged.at("verdict").string(), report.at("verdict").string());
+  for (const char* kind : {"cloth_body_edges", "cloth_cloth_edges"})
+    EXPECT_EQ(judged.at("penetrations").at(kind).at("max").number(), report.at("penetrations").at(kind).at("max").number());
+  for (const char* part : {"p50", "p99", "max"}) EXPECT_NEAR(judged.at("stretch").at(part).number(), report.at("stretch").at(part).number(), 1e-4) << part;
+}
+
+TEST(Run, AnUnfinishedFailureIsDiagnosedWithExitCodeFive) {
+  const Scratch scratch;
+  // Two corners of one cloth are torn apart: no step can follow without stretching the cloth past all limits.
+  scratch.put("s.json", R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05}, "placement": {"translation_m": [0, 1, 0]},
+    "pins": [{"near_m": [-0.1, 1.1, 0]}, {"near_m": [0.1, 1.1, 0], "hold": "path", "path_m": [[0, 0.1, 1.1, 0], [0.3, 1, 1.1, 0]]}]}],
+    "time": {"seconds": 0.5}})");
+  const Ended ended = run_toile(scratch, {"run", "s.json", "--out", "a", "--json"});
+  EXPECT_EQ(ended.exit_code, 5) << ended.err;
+  EXPECT_EQ(ended.err_lines(), 1) << ended.err;
+  const Json report = Json::parse(ended.out, "stdout");
+  EXPECT_EQ(report.at("verdict").string(), "fail");
+  EXPECT_FALSE(report.at("reasons").array().empty());
+  EXPECT_EQ(run_toile(scratch, {"verify", "a", "--quiet"}).exit_code, 5);
+}
+
+TEST(Run, AnInterruptedRunKeepsConsistentFilesAndSaysSo) {
+  const Scratch scratch;
+  scratch.put("s.json", R"({"cloth": [{"grid": {"edge_m": 0.03}, "placement": {"translation_m": [0, 1, 0]}, "pins": [{"near_m": [-0.5, 1.5, 0]}]}], "time": {"seconds": 600}})");
+  const Ended ended = run_toile(scratch, {"run", "s.json", "--out", "a"}, [&](pid_t child) {
+    for (int k = 0; k < 200 && !std::filesystem::exists(scratch / "a/cloth.pc2.tmp"); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    kill(child, SIGINT);
+  });
+  EXPECT_EQ(ended.signal, 0);
+  EXPECT_EQ(ended.exit_code, 8) << ended.err;
+  const Json report = Json::load(scratch / "a/report.json");
+  EXPECT_EQ(report.at("verdict").string(), "fail");
+  EXPECT_EQ(report.at("reasons").array().front().string(), "interrupted");
+  const std::string cache = scratch.get("a/cloth.pc2");
+  std::int32_t points = 0, samples = 0;
+  ASSERT_GT(cache.size(), 32u);
+  std::memcpy(&points, cache.data() + 16, 4);
+  std::memcpy(&samples, cache.data() + 28, 4);
+  EXPECT_EQ(samples, report.at("frames").integer());
+  EXPECT_EQ(cache.size(), 32u + 12u * static_cast<std::size_t>(points) * static_cast<std::size_t>(samples));
+  EXPECT_EQ(run_toile(scratch, {"verify", "a", "--quiet"}).exit_code, 5) << "the judge does not acquit it";
+}
+
+TEST(Run, AKilledRunDoesNotLookFinished) {
+  const Scratch scratch;
+  scratch.put("s.json", small_scene);
+  run_small(scratch, "a", {"--seconds", "0.1"});
+  ASSERT_TRUE(std::filesystem::exists(scratch / "a/report.json"));
+  scratch.put("s.json", R"({"cloth": [{"grid": {"edge_m": 0.03}, "pins": [{"near_m": [0, 0, 0]}]}], "time": {"seconds": 600}})");
+  const Ended ended = run_toile(scratch, {"run", "s.json", "--out", "a"}, [&](pid_t child) {
+    for (int k = 0; k < 200 && !std::filesystem::exists(scratch / "a/cloth.pc2.tmp"); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    kill(child, SIGKILL);
+  });
+  EXPECT_EQ(ended.signal, SIGKILL);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "a/report.json")) << "of the run before";
+  EXPECT_FALSE(std::filesystem::exists(scratch / "a/cloth.pc2"));
+  EXPECT_NE(run_toile(scratch, {"verify", "a"}).exit_code, 0);
+}
+
+TEST(Check, CountsAPatternAndSpeaksJson) {
+  const Scratch scratch;
+  const Ended ended = run_toile(scratch, {"check", TOILE_SOURCE_DIR "/patterns/tshirt.json", TOILE_SOURCE_DIR "/scenes/cylinder.json", "--json"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  const Json json = Json::parse(ended.out, "stdout");
+  const Json& shirt = json.at("files").array().at(0);
+  EXPECT_EQ(shirt.at("kind").string(), "pattern");
+  EXPECT_EQ(shirt.at("panels").integer(), 6);
+  EXPECT_EQ(shirt.at("stitches").integer(), 12);
+  EXPECT_GT(shirt.at("mesh").at("min_angle_deg").number(), 20);
+  EXPECT_EQ(json.at("files").array().at(1).at("body_vertices").integer(), 322) << "the paper's solid";
+}
+
+TEST(Check, GoesOnAfterABadFile) {
+  const Scratch scratch;
+  scratch.put("bad.json", "{");
+  const Ended ended = run_toile(scratch, {"check", "bad.json", TOILE_SOURCE_DIR "/patterns/skirt.json"});
+  EXPECT_EQ(ended.exit_code, 3);
+  EXPECT_EQ(ended.err_lines(), 1) << ended.err;
+  EXPECT_NE(ended.out.find("skirt.json: pattern"), std::string::npos) << ended.out;
+}
+
+TEST(Demo, ListsWhatItHas) {
+  const Scratch scratch;
+  const Ended ended = run_toile(scratch, {"demo", "--list"});
+  EXPECT_EQ(ended.exit_code, 0);
+  for (const char* name : {"tshirt", "skirt", "cylinder", "sheet"}) EXPECT_NE(ended.out.find(name), std::string::npos) << name;
+}
+
+}  // namespace
+}  // namespace toile

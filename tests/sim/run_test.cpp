@@ -1,0 +1,228 @@
+// A run from scene to files and back, without the program.
+#include "io/json.hpp"
+#include "io/obj.hpp"
+#include "io/pc2.hpp"
+#include "io/scratch.hpp"
+#include "mesh/check.hpp"
+#include "sim/cylinder.hpp"
+#include "sim/json_text.hpp"
+#include "sim/run_writer.hpp"
+#include "sim/setup.hpp"
+#include "sim/simulate.hpp"
+#include "verify/verify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+namespace toile {
+namespace {
+
+Report run(const Scratch& scratch, const Scene& scene, const std::function<bool()>& stop = {}) {
+  RunOptions options;
+  options.directory = scratch / "out";
+  options.command = "test";
+  options.stop = stop;
+  return simulate(scene, options);
+}
+
+Scene falling_cloth(const std::string& more = "") {
+  return parse_scene(R"({"cloth": [{"name": "cloth", "grid": {"width_m": 0.4, "height_m": 0.3, "edge_m": 0.04},
+    "placement": {"translation_m": [0, 0.01, 0], "rotation_deg": [-90, 0, 0]})" + more + R"(}],
+    "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.5}}, "time": {"seconds": 0.3}})", "s.json");
+}
+
+TEST(Cylinder, HasThePapersCountsAndIsClosed) {
+  const SolidMesh solid = rounded_cylinder(0.2, 0.5, Vec3(0, 1, 0));
+  EXPECT_EQ(solid.positions.size(), 322u);
+  EXPECT_EQ(solid.triangles.size(), 640u);
+  check_closed("cylinder", solid.positions, solid.triangles);  // also: outwards
+  double low = 1, high = 0, radius = 0;
+  for (const Vec3& p : solid.positions) {
+    low = std::min(low, p.y());
+    high = std::max(high, p.y());
+    radius = std::max(radius, std::hypot(p.x(), p.z()));
+  }
+  EXPECT_EQ(high, 1);
+  EXPECT_DOUBLE_EQ(low, 0.5);
+  EXPECT_NEAR(radius, 0.2, 1e-12);
+  EXPECT_NO_THROW(check_areas("cylinder", solid.positions, solid.triangles));
+}
+
+TEST(JsonText, IsReadBackToTheBit) {
+  JsonText text;
+  text.begin_object();
+  text.member("name", "a \"b\"\\\n\x01 \xc3\xa4");
+  text.member("third", 1.0 / 3);
+  text.member("nan", std::nan(""));
+  text.key("list");
+  text.begin_array();
+  text.end_array();
+  text.key("nested");
+  text.begin_array();
+  text.value(1);
+  text.value(true);
+  text.begin_object();
+  text.end_object();
+  text.end_array();
+  text.end_object();
+  const Json json = Json::parse(text.str(), "text");
+  EXPECT_EQ(json.at("name").string(), "a \"b\"\\\n\x01 \xc3\xa4");
+  EXPECT_EQ(json.at("third").number(), 1.0 / 3);
+  EXPECT_TRUE(json.at("nan").is_null());
+  EXPECT_EQ(json.at("nested").array().size(), 3u);
+}
+
+TEST(Run, LeavesFilesThatTheJudgeReadsAsTheReportSays) {
+  const Scratch scratch;
+  const Report report = run(scratch, falling_cloth());
+  EXPECT_TRUE(report.verdict.pass) << (report.verdict.reasons.empty() ? "" : report.verdict.reasons.front().detail);
+  EXPECT_EQ(exit_code(report), ExitCode::ok);
+  EXPECT_EQ(report.frames, 9);
+  const VerifyReport audit = verify_directory(scratch / "out");
+  EXPECT_EQ(audit.frames, 9);
+  EXPECT_TRUE(judge(audit).pass);
+  EXPECT_NEAR(audit.stretch.max, report.audit.stretch.max, 1e-4);
+  EXPECT_EQ(audit.gap.nearest_vertex, report.audit.gap.nearest_vertex);
+  EXPECT_NEAR(audit.still_mm_per_s_p99, report.audit.still_mm_per_s_p99, 1e-6) << "the audit saw what was written";
+  const ObjMesh cloth = load_obj(scratch / "out/cloth.obj");
+  EXPECT_EQ(cloth.object_names, std::vector<std::string>{"cloth"});
+  EXPECT_EQ(cloth.group_names, std::vector<std::string>{"cloth"});
+  Vec2 low(1, 1), high(-1, -1);
+  for (const Vec2& vt : cloth.texcoords) {
+    low = low.cwiseMin(vt);
+    high = high.cwiseMax(vt);
+  }
+  EXPECT_NEAR(high.x() - low.x(), 0.4, 1e-6) << "vt are drawing coordinates: x to the right, y up";
+  EXPECT_NEAR(high.y() - low.y(), 0.3, 1e-6);
+}
+
+TEST(Run, AnElasticPanelIsJudgedAgainstItsOwnRestLength) {
+  const Scratch scratch;
+  // The warp (drawn upwards, 0.3 m) wants to be 0.8 of its length.
+  Scene scene = falling_cloth(R"(, "panels": {"cloth": {"rest_stretch_u": 0.8}})");
+  scene.body.kind = SceneBody::Kind::none;
+  scene.gravity_m_per_s2.setZero();
+  scene.seconds = 2;
+  const Report report = run(scratch, scene);
+  EXPECT_LT(report.audit.stretch.max, 0.01) << "it has shrunk, and the audit knows which axis of vt is the warp";
+  EXPECT_GT(report.audit.stretch.p50, -0.01);
+  const VerifyReport audit = verify_directory(scratch / "out");
+  EXPECT_NEAR(audit.stretch.p50, report.audit.stretch.p50, 1e-4) << "rest_stretch in report.json has the axes of vt";
+  Pc2Reader frames(scratch / "out/cloth.pc2");
+  std::vector<Vec3> x;
+  frames.read(frames.samples() - 1, x);
+  double low = 1, high = -1;
+  for (const Vec3& p : x) {
+    low = std::min(low, p.z());
+    high = std::max(high, p.z());
+  }
+  EXPECT_NEAR(high - low, 0.24, 0.005);
+}
+
+TEST(Run, APinFollowsItsPathAndAnotherStays) {
+  const Scratch scratch;
+  Scene scene = falling_cloth(R"(, "pins": [{"near_m": [-0.2, 0.01, -0.15]}, {"near_m": [0.2, 0.01, -0.15], "hold": "path", "path_m": [[0, 0.2, 0.01, -0.15], [0.2, 0.15, 0.06, -0.15]]}])");
+  scene.body.kind = SceneBody::Kind::none;
+  run(scratch, scene);
+  Pc2Reader frames(scratch / "out/cloth.pc2");
+  std::vector<Vec3> first, last;
+  frames.read(0, first);
+  frames.read(frames.samples() - 1, last);
+  const std::vector<Pin> pins = pins_of(scene.cloth.front(), first);
+  ASSERT_EQ(pins.size(), 2u);
+  const auto fixed = static_cast<std::size_t>(pins[0].particle), moved = static_cast<std::size_t>(pins[1].particle);
+  EXPECT_LT((last[fixed] - first[fixed]).norm(), 1e-6);
+  EXPECT_LT((last[moved] - Vec3(0.15, 0.06, -0.15)).norm(), 1e-3);
+}
+
+TEST(Run, AStopEndsItWithAReportThatDoesNotPass) {
+  const Scratch scratch;
+  int asked = 0;
+  const Report report = run(scratch, falling_cloth(), [&] { return ++asked > 3; });
+  EXPECT_EQ(exit_code(report), ExitCode::interrupted);
+  EXPECT_EQ(report.frames, 4);
+  EXPECT_FALSE(report.verdict.pass);
+  EXPECT_EQ(verify_directory(scratch / "out").frames, 4);
+  EXPECT_FALSE(judge(verify_directory(scratch / "out")).pass);
+}
+
+TEST(Run, AStartInsideTheBodyIsWarnedOfOrRefused) {
+  const Scratch scratch;
+  Scene scene = falling_cloth();
+  scene.cloth.front().translation_m = Vec3(0, -0.1, 0);
+  scene.seconds = 0.1;
+  EXPECT_FALSE(run(scratch, scene).warnings.empty());
+  scene.strict_start = true;
+  try {
+    run(scratch, scene);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_start);
+  }
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/report.json")) << "neither the run nor the one before it looks finished";
+}
+
+TEST(Run, APanelThatTheClothDoesNotHaveIsNamed) {
+  const Scratch scratch;
+  try {
+    run(scratch, falling_cloth(R"(, "panels": {"colth": {"fabric": "silk"}})"));
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("nearest is \"cloth\""), std::string::npos) << error.what();
+  }
+}
+
+// Two rectangles sewn at both sides around a cylinder, or around one that is too thick for them.
+Scene tube(const Scratch& scratch, double body_radius_m) {
+  scratch.put("tube.json", R"({"pattern": {"panels": {
+    "front": {"translation": [0, 0, 25], "rotation": [0, 0, 0], "vertices": [[-25,0],[25,0],[25,20],[-25,20]],
+      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]},
+    "back": {"translation": [0, 0, -25], "rotation": [0, 0, 0], "vertices": [[-25,0],[-25,20],[25,20],[25,0]],
+      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
+    "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
+    "properties": {"units_in_meter": 100}})");
+  Scene scene = parse_scene(R"({"cloth": [{"pattern": "tube.json", "resolution_cm": 4}], "body": {"cylinder": {"height_m": 1, "top_m": [0, 0.6, 0]}}, "time": {"seconds": 0.8}})",
+                            scratch / "s.json");
+  scene.body.cylinder.radius_m = body_radius_m;
+  scene.until_still = false;
+  return scene;
+}
+
+TEST(Run, SewsATubeAndKeepsVtPerPanelAtTheSeams) {
+  const Scratch scratch;
+  const Report report = run(scratch, tube(scratch, 0.1));
+  EXPECT_EQ(report.seams, 2);
+  EXPECT_GT(report.sewing.steps, 0);
+  ASSERT_GT(report.frames, 2);
+  const ObjMesh panels = load_obj(scratch / "out/sewing.obj"), cloth = load_obj(scratch / "out/cloth.obj");
+  EXPECT_GT(panels.positions.size(), cloth.positions.size()) << "seams are welded in cloth.obj only";
+  EXPECT_EQ(panels.triangles.size(), cloth.triangles.size());
+  EXPECT_EQ(cloth.group_names, (std::vector<std::string>{"front", "back"}));
+  EXPECT_EQ(cloth.texcoords.size(), panels.positions.size()) << "one vt per panel corner";
+  Pc2Reader film(scratch / "out/sewing.pc2");
+  EXPECT_NEAR(film.samples(), 1 + report.sewing.simulated_s * 30, 1.01);
+  EXPECT_LT(std::abs(report.audit.stretch.p50), 0.02);
+}
+
+TEST(Run, ASeamThatCannotCloseIsReportedByName) {
+  const Scratch scratch;
+  Scene scene = tube(scratch, 0.2);  // a quarter more round than the tube, which is of a cloth that does not give
+  scene.cloth.front().fabric = fabric_preset("denim", "", "");
+  const Report report = run(scratch, scene);
+  EXPECT_EQ(exit_code(report), ExitCode::simulation_failed);
+  ASSERT_FALSE(report.verdict.reasons.empty());
+  EXPECT_EQ(report.verdict.reasons.front().code, "seam_blocked");
+  EXPECT_NE(report.verdict.reasons.front().detail.find("seam front."), std::string::npos) << report.verdict.reasons.front().detail;
+  EXPECT_NE(report.verdict.reasons.front().detail.find("too small"), std::string::npos) << report.verdict.reasons.front().detail;
+  EXPECT_TRUE(std::filesystem::exists(scratch / "out/sewing.pc2"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/cloth.pc2"));
+  const Json json = Json::load(scratch / "out/report.json");
+  EXPECT_EQ(json.at("verdict").string(), "fail");
+  EXPECT_EQ(json.at("frames").integer(), 0);
+}
+
+}  // namespace
+}  // namespace toile

@@ -1,0 +1,110 @@
+// The reader of scenes: defaults, every refusal with its place, and the shape that the documentation shows.
+#include "sim/scene.hpp"
+
+#include <gtest/gtest.h>
+
+namespace toile {
+namespace {
+
+std::string refusal(const std::string& text) {
+  try {
+    parse_scene(text, "dir/s.json");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "(accepted)";
+}
+
+void expect_refused(const std::string& text, std::initializer_list<std::string_view> words) {
+  const std::string message = refusal(text);
+  EXPECT_EQ(message.rfind("dir/s.json:", 0), 0u) << message;
+  for (const std::string_view word : words) EXPECT_NE(message.find(word), std::string::npos) << '"' << word << "\" is not in: " << message;
+}
+
+TEST(Scene, APatternAndABodyAreAComplete) {
+  const Scene scene = parse_scene(R"({"cloth": [{"pattern": "p.json"}], "body": {"mesh": "../b.obj"}})", "dir/scenes/s.json");
+  EXPECT_EQ(scene.name, "s");
+  EXPECT_EQ(scene.cloth.at(0).pattern, "dir/scenes/p.json") << "paths start at the scene's folder";
+  EXPECT_EQ(scene.body.mesh, "dir/b.obj");
+  EXPECT_EQ(scene.cloth[0].fabric.name, "cotton");
+  EXPECT_EQ(scene.cloth[0].resolution_m, 0.01);
+  EXPECT_EQ(scene.gravity_m_per_s2, Vec3(0, -9.81, 0));
+  EXPECT_EQ(scene.fps, 30);
+  EXPECT_EQ(scene.seconds, 5);
+  EXPECT_TRUE(scene.until_still);
+  EXPECT_TRUE(scene.self_contact);
+  EXPECT_FALSE(scene.preconditioner.has_value());
+  EXPECT_FALSE(scene.body.friction.has_value());
+}
+
+TEST(Scene, AnAbsolutePathStaysAsItIs) {
+  EXPECT_EQ(parse_scene(R"({"cloth": [{"pattern": "/x/p.json"}]})", "dir/s.json").cloth.at(0).pattern, "/x/p.json");
+}
+
+TEST(Scene, ReadsEveryKeyInItsUnit) {
+  const Scene scene = parse_scene(R"({
+    "name": "flag",
+    "cloth": [{"name": "flag", "grid": {"width_m": 1.5, "height_m": 0.5, "edge_m": 0.05},
+      "fabric": {"base": "silk", "density_kg_per_m2": 0.08},
+      "panels": {"flag": {"fabric": "knit", "rest_stretch_u": 0.9, "rest_stretch_v": 1.1}},
+      "placement": {"translation_m": [0, 1, 2], "rotation_deg": [90, 0, 0]},
+      "pins": [{"near_m": [0, 1, 0], "hold": "fixed"}, {"near_m": [1, 1, 0], "hold": "path", "path_m": [[0, 1, 1, 0], [2, 1, 1.5, 0]]}]}],
+    "body": {"cylinder": {"radius_m": 0.3, "height_m": 0.7, "top_m": [0, 0.5, 0]}, "friction": 0.1, "offset_mm": 3},
+    "world": {"gravity_m_per_s2": [0, -1, 0], "wind_m_per_s": [0, 0, 0], "air_density_kg_per_m3": 1.2},
+    "time": {"fps": 25, "seconds": 2, "step_max_ms": 10, "integrator": "backward_euler", "until_still": true},
+    "solver": {"preconditioner": "diagonal", "tolerance": 0.01, "paper_scaling": true, "damping_jacobian": "paper"},
+    "contact": {"thickness_mm": 2, "friction": 0.2, "self_contact": false, "strict_start": true},
+    "output": {"dir": "out/x", "preview": false}})",
+                                  "s.json");
+  const SceneCloth& cloth = scene.cloth.at(0);
+  EXPECT_EQ(cloth.grid->width_m, 1.5);
+  EXPECT_EQ(cloth.fabric.density_kg_per_m2, 0.08);
+  EXPECT_EQ(cloth.fabric.stretch_u_N_per_m, 1200) << "silk's";
+  EXPECT_EQ(cloth.panels.at(0).fabric->name, "knit");
+  EXPECT_EQ(cloth.panels[0].rest_stretch_u, 0.9);
+  EXPECT_EQ(cloth.panels[0].rest_stretch_v, 1.1);
+  EXPECT_EQ(cloth.translation_m, Vec3(0, 1, 2));
+  EXPECT_EQ(cloth.rotation_deg, Vec3(90, 0, 0));
+  EXPECT_FALSE(cloth.pins.at(0).on_path);
+  EXPECT_EQ(cloth.pins.at(1).path.at(1).x_m, Vec3(1, 1.5, 0));
+  EXPECT_EQ(scene.body.cylinder.radius_m, 0.3);
+  EXPECT_EQ(scene.body.friction.value(), 0.1);
+  EXPECT_DOUBLE_EQ(scene.body.offset_m, 3e-3);
+  EXPECT_EQ(scene.fps, 25);
+  EXPECT_DOUBLE_EQ(scene.step_max_s.value(), 0.01);
+  EXPECT_TRUE(scene.until_still);
+  EXPECT_EQ(scene.preconditioner, Preconditioner::diagonal);
+  EXPECT_TRUE(scene.paper_scaling);
+  EXPECT_EQ(scene.damping_jacobian, DampingJacobian::paper);
+  EXPECT_DOUBLE_EQ(scene.contact_thickness_m.value(), 2e-3);
+  EXPECT_FALSE(scene.self_contact);
+  EXPECT_TRUE(scene.strict_start);
+  EXPECT_EQ(scene.output_dir, "out/x");
+  EXPECT_FALSE(scene.preview.value());
+}
+
+TEST(Scene, NamesThePlaceOfEveryRefusal) {
+  expect_refused(R"({})", {"\"cloth\"", "missing"});
+  expect_refused(R"({"cloth": []})", {"/cloth", "at least one"});
+  expect_refused(R"({"cloth": [{}]})", {"/cloth/0", "either \"pattern\" or \"grid\""});
+  expect_refused(R"({"cloth": [{"grid": {}, "pattern": "p"}]})", {"/cloth/0", "both"});
+  expect_refused(R"({"cloth": [{"grid": {"edge_m": 0}}]})", {"/cloth/0/grid/edge_m", "of at least 0.0005", "got 0"});
+  expect_refused(R"({"cloth": [{"grid": {"edge_m": 0.0005, "width_m": 10, "height_m": 10}}]})", {"/cloth/0/grid", "2 million"});
+  expect_refused(R"({"cloth": [{"grid": {}, "pins": [{"near_m": [0, 0]}]}]})", {"/cloth/0/pins/0/near_m", "three numbers"});
+  expect_refused(R"({"cloth": [{"grid": {}, "pins": [{"near_m": [0, 0, 0], "hold": "path"}]}]})", {"/cloth/0/pins/0", "path_m"});
+  expect_refused(R"({"cloth": [{"grid": {}, "pins": [{"near_m": [0, 0, 0], "hold": "path", "path_m": [[1, 0, 0, 0], [1, 0, 0, 0]]}]}]})", {"path_m", "ascend"});
+  expect_refused(R"({"cloth": [{"pattern": "p", "pins": [{"near_m": [0, 0, 0]}]}]})", {"/cloth/0/pins", "not available yet"});
+  expect_refused(R"({"cloth": [{"grid": {}}], "body": {"mesh": "b.obj", "mannequin": "woman"}})", {"/body", "2 of them"});
+  expect_refused(R"({"cloth": [{"grid": {}}], "body": {"mannequin": "womn"}})", {"/body/mannequin", "nearest is \"woman\""});
+  expect_refused(R"({"cloth": [{"grid": {}}], "body": {"mannequin": "woman", "unit": "cm"}})", {"/body/unit"});
+  expect_refused(R"({"cloth": [{"grid": {}}], "time": {"integrator": "bdf2"}})", {"/time/integrator", "backward_euler"});
+  expect_refused(R"({"cloth": [{"grid": {}}], "solver": {"preconditioner": "block_jacbi"}})", {"/solver/preconditioner", "nearest is \"block_jacobi\""});
+  expect_refused(R"({"cloth": [{"grid": {}}], "output": {"preview": 1}})", {"/output/preview"});
+}
+
+TEST(Scene, TakesTheLineOfTheValueThatIsWrong) {
+  EXPECT_EQ(refusal("{\"cloth\": [{\"grid\": {},\n\"fabric\": {\n\"bend_u_N_m\": -1e-5}}]}").rfind("dir/s.json:3:", 0), 0u);
+}
+
+}  // namespace
+}  // namespace toile
