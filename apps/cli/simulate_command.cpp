@@ -20,7 +20,7 @@ struct Demo {
   std::string_view name, what;
 };
 constexpr std::array<Demo, 4> demos = {{{"tshirt", "a T-shirt sewn around the mannequin (the default)"},
-                                        {"skirt", "a skirt with a waistband on the mannequin"},
+                                        {"skirt", "an A-line skirt on the mannequin"},
                                         {"cylinder", "a square cloth falls over a cylinder [BW98, figure 1]"},
                                         {"sheet", "the same cloth, held by two corners"}}};
 

@@ -13,7 +13,7 @@ constexpr double static_over_kinetic = 1.02;    // hysteresis, so that stick and
 constexpr double largest_alteration = 0.2;      // of the offset, per step
 constexpr double dead_band = 0.02;              // of the offset
 constexpr double slowest_slip = 1e-3;           // v_0, m/s
-constexpr double stick_below = 0.7;             // of v_0
+constexpr double stick_below = 0.99;            // of v_0: below v_0 friction needs less than its cone
 constexpr double pull_of_weight = 0.01;         // a pull below this part of the particle's weight is solver noise
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }

@@ -7,7 +7,7 @@
 //              coefficient mu lambda_n / max(|v_t|, v_0): Coulomb's force above v_0 = 1 mm/s, and below it the part |v_t| / v_0 of
 //              it, so that friction stops a particle and never turns it round
 //   sticks     S = 0,          z = v_body - v                    while |lambda_t| <= mu_s lambda_n
-//              entered from a slide that ended slower than 0.7 v_0: friction then needed less than 0.7 of its cone
+//              entered from a slide that ended slower than v_0: friction then needed less than its cone
 //   y          position alteration: min(r - gap, 0.2 r) n, zero while 0 <= r - gap < 0.02 r; negative lets a predicted contact land exactly
 //              on the offset.  It moves the particle and tells its neighbours through K y, and is never part of v.
 //   release    lambda_n < 0: the body would have to pull.  Within the same step (the paper: in the next), once per particle and step.

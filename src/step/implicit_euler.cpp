@@ -176,6 +176,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
 }
 
 void ImplicitEuler::judge(const ClothState& state, const StepLimits& limits, const ClothState& candidate, StepReport& report) {
+  double fastest2 = options_.max_speed_m_per_s * options_.max_speed_m_per_s;
   for (std::size_t i = 0; i < candidate.x.size(); ++i) {
     const double speed2 = candidate.v[i].squaredNorm();
     if (!std::isfinite(speed2 + candidate.x[i].squaredNorm())) {
@@ -183,12 +184,13 @@ void ImplicitEuler::judge(const ClothState& state, const StepLimits& limits, con
       report.worst_particle = static_cast<Index>(i);
       return;
     }
-    if (speed2 > options_.max_speed_m_per_s * options_.max_speed_m_per_s) {
+    if (speed2 > fastest2) {
       report.status = StepStatus::too_fast;
       report.worst_particle = static_cast<Index>(i);
-      return;
+      fastest2 = speed2;
     }
   }
+  if (!report) return;
   const Timed timed(seconds_.eval);
   elements_.stretch(candidate.x, stretch_candidate_);
   for (std::size_t t = 0; t < stretch_.size(); ++t) {
