@@ -8,6 +8,7 @@ Checked in documents (*.md in the root and in docs/):
   solver.md, docs/units.md   a document of that name exists
   `src/step/...`             the path exists; * and {a,b} must match something; <name> matches anything
   `Suite.Name`               a test of that name exists in tests/
+  `name_m = 0.02`            a source in src/ gives that name that value
 Checked in sources, scripts and build files:
   docs/...#anchor            the file and the heading exist
 """
@@ -22,6 +23,7 @@ source_files = ["CMakeLists.txt", "Makefile", "CMakePresets.json"]
 source_suffixes = {".hpp", ".cpp", ".txt", ".cmake", ".py", ".sh", ".json", ""}
 code_path = re.compile(r"`((?:src|tests|tools|apps|cmake|patterns|scenes|bench|include|docs)/[^\s`:]+)`")
 test_name = re.compile(r"`([A-Z]\w+)\.([A-Z]\w+)`")
+constant = re.compile(r"`([a-z]\w+) = (-?[\d.]+(?:e-?\d+)?)`")
 link = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 docs_reference = re.compile(r"(?<![\w/.-])docs/[\w./-]*\w(?:#[\w-]+)?")
 document_name = re.compile(r"(?<![\w./-])((?:[\w-]+/)*[\w-]+\.md)(#[\w-]+)?")
@@ -76,6 +78,10 @@ class Checker:
         for path in sorted((root / "tests").rglob("*.cpp")):
             for suite, name in re.findall(r"TEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)\s*\)", path.read_text()):
                 self.tests.add((suite, name))
+        self.values = {}
+        for path in sorted((root / "src").rglob("*.[ch]pp")):
+            for name, value in re.findall(r"\b([a-z]\w+)\s*=\s*(-?[\d.]+(?:e-?\d+)?)\b", path.read_text()):
+                self.values.setdefault(name, set()).add(float(value))
         self.offences = []
 
     def complain(self, path, number, words):
@@ -111,6 +117,9 @@ class Checker:
             for suite, name in test_name.findall(line):
                 if (suite, name) not in self.tests:
                     self.complain(path, number, f"'{suite}.{name}': there is no such test")
+            for name, value in constant.findall(line):
+                if float(value) not in self.values.get(name, set()):
+                    self.complain(path, number, f"'{name} = {value}': no source says so")
             for name, anchor in document_name.findall(link.sub("", line)):
                 self.check_named_document(path, number, name, anchor)
 

@@ -54,11 +54,15 @@ std::string describe(const Pattern& pattern, const GarmentMesh& garment, double 
   json.begin_array();
   for (const std::string& note : summary.notes) json.value(note);
   json.end_array();
-  std::string text = words("pattern, %zu panels, %d stitches (%d darts, %d eased, longest ratio %.2f), %.2f m of seam, %.2f m2 of cloth\n",
-                           summary.panels.size(), summary.stitches, summary.darts, summary.eased_stitches, summary.longest_ratio, summary.seam_m, summary.area_m2);
-  text += words("  at %.1f cm: %d vertices, %d triangles, smallest angle %.1f degrees, edges %.1f / %.1f / %.1f mm (least, mean, most)\n", 100 * resolution_m,
-                garment.mesh.particle_count, garment.mesh.triangle_count(), quality.min_angle_deg, 1e3 * quality.min_edge_m, 1e3 * quality.mean_edge_m,
-                1e3 * quality.max_edge_m);
+  std::string text = words(
+      "pattern, %zu panels, %d stitches (%d darts, %d eased, longest ratio %.2f), %.2f m of seam, %.2f m2 of cloth\n",
+      summary.panels.size(), summary.stitches, summary.darts, summary.eased_stitches, summary.longest_ratio,
+      summary.seam_m, summary.area_m2);
+  text += words(
+      "  at %.1f cm: %d vertices, %d triangles, smallest angle %.1f degrees, edges %.1f / %.1f / %.1f mm (least, mean, "
+      "most)\n",
+      100 * resolution_m, garment.mesh.particle_count, garment.mesh.triangle_count(), quality.min_angle_deg,
+      1e3 * quality.min_edge_m, 1e3 * quality.mean_edge_m, 1e3 * quality.max_edge_m);
   for (const std::string& note : summary.notes) text += "  note: " + note + '\n';
   return text;
 }
@@ -85,8 +89,10 @@ std::string check_mesh(const std::string& path, JsonText& json) {
   json.member("panels", mesh.group_names.size());
   json.member("closed", open.empty());
   json.member("height", high.y() - low.y());
-  std::string text = words("mesh, %zu vertices, %zu triangles, %zu groups, %s, %.3f x %.3f x %.3f units\n", mesh.positions.size(), mesh.triangles.size(),
-                           mesh.group_names.size(), open.empty() ? "closed" : "open", high.x() - low.x(), high.y() - low.y(), high.z() - low.z());
+  std::string text =
+      words("mesh, %zu vertices, %zu triangles, %zu groups, %s, %.3f x %.3f x %.3f units\n", mesh.positions.size(),
+            mesh.triangles.size(), mesh.group_names.size(), open.empty() ? "closed" : "open", high.x() - low.x(),
+            high.y() - low.y(), high.z() - low.z());
   if (!open.empty()) text += "  not a body: " + open + '\n';
   return text;
 }
@@ -124,7 +130,8 @@ std::string check_scene(const std::string& path, const std::string& text, JsonTe
   json.member("vertices", mesh.particle_count);
   json.member("triangles", mesh.triangle_count());
   json.member("body_vertices", body.positions.size());
-  return words("scene, cloth of %d vertices and %d triangles, body of %zu vertices\n", mesh.particle_count, mesh.triangle_count(), body.positions.size());
+  return words("scene, cloth of %d vertices and %d triangles, body of %zu vertices\n", mesh.particle_count,
+               mesh.triangle_count(), body.positions.size());
 }
 
 std::string check_file(const std::string& path, JsonText& json) {
@@ -132,13 +139,15 @@ std::string check_file(const std::string& path, JsonText& json) {
   if (ending == ".obj" || ending == ".OBJ") return check_mesh(path, json);
   if (ending != ".json" && ending != ".JSON") {
     read_file(path);  // a missing file is told as such
-    throw InputError(printable(path), "name", "a file that ends in .json (scene or pattern) or .obj (mesh)", '"' + printable(ending) + '"');
+    throw InputError(printable(path), "name", "a file that ends in .json (scene or pattern) or .obj (mesh)",
+                     '"' + printable(ending) + '"');
   }
   const std::string text = read_text_file(path);
   const Json root = Json::parse(text, printable(path));
   if (root.is_object() && root.find("cloth") == nullptr && root.find("pattern") != nullptr)
     return check_pattern_text(path, text, checked_resolution_m, json);
-  if (root.is_object() && root.find("cloth") == nullptr) root.fail("\"cloth\" (a scene) or \"pattern\" (a pattern)", "neither of them");
+  if (root.is_object() && root.find("cloth") == nullptr)
+    root.fail("\"cloth\" (a scene) or \"pattern\" (a pattern)", "neither of them");
   return check_scene(path, text, json);
 }
 

@@ -14,7 +14,8 @@ namespace {
 
 void add_common(CLI::App& command, CommandLine& line) {
   command.add_option("--out", line.out, "Directory of the run's files (default: ./out/NAME)");
-  command.add_option("--threads", line.threads, "Threads; 0: one per core. The result does not depend on it")->check(CLI::Range(0, 1024));
+  command.add_option("--threads", line.threads, "Threads; 0: one per core. The result does not depend on it")
+      ->check(CLI::Range(0, 1024));
   command.add_flag("--no-preview", line.no_preview, "No pictures");
   command.add_flag("--quiet", line.quiet, "Print errors only");
   command.add_flag("--json", line.json, "Print the result as one JSON object");
@@ -22,7 +23,8 @@ void add_common(CLI::App& command, CommandLine& line) {
 
 void add_garment_options(CLI::App& command, CommandLine& line) {
   command.add_option("--fabric", line.fabric, "silk, cotton, wool, denim or knit");
-  command.add_option("--resolution", line.resolution_cm, "Edge length of the cloth's triangles, cm")->check(CLI::Range(0.1, 20.0));
+  command.add_option("--resolution", line.resolution_cm, "Edge length of the cloth's triangles, cm")
+      ->check(CLI::Range(0.1, 20.0));
   command.add_option("--fps", line.fps, "Frames per second of the output")->check(CLI::Range(1.0, 1000.0));
   command.add_option("--seconds", line.seconds, "Longest drape, s")->check(CLI::Range(0.001, 3600.0));
 }
@@ -86,14 +88,18 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw Error(ExitCode::usage, one_line(error.what()) + " (toile --help lists what there is)");
   }
-  if (app.get_subcommands().empty()) throw Error(ExitCode::usage, "a command is missing: demo, dress, run, check, verify or preview (toile --help)");
+  if (app.get_subcommands().empty())
+    throw Error(ExitCode::usage, "a command is missing: demo, dress, run, check, verify or preview (toile --help)");
 
   const CLI::App* chosen = app.get_subcommands().front();
-  for (const auto& [option, value] : {std::pair{"--resolution", line.resolution_cm}, {"--fps", line.fps}, {"--seconds", line.seconds}})
-    if (value && !std::isfinite(*value)) throw Error(ExitCode::usage, std::string(option) + ": expected a finite number");  // Range lets NaN pass
+  for (const auto& [option, value] :
+       {std::pair{"--resolution", line.resolution_cm}, {"--fps", line.fps}, {"--seconds", line.seconds}})
+    if (value && !std::isfinite(*value))
+      throw Error(ExitCode::usage, std::string(option) + ": expected a finite number");  // Range lets NaN pass
   using Command = CommandLine::Command;
-  const std::pair<const CLI::App*, Command> commands[] = {{demo, Command::demo},   {dress, Command::dress},   {run, Command::run},
-                                                          {check, Command::check}, {verify, Command::verify}, {preview, Command::preview}};
+  const std::pair<const CLI::App*, Command> commands[] = {{demo, Command::demo},     {dress, Command::dress},
+                                                          {run, Command::run},       {check, Command::check},
+                                                          {verify, Command::verify}, {preview, Command::preview}};
   for (const auto& [command, value] : commands)
     if (command == chosen) line.command = value;
   if (chosen == demo && !name.empty()) line.inputs = {name};

@@ -13,13 +13,19 @@ namespace {
 
 ExitCode run_command(const CommandLine& line) {
   switch (line.command) {
-    case CommandLine::Command::help: print(line.help); return ExitCode::ok;
+    case CommandLine::Command::help:
+      print(line.help);
+      return ExitCode::ok;
     case CommandLine::Command::demo:
     case CommandLine::Command::dress:
-    case CommandLine::Command::run: return simulate_command(line);
-    case CommandLine::Command::check: return check_command(line);
-    case CommandLine::Command::verify: return verify_command(line);
-    case CommandLine::Command::preview: return preview_command(line);
+    case CommandLine::Command::run:
+      return simulate_command(line);
+    case CommandLine::Command::check:
+      return check_command(line);
+    case CommandLine::Command::verify:
+      return verify_command(line);
+    case CommandLine::Command::preview:
+      return preview_command(line);
   }
   return ExitCode::internal;
 }

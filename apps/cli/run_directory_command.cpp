@@ -71,19 +71,24 @@ std::string as_text(const std::string& directory, const VerifyReport& audit, con
   std::array<char, 512> text;
   std::string out = directory + ": " + (verdict.pass ? "pass" : "fail") + '\n';
   for (const Reason& reason : verdict.reasons) out += "  " + reason.code + ": " + reason.detail + '\n';
-  std::snprintf(text.data(), text.size(), "  %d frames, %s\n", audit.frames, audit.finite ? "all finite" : "not finite");
+  std::snprintf(text.data(), text.size(), "  %d frames, %s\n", audit.frames,
+                audit.finite ? "all finite" : "not finite");
   out += text.data();
   const auto line = [&](const char* what, const PenetrationCount& count) {
-    std::snprintf(text.data(), text.size(), "  edges through triangles, %s: last frame %d, most %d, in %d frames\n", what, count.last, count.max, count.frames);
+    std::snprintf(text.data(), text.size(), "  edges through triangles, %s: last frame %d, most %d, in %d frames\n",
+                  what, count.last, count.max, count.frames);
     out += text.data();
   };
   if (audit.has_body) line("cloth and body", audit.cloth_body_edges);
   line("cloth and cloth", audit.cloth_cloth_edges);
-  std::snprintf(text.data(), text.size(), "  stretch p50 %.2f %%, p99 %.2f %%, max %.2f %%; shear p99 %.1f degrees; still %.2f mm/s\n", 100 * audit.stretch.p50,
-                100 * audit.stretch.p99, 100 * audit.stretch.max, audit.stretch.shear_p99_deg, audit.still_mm_per_s_p99);
+  std::snprintf(text.data(), text.size(),
+                "  stretch p50 %.2f %%, p99 %.2f %%, max %.2f %%; shear p99 %.1f degrees; still %.2f mm/s\n",
+                100 * audit.stretch.p50, 100 * audit.stretch.p99, 100 * audit.stretch.max, audit.stretch.shear_p99_deg,
+                audit.still_mm_per_s_p99);
   out += text.data();
   if (audit.has_body) {
-    std::snprintf(text.data(), text.size(), "  gap to the body: least %.2f mm, median %.2f mm\n", audit.gap.min_mm, audit.gap.p50_mm);
+    std::snprintf(text.data(), text.size(), "  gap to the body: least %.2f mm, median %.2f mm\n", audit.gap.min_mm,
+                  audit.gap.p50_mm);
     out += text.data();
   }
   return out;
@@ -115,7 +120,12 @@ ExitCode verify_command(const CommandLine& line) {
 ExitCode preview_command(const CommandLine& line) {
   const std::string& directory = line.inputs.front();
   ProgressBar bar(line);
-  picture_run(directory, {}, [&](double share) { bar.show({"picturing", share, -1}); }, interrupted);
+  picture_run(
+      directory, {},
+      [&](double share) {
+        bar.show({"picturing", share, -1});
+      },
+      interrupted);
   bar.clear();
   const std::filesystem::path folder(directory);
   const std::string png = (folder / "preview.png").string(), mp4 = (folder / "preview.mp4").string();

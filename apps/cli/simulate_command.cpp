@@ -67,13 +67,16 @@ Scene demo_scene(const CommandLine& line) {
     }
     names.push_back(demo.name);
   }
-  throw Error(ExitCode::usage, "demo: expected one of toile demo --list; nearest is \"" + std::string(nearest_name(name, names.data(), names.size())) +
-                                   "\", got \"" + printable(name) + '"');
+  throw Error(ExitCode::usage, "demo: expected one of toile demo --list; nearest is \"" +
+                                   std::string(nearest_name(name, names.data(), names.size())) + "\", got \"" +
+                                   printable(name) + '"');
 }
 
 Scene dress_scene(const CommandLine& line) {
   if (!line.motion.empty()) throw Error(ExitCode::usage, "--motion: moving bodies are not available yet");
-  if (line.inputs.size() > 1) throw Error(ExitCode::usage, "dress: expected one pattern (several garments are not available yet), got " + std::to_string(line.inputs.size()));
+  if (line.inputs.size() > 1)
+    throw Error(ExitCode::usage, "dress: expected one pattern (several garments are not available yet), got " +
+                                     std::to_string(line.inputs.size()));
   Scene scene;
   SceneCloth cloth;
   cloth.pattern = line.inputs.front();
@@ -100,9 +103,15 @@ Scene dress_scene(const CommandLine& line) {
 Scene scene_of(const CommandLine& line) {
   Scene scene;
   switch (line.command) {
-    case CommandLine::Command::demo: scene = demo_scene(line); break;
-    case CommandLine::Command::dress: scene = dress_scene(line); break;
-    default: scene = parse_scene(read_text_file(line.inputs.front()), line.inputs.front()); break;
+    case CommandLine::Command::demo:
+      scene = demo_scene(line);
+      break;
+    case CommandLine::Command::dress:
+      scene = dress_scene(line);
+      break;
+    default:
+      scene = parse_scene(read_text_file(line.inputs.front()), line.inputs.front());
+      break;
   }
   SceneCloth& cloth = scene.cloth.front();
   if (line.fabric) cloth.fabric = fabric_preset(*line.fabric, "", "--fabric");
@@ -132,15 +141,18 @@ std::string summary(const Report& report, const std::string& directory) {
   std::snprintf(text.data(), text.size(),
                 "  %d vertices, %d triangles, %d panels, %d seams; body %d vertices\n"
                 "  %d frames, %ld steps (%ld rejected), %.3f s per frame; sewing %.1f s; total %.1f s; %d threads\n",
-                report.vertices, report.triangles, report.panels, report.seams, report.body_vertices, report.frames, drape.steps,
-                drape.steps_rejected, drape.frames > 0 ? drape.seconds / drape.frames : 0.0, report.sewing.seconds, report.seconds_total, report.threads);
+                report.vertices, report.triangles, report.panels, report.seams, report.body_vertices, report.frames,
+                drape.steps, drape.steps_rejected, drape.frames > 0 ? drape.seconds / drape.frames : 0.0,
+                report.sewing.seconds, report.seconds_total, report.threads);
   out += text.data();
   if (report.frames == 0) return out;
   std::snprintf(text.data(), text.size(),
-                "  last frame: %d edges cloth-body, %d cloth-cloth; stretch p50 %.2f %%, p99 %.2f %%, max %.2f %%; still %.2f mm/s\n"
+                "  last frame: %d edges cloth-body, %d cloth-cloth; stretch p50 %.2f %%, p99 %.2f %%, max %.2f %%; "
+                "still %.2f mm/s\n"
                 "  state %s\n",
-                report.audit.cloth_body_edges.last, report.audit.cloth_cloth_edges.last, 100 * report.audit.stretch.p50, 100 * report.audit.stretch.p99,
-                100 * report.audit.stretch.max, report.audit.still_mm_per_s_p99, report.state_hash.c_str());
+                report.audit.cloth_body_edges.last, report.audit.cloth_cloth_edges.last, 100 * report.audit.stretch.p50,
+                100 * report.audit.stretch.p99, 100 * report.audit.stretch.max, report.audit.still_mm_per_s_p99,
+                report.state_hash.c_str());
   return out + text.data();
 }
 
@@ -164,7 +176,12 @@ ExitCode simulate_command(const CommandLine& line) {
   if (wanted && code != ExitCode::interrupted) {
     // The run is complete without its pictures; what goes wrong here is told, and does not take the result away.
     try {
-      picture_run(options.directory, {}, [&](double share) { bar.show({"picturing", share, -1}); }, interrupted);
+      picture_run(
+          options.directory, {},
+          [&](double share) {
+            bar.show({"picturing", share, -1});
+          },
+          interrupted);
     } catch (const Error& error) {
       picture_error = error.what();
       if (code == ExitCode::ok) code = error.code();

@@ -38,8 +38,10 @@ void ProgressBar::show(const Progress& progress) {
   const int done = std::clamp(static_cast<int>(progress.share * width), 0, width);
   std::string left;
   if (progress.seconds_left >= 0) left = std::to_string(static_cast<long>(progress.seconds_left + 0.5)) + " s left";
-  std::fprintf(stderr, "\r%-10.10s [%s%s] %3d %% %-16s", std::string(progress.phase).c_str(), std::string(static_cast<std::size_t>(done), '#').c_str(),
-               std::string(static_cast<std::size_t>(width - done), '.').c_str(), static_cast<int>(100 * progress.share), left.c_str());
+  std::fprintf(stderr, "\r%-10.10s [%s%s] %3d %% %-16s", std::string(progress.phase).c_str(),
+               std::string(static_cast<std::size_t>(done), '#').c_str(),
+               std::string(static_cast<std::size_t>(width - done), '.').c_str(), static_cast<int>(100 * progress.share),
+               left.c_str());
   std::fflush(stderr);
   shown_ = true;
 }

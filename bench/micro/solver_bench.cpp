@@ -73,7 +73,8 @@ void pcg_iterations(benchmark::State& state) {
     Vec3s dv(s.b.size(), Vec3::Zero());
     iterations += pcg.solve(s.system, s.b, s.reference, options, dv).iterations;
   }
-  state.counters["us_per_iteration"] = benchmark::Counter(static_cast<double>(iterations) * 1e-6, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["us_per_iteration"] = benchmark::Counter(static_cast<double>(iterations) * 1e-6,
+                                                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.SetLabel(std::string(to_string(options.preconditioner)));
 }
 

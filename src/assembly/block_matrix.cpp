@@ -41,7 +41,8 @@ template <class T>
 void BlockMatrix<T>::update_diagonal() {
   for (std::size_t i = 0; i < grounded_.size(); ++i) {
     diagonal_[i] = grounded_[i];
-    for (Eigen::Index k = 0; k < 3; ++k) grounded_columns_[3 * i + static_cast<std::size_t>(k)] = to_lane<T>(grounded_[i].col(k));
+    for (Eigen::Index k = 0; k < 3; ++k)
+      grounded_columns_[3 * i + static_cast<std::size_t>(k)] = to_lane<T>(grounded_[i].col(k));
   }
   for (Index i = 0; i < rows(); ++i) {
     for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s) {
@@ -57,7 +58,8 @@ void BlockMatrix<T>::multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) 
   const auto n = static_cast<std::size_t>(rows());
   for (std::size_t i = 0; i < n; ++i) {
     const Lane<T> x_i = x[i];
-    y[i] = grounded_columns_[3 * i] * x_i[0] + grounded_columns_[3 * i + 1] * x_i[1] + grounded_columns_[3 * i + 2] * x_i[2];
+    y[i] = grounded_columns_[3 * i] * x_i[0] + grounded_columns_[3 * i + 1] * x_i[1] +
+           grounded_columns_[3 * i + 2] * x_i[2];
   }
   for (Index i = 0; i < rows(); ++i) {
     const Lane<T> x_i = x[static_cast<std::size_t>(i)];

@@ -22,7 +22,8 @@ BendRest hinge_rest(const ClothModel& model, std::span<const Fabric> fabrics, co
   for (int side = 0; side < 2; ++side) {
     const auto t = static_cast<std::size_t>(hinge.triangle[static_cast<std::size_t>(side)]);
     const Fabric& fabric = fabrics[fabrics.size() == 1 ? 0 : static_cast<std::size_t>(model.mesh.panel[t])];
-    const Vec2 along = edge_in_pattern(model.mesh, hinge.triangle[static_cast<std::size_t>(side)], hinge.particle[0], hinge.particle[1]);
+    const Vec2 along = edge_in_pattern(model.mesh, hinge.triangle[static_cast<std::size_t>(side)], hinge.particle[0],
+                                       hinge.particle[1]);
     // The paper weighs by the edge's own direction; the fibres that bend run across it (docs/deviations.md#bend-direction).
     const Vec2 direction = paper_scaling ? along : Vec2(-along.y(), along.x());
     rigidity += 0.5 * directional_rigidity(direction, fabric.bend_u_N_m, fabric.bend_v_N_m);
@@ -58,8 +59,8 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
     model.membrane[t].alpha = frame.alpha;
     model.membrane[t].beta = frame.beta;
     model.membrane[t].scale2 = options.paper_scaling ? frame.area_m2 * frame.area_m2 : frame.area_m2;
-    model.stiffness[t] = {fabric.stretch_u_N_per_m, fabric.stretch_v_N_per_m, fabric.shear_N_per_m, fabric.stretch_damping_s,
-                          fabric.shear_damping_s};
+    model.stiffness[t] = {fabric.stretch_u_N_per_m, fabric.stretch_v_N_per_m, fabric.shear_N_per_m,
+                          fabric.stretch_damping_s, fabric.shear_damping_s};
     for (const Index corner : model.mesh.triangles[t]) {
       const auto p = static_cast<std::size_t>(corner);
       model.mass_kg[p] += fabric.density_kg_per_m2 * frame.area_m2 / 3;

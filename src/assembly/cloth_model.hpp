@@ -11,25 +11,25 @@
 
 namespace toile {
 
-struct ClothState {                      // copy to save, assign to restore
-  Vec3s x, v;                            // m, m/s
+struct ClothState {  // copy to save, assign to restore
+  Vec3s x, v;        // m, m/s
 };
 
 struct ModelOptions {
   Vec3 gravity_m_per_s2{0, -9.81, 0};
-  bool paper_scaling = false;            // conditions scaled by area and bend without geometry, as printed in 1998
+  bool paper_scaling = false;  // conditions scaled by area and bend without geometry, as printed in 1998
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
 };
 
 struct ClothModel {
   ClothMesh mesh;
   Topology topology;
-  std::vector<MembraneRest> membrane;              // [triangle]
-  std::vector<MembraneStiffness> stiffness;        // [triangle]
-  std::vector<BendRest> bend;                      // [hinge]
-  std::vector<double> mass_kg;                     // [particle]
-  std::vector<double> thickness_m;                 // [particle] contact distance of two layers
-  std::vector<double> friction;                    // [particle]
+  std::vector<MembraneRest> membrane;        // [triangle]
+  std::vector<MembraneStiffness> stiffness;  // [triangle]
+  std::vector<BendRest> bend;                // [hinge]
+  std::vector<double> mass_kg;               // [particle]
+  std::vector<double> thickness_m;           // [particle] contact distance of two layers
+  std::vector<double> friction;              // [particle]
   Vec3 gravity_m_per_s2{0, -9.81, 0};
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
 

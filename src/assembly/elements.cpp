@@ -112,7 +112,8 @@ double Elements::energy_J() const {
 }
 
 int Elements::degenerate_hinges() const {
-  return static_cast<int>(std::count_if(bend_.begin(), bend_.end(), [](const BendResponse& r) { return r.degenerate; }));
+  return static_cast<int>(
+      std::count_if(bend_.begin(), bend_.end(), [](const BendResponse& r) { return r.degenerate; }));
 }
 
 void Elements::gather(std::span<Vec3> f, double sign) const {
@@ -134,7 +135,8 @@ void Elements::forces(std::span<Vec3> f) const {
   parallel_for(triangles_.size(), grain, [&](std::size_t t) {
     const MembraneResponse& r = membrane_[t];
     const Vec3 u = r.P_u + r.Q_u, v = r.P_v + r.Q_v;
-    for (Eigen::Index c = 0; c < 3; ++c) triangle_force_[t][static_cast<std::size_t>(c)] = alpha_[t][c] * u + beta_[t][c] * v;
+    for (Eigen::Index c = 0; c < 3; ++c)
+      triangle_force_[t][static_cast<std::size_t>(c)] = alpha_[t][c] * u + beta_[t][c] * v;
   });
   parallel_for(hinges_.size(), grain, [&](std::size_t h) {
     const double moment = bend_[h].moment + bend_[h].damping;
@@ -154,7 +156,8 @@ void Elements::subtract_stiffness(std::span<const Vec3> displacement, std::span<
     }
     const FMatrix& K = membrane_[t].K;
     const Vec3 u = K.uu * y_u + K.uv * y_v, v = K.uv.transpose() * y_u + K.vv * y_v;
-    for (Eigen::Index c = 0; c < 3; ++c) triangle_force_[t][static_cast<std::size_t>(c)] = alpha_[t][c] * u + beta_[t][c] * v;
+    for (Eigen::Index c = 0; c < 3; ++c)
+      triangle_force_[t][static_cast<std::size_t>(c)] = alpha_[t][c] * u + beta_[t][c] * v;
   });
   parallel_for(hinges_.size(), grain, [&](std::size_t h) {
     double angle = 0;
@@ -180,7 +183,8 @@ void Elements::assemble(double h_s, BlockMatrix<T>& A) {
       const auto t = static_cast<std::size_t>(triangle);
       const FMatrix& H = combined_[t];
       const double alpha_a = alpha_[t][a], alpha_b = alpha_[t][b], beta_a = beta_[t][a], beta_b = beta_[t][b];
-      block += alpha_a * alpha_b * H.uu + alpha_a * beta_b * H.uv + beta_a * alpha_b * H.uv.transpose() + beta_a * beta_b * H.vv;
+      block += alpha_a * alpha_b * H.uu + alpha_a * beta_b * H.uv + beta_a * alpha_b * H.uv.transpose() +
+               beta_a * beta_b * H.vv;
     }
     for (auto k = hinge_begin_[s]; k < hinge_begin_[s + 1]; ++k) {
       const auto [hinge, a, b] = hinge_parts_[static_cast<std::size_t>(k)];

@@ -18,7 +18,7 @@ class Elements {
   std::shared_ptr<const BlockPattern> pattern() const { return pattern_; }
 
   void evaluate(const ClothModel& model, const ClothState& state);
-  double energy_J() const;                                        // elastic, of the last evaluate()
+  double energy_J() const;  // elastic, of the last evaluate()
   int degenerate_hinges() const;
 
   // f_i: elastic and damping forces at the evaluated state.
@@ -38,8 +38,14 @@ class Elements {
   const BendResponse& bend(Index hinge) const { return bend_[static_cast<std::size_t>(hinge)]; }
 
  private:
-  struct TrianglePart { Index triangle; std::uint8_t a, b; };     // corners: block (a, b) of the triangle
-  struct HingePart { Index hinge; std::uint8_t a, b; };
+  struct TrianglePart {
+    Index triangle;
+    std::uint8_t a, b;
+  };  // corners: block (a, b) of the triangle
+  struct HingePart {
+    Index hinge;
+    std::uint8_t a, b;
+  };
   void add_incidence(const ClothModel& model);
 
   std::shared_ptr<const BlockPattern> pattern_;
@@ -48,15 +54,15 @@ class Elements {
   std::vector<Vec3> alpha_, beta_;
   std::vector<double> kappa_, tau_;
   std::vector<Index> row_of_slot_;
-  std::vector<std::int32_t> triangle_begin_, hinge_begin_;         // per slot
+  std::vector<std::int32_t> triangle_begin_, hinge_begin_;  // per slot
   std::vector<TrianglePart> triangle_parts_;
   std::vector<HingePart> hinge_parts_;
   std::vector<std::int32_t> particle_triangle_begin_, particle_hinge_begin_;  // per particle
   std::vector<std::pair<Index, std::uint8_t>> particle_triangles_, particle_hinges_;
   std::vector<MembraneResponse> membrane_;
   std::vector<BendResponse> bend_;
-  std::vector<FMatrix> combined_;                                  // h D + h^2 K per triangle
-  mutable std::vector<std::array<Vec3, 3>> triangle_force_;        // scratch of the gathers
+  std::vector<FMatrix> combined_;                            // h D + h^2 K per triangle
+  mutable std::vector<std::array<Vec3, 3>> triangle_force_;  // scratch of the gathers
   mutable std::vector<std::array<Vec3, 4>> hinge_force_;
   void gather(std::span<Vec3> f, double sign) const;
 };

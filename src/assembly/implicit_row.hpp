@@ -14,21 +14,21 @@
 namespace toile {
 
 struct LinearSpring {
-  std::array<Index, 4> particle{-1, -1, -1, -1};   // -1: unused
+  std::array<Index, 4> particle{-1, -1, -1, -1};  // -1: unused
   std::array<double, 4> weight{0, 0, 0, 0};
-  Vec3 direction{0, 0, 0};                         // unit
-  double force_N = 0;                              // at the start of the step, along +g
-  double stiffness_N_per_m = 0;                    // >= 0
-  double damping_N_s_per_m = 0;                    // >= 0
-  double body_displacement_m = 0;                  // how far the other, prescribed side moves along `direction` in this step
+  Vec3 direction{0, 0, 0};         // unit
+  double force_N = 0;              // at the start of the step, along +g
+  double stiffness_N_per_m = 0;    // >= 0
+  double damping_N_s_per_m = 0;    // >= 0
+  double body_displacement_m = 0;  // how far the other, prescribed side moves along `direction` in this step
 };
 
 struct ImplicitRow {
   std::array<Index, 4> particle;
   std::array<double, 4> weight;
   Vec3 direction;
-  double a = 0;      // kg
-  double beta = 0;   // N s
+  double a = 0;     // kg
+  double beta = 0;  // N s
 };
 
 // direction . sum_k weight_k u_k
@@ -43,7 +43,8 @@ inline double along(const LinearSpring& spring, std::span<const Vec3> u) {
 inline ImplicitRow implicit_row(const LinearSpring& s, double h_s, std::span<const Vec3> v, std::span<const Vec3> y) {
   const double speed = along(s, v);
   const double travel = h_s * speed + along(s, y) - s.body_displacement_m;
-  const double force = s.force_N - s.stiffness_N_per_m * travel - s.damping_N_s_per_m * (speed - s.body_displacement_m / h_s);
+  const double force =
+      s.force_N - s.stiffness_N_per_m * travel - s.damping_N_s_per_m * (speed - s.body_displacement_m / h_s);
   return {s.particle, s.weight, s.direction, h_s * h_s * s.stiffness_N_per_m + h_s * s.damping_N_s_per_m, h_s * force};
 }
 

@@ -69,8 +69,10 @@ struct Block {
   // (sum of r0, sum of r1, sum of r2): a 4x4 transpose and two additions.
   static Lane<float> column_dots(const Lane<float>& r0, const Lane<float>& r1, const Lane<float>& r2) {
     const Lane<float> zero{0, 0, 0, 0};
-    const Lane<float> low = __builtin_shufflevector(r0, r1, 0, 4, 1, 5), high = __builtin_shufflevector(r0, r1, 2, 6, 3, 7);
-    const Lane<float> low2 = __builtin_shufflevector(r2, zero, 0, 4, 1, 5), high2 = __builtin_shufflevector(r2, zero, 2, 6, 3, 7);
+    const Lane<float> low = __builtin_shufflevector(r0, r1, 0, 4, 1, 5),
+                      high = __builtin_shufflevector(r0, r1, 2, 6, 3, 7);
+    const Lane<float> low2 = __builtin_shufflevector(r2, zero, 0, 4, 1, 5),
+                      high2 = __builtin_shufflevector(r2, zero, 2, 6, 3, 7);
     return __builtin_shufflevector(low, low2, 0, 1, 4, 5) + __builtin_shufflevector(low, low2, 2, 3, 6, 7) +
            __builtin_shufflevector(high, high2, 0, 1, 4, 5);
   }

@@ -20,9 +20,9 @@ class ParticleConstraints {
   explicit ParticleConstraints(Index particle_count = 0) { resize(particle_count); }
 
   void resize(Index particle_count);
-  void clear();                                         // every particle free; keeps the memory
+  void clear();  // every particle free; keeps the memory
 
-  void hold(Index particle, const Vec3& z);             // no degree of freedom left
+  void hold(Index particle, const Vec3& z);  // no degree of freedom left
   // Keeps z along the unit vector n.  On a particle that is already held along another direction the two are combined: z is the
   // one velocity that satisfies both (least norm), S the projection onto what is left.  Parallel directions: the first stays.
   void hold_along(Index particle, const Vec3& n, double z_along_n);

@@ -24,7 +24,7 @@ class BodyQuery {
  public:
   BodyQuery(const ClothTopology& cloth, std::span<const Vec3> x, const BodySurface& body,
             const ProximityOptions& options, const Memory& memory)
-      : cloth_(cloth), around_(cloth, x, options.range_m), body_(body), options_(options), memory_(memory) {}
+      : cloth_(cloth), around_(cloth, x, options), body_(body), options_(options), memory_(memory) {}
 
   void walk(TreeTask task, Memory::Found& found) const {
     const TriangleTree& bodies = body_.tree_now();
@@ -107,7 +107,7 @@ class BodyQuery {
       if (t < 0) continue;
       const Triangle& c = body_.triangle(t);
       const Vec3& opposite = body_x(c[0] + c[1] + c[2] - f.a - f.b);
-      if (Surroundings::leans(record.normal, Surroundings::inward(q0, q1, opposite))) return;
+      if (around_.leans(record.normal, Surroundings::inward(q0, q1, opposite))) return;
     }
     if (!around_.leaves_edge(cloth_edge, -record.normal) || !confirmed(record, point)) return;
     found.edge_keys.emplace_back(body_edge, cloth_edge);

@@ -21,8 +21,8 @@ bool by_particles(const ClothContact& a, const ClothContact& b) { return a.parti
 // One query: what is given, and the two stages.
 class ClothQuery {
  public:
-  ClothQuery(const ClothTopology& cloth, std::span<const Vec3> x, double range_m, Memory& memory)
-      : cloth_(cloth), around_(cloth, x, range_m), range_m_(range_m), memory_(memory) {}
+  ClothQuery(const ClothTopology& cloth, std::span<const Vec3> x, const ProximityOptions& options, Memory& memory)
+      : cloth_(cloth), around_(cloth, x, options), range_m_(options.range_m), memory_(memory) {}
 
   // Stage 1: everything within range that the owners of features meet in one task.
   void walk(TreeTask task, Memory::Found& found) const {
@@ -274,7 +274,7 @@ void find_cloth_contacts(const ClothTopology& cloth, const TriangleTree& tree, s
   Memory& memory = workspace.memory();
   memory.prepare(cloth, tree, x, options.range_m / 2);
   mark_flat_edges(cloth, memory);
-  const ClothQuery query(cloth, x, options.range_m, memory);
+  const ClothQuery query(cloth, x, options, memory);
 
   memory.tree.self_tasks(memory.tasks);
   memory.start_tasks();

@@ -80,6 +80,8 @@ struct BodyContact {
 struct ProximityOptions {
   double range_m = 5e-3;   // report pairs nearer than this
   double depth_m = 10e-3;  // body: and penetrating less than this
+  // 0.1 lets sheets slide over each other; 0.5 keeps contacts in sharp creases, where sewing squeezes folds together.
+  double region_tolerance = toile::region_tolerance;
 };
 
 // Memory that the two queries keep between calls, so that a steady simulation allocates nothing.  One per caller.

@@ -47,8 +47,11 @@ struct ProximityWorkspace::Memory {
 // `range_m`: an open seam is two rims, a closed one is cloth.
 class Surroundings {
  public:
-  Surroundings(const ClothTopology& cloth, std::span<const Vec3> x, double range_m)
-      : cloth_(cloth), x_(x), range2_(range_m * range_m) {}
+  Surroundings(const ClothTopology& cloth, std::span<const Vec3> x, const ProximityOptions& options)
+      : cloth_(cloth),
+        x_(x),
+        range2_(options.range_m * options.range_m),
+        tolerance2_(options.region_tolerance * options.region_tolerance) {}
 
   const Vec3& x(Index particle) const { return x_[static_cast<std::size_t>(particle)]; }
 
@@ -84,9 +87,9 @@ class Surroundings {
     const double length2 = along.squaredNorm();
     return length2 > 0 ? Vec3(to - to.dot(along) / length2 * along) : to;
   }
-  static bool leans(const Vec3& u, const Vec3& t) {
+  bool leans(const Vec3& u, const Vec3& t) const {
     const double product = u.dot(t);
-    return product > 0 && product * product > region_tolerance * region_tolerance * t.squaredNorm();
+    return product > 0 && product * product > tolerance2_ * t.squaredNorm();
   }
 
  private:
@@ -99,7 +102,7 @@ class Surroundings {
 
   const ClothTopology& cloth_;
   std::span<const Vec3> x_;
-  double range2_;
+  double range2_, tolerance2_;
 };
 
 // Do the boxes of two edges, given by those of their ends, overlap?

@@ -17,8 +17,7 @@ std::string input_message(std::string_view where, std::string_view place, std::s
 
 }  // namespace
 
-InputError::InputError(std::string_view where, std::string_view place, std::string_view expected,
-                       std::string_view got)
+InputError::InputError(std::string_view where, std::string_view place, std::string_view expected, std::string_view got)
     : Error(ExitCode::bad_input, input_message(where, place, expected, got)) {}
 
 IoError::IoError(std::string_view path, std::string_view what)

@@ -11,8 +11,7 @@
 
 namespace toile {
 
-void parallel_blocks(std::size_t count, std::size_t grain,
-                     const std::function<void(std::size_t, std::size_t)>& body) {
+void parallel_blocks(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
   if (count == 0) return;
   grain = std::max<std::size_t>(grain, 1);
   const std::size_t blocks = (count + grain - 1) / grain;

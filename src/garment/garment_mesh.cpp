@@ -39,9 +39,12 @@ double signed_area(std::span<const Vec2> outline) {
 // How many pieces every edge of every panel is cut into: both sides of a seam alike.
 std::vector<std::vector<int>> pieces_of_edges(const Pattern& pattern, double resolution_m) {
   std::vector<std::vector<int>> pieces(pattern.panels.size());
-  const auto count = [&](double length) { return std::max(1, static_cast<int>(std::ceil(length / resolution_m - 1e-9))); };
+  const auto count = [&](double length) {
+    return std::max(1, static_cast<int>(std::ceil(length / resolution_m - 1e-9)));
+  };
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
-    for (const PanelEdge& edge : pattern.panels[p].edges) pieces[p].push_back(count(edge_length_m(pattern.panels[p], edge)));
+    for (const PanelEdge& edge : pattern.panels[p].edges)
+      pieces[p].push_back(count(edge_length_m(pattern.panels[p], edge)));
   }
   for (const Stitch& stitch : pattern.stitches) {
     int &a = pieces[at(stitch.a.panel)][at(stitch.a.edge)], &b = pieces[at(stitch.b.panel)][at(stitch.b.edge)];
@@ -51,11 +54,12 @@ std::vector<std::vector<int>> pieces_of_edges(const Pattern& pattern, double res
 }
 
 struct MeshedPanel {
-  std::vector<std::vector<Index>> edge_particles;   // [edge] first to last corner, in the edge's direction
+  std::vector<std::vector<Index>> edge_particles;  // [edge] first to last corner, in the edge's direction
 };
 
 // Meshes one panel and appends it to the garment.
-MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_index, const std::vector<int>& pieces, double resolution_m) {
+MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_index, const std::vector<int>& pieces,
+                      double resolution_m) {
   std::vector<Vec2> outline;
   MeshedPanel meshed;
   for (std::size_t e = 0; e < panel.edges.size(); ++e) {
@@ -74,10 +78,14 @@ MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_inde
   try {
     planar = triangulate(outline, resolution_m);
   } catch (const InputError& error) {
-    throw InputError("", "panel " + printable(panel.name), "an outline that can be meshed at this resolution", error.what());
+    throw InputError("", "panel " + printable(panel.name), "an outline that can be meshed at this resolution",
+                     error.what());
   }
   const bool mirrored = signed_area(outline) < 0;
-  const auto pattern_uv = [&](Index i) { return mirrored ? Vec2(planar.points[at(i)].y(), planar.points[at(i)].x()) : Vec2(planar.points[at(i)].y(), -planar.points[at(i)].x()); };
+  const auto pattern_uv = [&](Index i) {
+    return mirrored ? Vec2(planar.points[at(i)].y(), planar.points[at(i)].x())
+                    : Vec2(planar.points[at(i)].y(), -planar.points[at(i)].x());
+  };
   const Index first = garment.mesh.particle_count;
   for (Triangle t : planar.triangles) {
     if (mirrored) std::swap(t[1], t[2]);
@@ -95,21 +103,25 @@ MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_inde
 }
 
 // Pairs the samples of a stitch and refuses one that is sewn the wrong way round.
-void add_seam(GarmentMesh& garment, const Pattern& pattern, const Stitch& stitch, const std::vector<MeshedPanel>& meshed) {
+void add_seam(GarmentMesh& garment, const Pattern& pattern, const Stitch& stitch,
+              const std::vector<MeshedPanel>& meshed) {
   std::vector<Index> a = meshed[at(stitch.a.panel)].edge_particles[at(stitch.a.edge)];
   std::vector<Index> b = meshed[at(stitch.b.panel)].edge_particles[at(stitch.b.edge)];
   if (!stitch.right_wrong) std::reverse(b.begin(), b.end());
   const Panel &panel_a = pattern.panels[at(stitch.a.panel)], &panel_b = pattern.panels[at(stitch.b.panel)];
-  Seam seam{side_name(pattern, stitch.a) + " - " + side_name(pattern, stitch.b), edge_length_m(panel_a, panel_a.edges[at(stitch.a.edge)]),
+  Seam seam{side_name(pattern, stitch.a) + " - " + side_name(pattern, stitch.b),
+            edge_length_m(panel_a, panel_a.edges[at(stitch.a.edge)]),
             edge_length_m(panel_b, panel_b.edges[at(stitch.b.edge)])};
   const bool dart = a.front() == b.front() || a.back() == b.back();
   if (!dart) {
-    const Vec3 &a0 = garment.x[at(a.front())], &a1 = garment.x[at(a.back())], &b0 = garment.x[at(b.front())], &b1 = garment.x[at(b.back())];
+    const Vec3 &a0 = garment.x[at(a.front())], &a1 = garment.x[at(a.back())], &b0 = garment.x[at(b.front())],
+               &b1 = garment.x[at(b.back())];
     const double as_sewn = (a0 - b0).norm() + (a1 - b1).norm(), other_way = (a0 - b1).norm() + (a1 - b0).norm();
     // Two edges of the same panel edge-on to each other say nothing; only a clear difference does.
     if (as_sewn > twist_ratio * other_way) {
-      throw InputError("", "seam " + seam.name, "matching ends near each other where the panels are placed",
-                       "a twisted seam: its ends lie nearer to the opposite ends (check \"right_wrong\" and the panels' loops)");
+      throw InputError(
+          "", "seam " + seam.name, "matching ends near each other where the panels are placed",
+          "a twisted seam: its ends lie nearer to the opposite ends (check \"right_wrong\" and the panels' loops)");
     }
   }
   const auto index = static_cast<Index>(garment.seams.size());
@@ -133,7 +145,7 @@ void turn_over(GarmentMesh& garment, Index panel) {
 
 // Panels joined right to wrong must be turned over for the surface to have one right side.
 void orient_panels(GarmentMesh& garment, const Pattern& pattern) {
-  std::vector<int> side(pattern.panels.size(), 0);   // 0: not reached, 1: as drawn, -1: turned over
+  std::vector<int> side(pattern.panels.size(), 0);  // 0: not reached, 1: as drawn, -1: turned over
   for (std::size_t start = 0; start < side.size(); ++start) {
     if (side[start] != 0) continue;
     side[start] = 1;
@@ -211,7 +223,8 @@ MeshQuality mesh_quality(const ClothMesh& mesh) {
     double smallest = 180;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2 e = uv[(k + 1) % 3] - uv[k], f = uv[(k + 2) % 3] - uv[k];
-      smallest = std::min(smallest, std::atan2(std::abs(e.x() * f.y() - e.y() * f.x()), e.dot(f)) * 180 / 3.14159265358979323846);
+      smallest = std::min(smallest,
+                          std::atan2(std::abs(e.x() * f.y() - e.y() * f.x()), e.dot(f)) * 180 / 3.14159265358979323846);
       sum += e.norm();
       quality.min_edge_m = std::min(quality.min_edge_m, e.norm());
       quality.max_edge_m = std::max(quality.max_edge_m, e.norm());

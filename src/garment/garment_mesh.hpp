@@ -15,35 +15,35 @@
 
 namespace toile {
 
-struct SeamPair {                    // two particles that will become one
+struct SeamPair {  // two particles that will become one
   Index a = 0, b = 0;
-  double share_m = 0;                // how much of the seam's length this pair carries
+  double share_m = 0;  // how much of the seam's length this pair carries
   Index seam = 0;
 };
 
 struct Seam {
-  std::string name;                  // "front.2 - back.4": panel and edge number of both sides
+  std::string name;  // "front.2 - back.4": panel and edge number of both sides
   double length_a_m = 0, length_b_m = 0;
 };
 
-struct LabelledEdge {                // an edge the pattern wants at a place of the body: "lower_interface", "strapless_top" ...
+struct LabelledEdge {  // an edge the pattern wants at a place of the body: "lower_interface", "strapless_top" ...
   std::string label;
   std::vector<Index> particles;
 };
 
 struct GarmentMesh {
   std::string name;
-  ClothMesh mesh;                    // panels unwelded
-  Vec3s x;                           // placed, m
-  std::vector<Seam> seams;           // one per stitch
-  std::vector<SeamPair> pairs;       // a dart's apex, sewn to itself, is not among them
+  ClothMesh mesh;               // panels unwelded
+  Vec3s x;                      // placed, m
+  std::vector<Seam> seams;      // one per stitch
+  std::vector<SeamPair> pairs;  // a dart's apex, sewn to itself, is not among them
   std::vector<LabelledEdge> labels;
-  std::vector<Index> merged;         // [particle] smallest particle of the class it will be welded into (itself if none)
-  std::vector<bool> on_panel_edge;   // [particle]
+  std::vector<Index> merged;        // [particle] smallest particle of the class it will be welded into (itself if none)
+  std::vector<bool> on_panel_edge;  // [particle]
   bool legacy_frame = false;
 };
 
-struct MeshQuality {                 // for reports
+struct MeshQuality {  // for reports
   double min_angle_deg = 0, p1_angle_deg = 0, mean_edge_m = 0, min_edge_m = 0, max_edge_m = 0;
 };
 MeshQuality mesh_quality(const ClothMesh& mesh);
@@ -55,7 +55,7 @@ GarmentMesh mesh_garment(const Pattern& pattern, double resolution_m);
 // The welded cloth: classes of `merged` become one particle each, in order of their smallest member.
 struct WeldedMesh {
   ClothMesh mesh;
-  std::vector<Index> particle_of;    // [unwelded particle] welded particle
+  std::vector<Index> particle_of;  // [unwelded particle] welded particle
 };
 WeldedMesh weld(const GarmentMesh& garment);
 

@@ -10,9 +10,9 @@
 namespace toile {
 namespace {
 
-constexpr double lowest_m = -0.12, highest_m = 0.16, step_m = 0.01;     // vertical shifts
-constexpr double depth_m = 0.04, depth_step_m = 0.02;                   // forwards and backwards
-constexpr double legacy_origin = 0.68;                                  // of the body's height
+constexpr double lowest_m = -0.12, highest_m = 0.16, step_m = 0.01;  // vertical shifts
+constexpr double depth_m = 0.04, depth_step_m = 0.02;                // forwards and backwards
+constexpr double legacy_origin = 0.68;                               // of the body's height
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -43,7 +43,8 @@ class BodyLines {
 
 struct Blocked {
   int pairs = 0;
-  double cost = 0;    // sum over seams of blocked^2 / pairs: a seam's free part leads the rest round the body, a seam wholly behind it is lost
+  double cost =
+      0;  // sum over seams of blocked^2 / pairs: a seam's free part leads the rest round the body, a seam wholly behind it is lost
 };
 
 Blocked blocked_pairs(const GarmentMesh& garment, const BodyLines& body, const Vec3& shift) {
@@ -86,16 +87,19 @@ Placement place_garment(GarmentMesh& garment, const BodySurface& body) {
   const BodyLines lines(body);
   std::vector<Vec3> shifts;
   for (int y = 0; lowest_m + y * step_m <= highest_m + 1e-9; ++y) {
-    for (int z = 0; -depth_m + z * depth_step_m <= depth_m + 1e-9; ++z) shifts.emplace_back(0, lowest_m + y * step_m, -depth_m + z * depth_step_m);
+    for (int z = 0; - depth_m + z * depth_step_m <= depth_m + 1e-9; ++z)
+      shifts.emplace_back(0, lowest_m + y * step_m, -depth_m + z * depth_step_m);
   }
   // The smallest shift wins among equals: sorted by length, and the first of the fewest is taken.
-  std::stable_sort(shifts.begin(), shifts.end(), [](const Vec3& a, const Vec3& b) { return a.squaredNorm() < b.squaredNorm(); });
+  std::stable_sort(shifts.begin(), shifts.end(),
+                   [](const Vec3& a, const Vec3& b) { return a.squaredNorm() < b.squaredNorm(); });
   std::vector<Blocked> blocked(shifts.size());
   parallel_for(shifts.size(), 1, [&](std::size_t s) { blocked[s] = blocked_pairs(garment, lines, shifts[s]); });
   placement.blocked_before = blocked.front().pairs;
   std::vector<std::size_t> order(shifts.size());
   for (std::size_t s = 0; s < order.size(); ++s) order[s] = s;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return blocked[a].cost < blocked[b].cost; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return blocked[a].cost < blocked[b].cost; });
   std::size_t best = order.front();
   for (const std::size_t s : order) {
     if (edges_in_body(garment, lines, shifts[s]) == 0) {
@@ -111,7 +115,8 @@ Placement place_garment(GarmentMesh& garment, const BodySurface& body) {
     if (lines.blocked(garment.x[at(pair.a)], garment.x[at(pair.b)])) placement.blocked_seams.push_back(pair.seam);
   }
   std::sort(placement.blocked_seams.begin(), placement.blocked_seams.end());
-  placement.blocked_seams.erase(std::unique(placement.blocked_seams.begin(), placement.blocked_seams.end()), placement.blocked_seams.end());
+  placement.blocked_seams.erase(std::unique(placement.blocked_seams.begin(), placement.blocked_seams.end()),
+                                placement.blocked_seams.end());
   return placement;
 }
 

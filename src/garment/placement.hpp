@@ -14,9 +14,9 @@ namespace toile {
 
 struct Placement {
   Vec3 shift_m{0, 0, 0};
-  int blocked_before = 0, blocked = 0;       // seam pairs whose straight line passes through the body, before and after
-  int panel_crossings = 0;                   // mesh edges of the placed panels that pass through the body: > 0 is a bad start
-  std::vector<Index> blocked_seams;          // seams with such lines left, ascending
+  int blocked_before = 0, blocked = 0;  // seam pairs whose straight line passes through the body, before and after
+  int panel_crossings = 0;           // mesh edges of the placed panels that pass through the body: > 0 is a bad start
+  std::vector<Index> blocked_seams;  // seams with such lines left, ascending
 };
 
 // Finds the shift and applies it to garment.x.  Patterns in the frame of the 2021 tool (GarmentMesh::legacy_frame) are first raised by 0.68

@@ -8,15 +8,16 @@
 namespace toile {
 namespace {
 
-constexpr int most_escalations = 4;      // thin layers, friction off, then two doublings of the pull
+constexpr int most_escalations = 4;  // thin layers, friction off, then two doublings of the pull
 constexpr double thinning_per_frame = 0.95;
-constexpr double coincident_m = 1e-7;    // below it the direction of a pair means nothing: its spring is isotropic
+constexpr double coincident_m = 1e-7;  // below it the direction of a pair means nothing: its spring is isotropic
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, BodySurface* body, const StepOptions& step, const SewingOptions& options)
+Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, BodySurface* body, const StepOptions& step,
+               const SewingOptions& options)
     : garment_(&garment), options_(options) {
   ModelOptions weightless;
   weightless.gravity_m_per_s2.setZero();
@@ -27,16 +28,19 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
     longest_m_ = std::max(longest_m_, start_distance_m_.back());
   }
   best_gap_m_ = longest_m_;
+  mean_edge_m_ = mesh_quality(garment.mesh).mean_edge_m;
   world_.body = body;
   world_.merged_particle = garment.merged;
-  world_.springs = [this](const ClothState& state, double h_s, std::vector<LinearSpring>& springs) { append_springs(state, h_s, springs); };
+  world_.springs = [this](const ClothState& state, double h_s, std::vector<LinearSpring>& springs) {
+    append_springs(state, h_s, springs);
+  };
   StepOptions sewing_step = step;
   sewing_step.body.friction = std::min(step.body.friction, options.friction);
   sewing_step.rows.look_ahead = 2;
   sewing_step.body.offset_m = std::max(step.body.offset_m, options.offset_m);
   AdaptiveOptions adaptive;
   adaptive.step_max_s = 1 / options.fps;
-  adaptive.stretch_floor = 3;            // the pull of a seam is not divergence
+  adaptive.stretch_floor = 3;  // the pull of a seam is not divergence
   stepper_.emplace(model_, world_, sewing_step, adaptive);
   thickness_scale_.assign(garment.x.size(), options.thickness_scale);
   stepper_->integrator().contact_rows().set_thickness_scale(thickness_scale_);
@@ -95,12 +99,14 @@ FrameReport Sewing::frame() {
 
 void Sewing::judge_progress() {
   const double gap = widest_gap_m();
-  if (gap < options_.weld_gap_m) {
+  const double enough = escalations_ > 0 ? std::max(options_.weld_gap_m, options_.thick_corner_share * mean_edge_m_)
+                                         : options_.weld_gap_m;
+  if (gap < enough) {
     status_ = SewingStatus::closed;
     return;
   }
   if (escalations_ > 0) thin_layers();
-  if (gap < 0.95 * best_gap_m_) {        // still closing
+  if (gap < 0.95 * best_gap_m_) {  // still closing
     best_gap_m_ = gap;
     best_time_s_ = time_s_;
   }
@@ -124,7 +130,8 @@ void Sewing::thin_layers() {
     if ((a - b).norm() > options_.weld_gap_m) open.push_back(0.5 * (a + b));
   }
   for (std::size_t i = 0; i < thickness_scale_.size(); ++i) {
-    const bool beside = std::any_of(open.begin(), open.end(), [&](const Vec3& p) { return (state_.x[i] - p).norm() < options_.thin_radius_m; });
+    const bool beside = std::any_of(open.begin(), open.end(),
+                                    [&](const Vec3& p) { return (state_.x[i] - p).norm() < options_.thin_radius_m; });
     if (beside) thickness_scale_[i] = std::max(options_.thinnest, thinning_per_frame * thickness_scale_[i]);
   }
   stepper_->integrator().contact_rows().set_thickness_scale(thickness_scale_);
@@ -132,7 +139,8 @@ void Sewing::thin_layers() {
 
 double Sewing::widest_gap_m() const {
   double widest = 0;
-  for (const SeamPair& pair : garment_->pairs) widest = std::max(widest, (state_.x[at(pair.b)] - state_.x[at(pair.a)]).norm());
+  for (const SeamPair& pair : garment_->pairs)
+    widest = std::max(widest, (state_.x[at(pair.b)] - state_.x[at(pair.a)]).norm());
   return widest;
 }
 
@@ -147,7 +155,8 @@ std::vector<SeamGap> Sewing::gaps() const {
   std::vector<Vec2> w(model_.mesh.triangles.size());
   stepper_->integrator().elements().stretch(state_.x, w);
   for (std::size_t t = 0; t < w.size(); ++t) {
-    for (const Index corner : model_.mesh.triangles[t]) stretch[at(corner)] = std::max(stretch[at(corner)], w[t].maxCoeff() - 1);
+    for (const Index corner : model_.mesh.triangles[t])
+      stretch[at(corner)] = std::max(stretch[at(corner)], w[t].maxCoeff() - 1);
   }
   for (const SeamPair& pair : garment_->pairs) {
     SeamGap& gap = gaps[at(pair.seam)];
@@ -170,7 +179,8 @@ std::vector<double> weld_thickness(const WeldedMesh& welded, const std::vector<d
   return joined;
 }
 
-ClothState weld_state(const GarmentMesh& garment, const WeldedMesh& welded, const ClothModel& model, const ClothState& state) {
+ClothState weld_state(const GarmentMesh& garment, const WeldedMesh& welded, const ClothModel& model,
+                      const ClothState& state) {
   const std::size_t count = at(welded.mesh.particle_count);
   ClothState joined{Vec3s(count, Vec3::Zero()), Vec3s(count, Vec3::Zero())};
   std::vector<double> mass(count, 0);

@@ -17,7 +17,8 @@ SolidMesh rounded_cylinder(double radius_m, double height_m, const Vec3& top) {
                                                        {radius_m, rim + (height_m - 2 * rim) / 3}}};
   SolidMesh solid;
   for (Index ring = 0; ring < rings; ++ring) {
-    const auto [r, depth] = ring < 5 ? upper[static_cast<std::size_t>(ring)] : upper[static_cast<std::size_t>(rings - 1 - ring)];
+    const auto [r, depth] =
+        ring < 5 ? upper[static_cast<std::size_t>(ring)] : upper[static_cast<std::size_t>(rings - 1 - ring)];
     const double y = ring < 5 ? -depth : depth - height_m;
     for (Index i = 0; i < around; ++i) {
       // Rings are staggered by half a piece, so that triangles are nearly isosceles.

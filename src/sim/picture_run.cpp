@@ -27,9 +27,10 @@ struct Take {  // one cache and the surface that it moves
     obj = load_obj(obj_path);
     frames = std::make_unique<Pc2Reader>((directory / (name + ".pc2")).string());
     if (static_cast<std::size_t>(frames->points()) != obj.positions.size())
-      throw InputError(printable((directory / (name + ".pc2")).string()), "points", std::to_string(obj.positions.size()),
-                       std::to_string(frames->points()));
-    if (frames->samples() < 1) throw InputError(printable((directory / (name + ".pc2")).string()), "samples", "at least one", "0");
+      throw InputError(printable((directory / (name + ".pc2")).string()), "points",
+                       std::to_string(obj.positions.size()), std::to_string(frames->points()));
+    if (frames->samples() < 1)
+      throw InputError(printable((directory / (name + ".pc2")).string()), "samples", "at least one", "0");
     for (const auto& corners : obj.texcoord) {
       std::array<Vec2, 3> three{Vec2(0, 0), Vec2(0, 0), Vec2(0, 0)};
       for (std::size_t k = 0; k < 3; ++k)
@@ -55,16 +56,18 @@ void grow(std::array<Vec3, 2>& box, const Vec3s& x) {
 
 void add_shots(const Take& take, int count, std::vector<Shot>& shots) {
   const int last = take.frames->samples() - 1;
-  for (int k = 0; k < count; ++k) shots.push_back({&take, count > 1 ? static_cast<int>(std::lround(double(k) * last / (count - 1))) : last});
+  for (int k = 0; k < count; ++k)
+    shots.push_back({&take, count > 1 ? static_cast<int>(std::lround(double(k) * last / (count - 1))) : last});
 }
 
 }  // namespace
 
-void picture_run(const std::string& directory, const PictureOptions& options, const std::function<void(double)>& progress,
-                 const std::function<bool()>& stop) {
+void picture_run(const std::string& directory, const PictureOptions& options,
+                 const std::function<void(double)>& progress, const std::function<bool()>& stop) {
   const std::filesystem::path folder(directory);
   Take sewing, cloth, body;
-  const bool sewn = sewing.open(folder, "sewing"), draped = cloth.open(folder, "cloth"), dressed = body.open(folder, "body");
+  const bool sewn = sewing.open(folder, "sewing"), draped = cloth.open(folder, "cloth"),
+             dressed = body.open(folder, "body");
   if (!sewn && !draped) throw IoError((folder / "cloth.obj").string(), "no such file: this directory holds no run");
 
   PreviewScene scene;
@@ -100,11 +103,13 @@ void picture_run(const std::string& directory, const PictureOptions& options, co
   if (draped && finite) {
     const auto red = [&](const std::vector<Crossing>& crossings, const Vec3s& ends) {
       for (const Crossing& c : crossings)
-        scene.red_segments.push_back({ends[static_cast<std::size_t>(c.edge[0])], ends[static_cast<std::size_t>(c.edge[1])]});
+        scene.red_segments.push_back(
+            {ends[static_cast<std::size_t>(c.edge[0])], ends[static_cast<std::size_t>(c.edge[1])]});
     };
     red(find_cloth_crossings(cloth.obj.triangles, x), x);
     if (dressed)
-      for (const Crossing& c : find_body_crossings(cloth.obj.triangles, x, body.obj.triangles, body_x)) red({c}, c.edge_of_body ? body_x : x);
+      for (const Crossing& c : find_body_crossings(cloth.obj.triangles, x, body.obj.triangles, body_x))
+        red({c}, c.edge_of_body ? body_x : x);
   }
   RenderOptions sheet;
   sheet.width = options.sheet_width;
@@ -118,7 +123,8 @@ void picture_run(const std::string& directory, const PictureOptions& options, co
   std::vector<Shot> shots;
   const int budget = options.most_film_frames;
   if (sewn) add_shots(sewing, std::min((sewing.frames->samples() + 1) / 2, draped ? 2 * budget / 5 : budget), shots);
-  if (draped) add_shots(cloth, std::min((cloth.frames->samples() + 1) / 2, budget - static_cast<int>(shots.size())), shots);
+  if (draped)
+    add_shots(cloth, std::min((cloth.frames->samples() + 1) / 2, budget - static_cast<int>(shots.size())), shots);
   RenderOptions film;
   film.width = options.film_width;
   film.height = options.film_height;

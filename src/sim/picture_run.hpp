@@ -17,7 +17,7 @@ struct PictureOptions {
 
 // `progress` gets the share done and may be empty; `stop` may be empty.  Throws IoError or InputError for files that are missing or wrong.
 // A run whose seams did not close has no cloth.obj: its last sewing frame is pictured.
-void picture_run(const std::string& directory, const PictureOptions& options, const std::function<void(double)>& progress,
-                 const std::function<bool()>& stop);
+void picture_run(const std::string& directory, const PictureOptions& options,
+                 const std::function<void(double)>& progress, const std::function<bool()>& stop);
 
 }  // namespace toile

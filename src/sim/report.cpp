@@ -42,7 +42,8 @@ void add_steps(JsonText& text, const PhaseReport& phase) {
 void add_cg(JsonText& text, const PhaseReport& phase) {
   text.key("cg_iterations");
   text.begin_object();
-  text.member("mean", phase.steps > 0 ? static_cast<double>(phase.cg_iterations) / static_cast<double>(phase.steps) : 0.0);
+  text.member("mean",
+              phase.steps > 0 ? static_cast<double>(phase.cg_iterations) / static_cast<double>(phase.steps) : 0.0);
   text.member("max", phase.cg_max);
   text.end_object();
 }

@@ -24,7 +24,8 @@ double number_in(const Json& value, double low, double high, bool open = false) 
 }
 
 template <class T>
-void read_number(const Json& object, std::string_view key, T& to, double scale, double low, double high, bool open = false) {
+void read_number(const Json& object, std::string_view key, T& to, double scale, double low, double high,
+                 bool open = false) {
   if (const Json* value = object.find(key)) to = scale * number_in(*value, low, high, open);
 }
 
@@ -43,7 +44,8 @@ std::size_t one_of(const Json& value, std::span<const std::string_view> names) {
     if (names[i] == name) return i;
     list += (i == 0 ? "\"" : ", \"") + std::string(names[i]) + '"';
   }
-  value.fail("one of " + list + "; nearest is \"" + std::string(nearest_name(name, names.data(), names.size())) + '"', value.describe());
+  value.fail("one of " + list + "; nearest is \"" + std::string(nearest_name(name, names.data(), names.size())) + '"',
+             value.describe());
 }
 
 std::string resolve(const std::string& scene_file, const Json& value) {
@@ -56,9 +58,11 @@ std::string resolve(const std::string& scene_file, const Json& value) {
 
 Fabric read_fabric(const Json& value) {
   if (value.is_string()) return fabric_preset(value.string(), value.where(), value.pointer());
-  if (!value.is_object()) value.fail("the name of a fabric, or an object with \"base\" and what differs from it", value.describe());
-  value.allow_only({"base", "density_kg_per_m2", "stretch_u_N_per_m", "stretch_v_N_per_m", "shear_N_per_m", "bend_u_N_m", "bend_v_N_m",
-                    "stretch_damping_s", "shear_damping_s", "bend_damping_s", "friction", "thickness_m"});
+  if (!value.is_object())
+    value.fail("the name of a fabric, or an object with \"base\" and what differs from it", value.describe());
+  value.allow_only({"base", "density_kg_per_m2", "stretch_u_N_per_m", "stretch_v_N_per_m", "shear_N_per_m",
+                    "bend_u_N_m", "bend_v_N_m", "stretch_damping_s", "shear_damping_s", "bend_damping_s", "friction",
+                    "thickness_m"});
   Fabric fabric;
   if (const Json* base = value.find("base")) fabric = fabric_preset(base->string(), base->where(), base->pointer());
   struct Member {
@@ -105,7 +109,8 @@ ScenePin read_pin(const Json& value) {
     if (!key.is_array() || key.array().size() != 4) key.fail("four numbers [t_s, x, y, z]", key.describe());
     ScenePin::Key at{number_in(key.array()[0], 0, most_seconds), {}};
     for (std::size_t k = 0; k < 3; ++k) at.x_m[static_cast<Eigen::Index>(k)] = number_in(key.array()[k + 1], -1e4, 1e4);
-    if (!pin.path.empty() && !(at.t_s > pin.path.back().t_s)) key.fail("times that ascend", "a time not after the one before");
+    if (!pin.path.empty() && !(at.t_s > pin.path.back().t_s))
+      key.fail("times that ascend", "a time not after the one before");
     pin.path.push_back(at);
   }
   if (pin.path.empty()) path->fail("at least one [t_s, x, y, z]", "an empty array");
@@ -117,7 +122,8 @@ SceneCloth read_cloth(const Json& value, const std::string& file) {
   SceneCloth cloth;
   cloth.name = value.string_or("name", "");
   const Json *pattern = value.find("pattern"), *grid = value.find("grid");
-  if ((pattern == nullptr) == (grid == nullptr)) value.fail("either \"pattern\" or \"grid\"", pattern == nullptr ? "none of them" : "both");
+  if ((pattern == nullptr) == (grid == nullptr))
+    value.fail("either \"pattern\" or \"grid\"", pattern == nullptr ? "none of them" : "both");
   if (pattern != nullptr) {
     cloth.pattern = resolve(file, *pattern);
   } else {
@@ -153,7 +159,8 @@ SceneCloth read_cloth(const Json& value, const std::string& file) {
   }
   if (const Json* pins = value.find("pins")) {
     for (const Json& pin : pins->array()) cloth.pins.push_back(read_pin(pin));
-    if (!cloth.pattern.empty() && !cloth.pins.empty()) pins->fail("no pins on a garment that is sewn: not available yet", pins->describe());
+    if (!cloth.pattern.empty() && !cloth.pins.empty())
+      pins->fail("no pins on a garment that is sewn: not available yet", pins->describe());
   }
   return cloth;
 }
@@ -162,7 +169,8 @@ SceneBody read_body(const Json& value, const std::string& file) {
   SceneBody body;
   if (value.is_null()) return body;
   value.allow_only({"mannequin", "mesh", "cylinder", "unit", "motion", "friction", "offset_mm"});
-  if (const Json* motion = value.find("motion")) motion->fail("no motion: moving bodies are not available yet", motion->describe());
+  if (const Json* motion = value.find("motion"))
+    motion->fail("no motion: moving bodies are not available yet", motion->describe());
   int given = 0;
   if (const Json* mannequin = value.find("mannequin")) {
     static constexpr std::array<std::string_view, 2> names = {"woman", "default"};
@@ -215,9 +223,10 @@ void read_time(const Json& value, Scene& scene) {
 void read_solver(const Json& value, Scene& scene) {
   value.allow_only({"preconditioner", "tolerance", "paper_scaling", "damping_jacobian"});
   if (const Json* name = value.find("preconditioner")) {
-    static constexpr std::array all = {Preconditioner::diagonal, Preconditioner::block_jacobi, Preconditioner::block_ssor,
-                                       Preconditioner::block_ssor_coarse};
-    const std::array<std::string_view, 5> names = {"auto", to_string(all[0]), to_string(all[1]), to_string(all[2]), to_string(all[3])};
+    static constexpr std::array all = {Preconditioner::diagonal, Preconditioner::block_jacobi,
+                                       Preconditioner::block_ssor, Preconditioner::block_ssor_coarse};
+    const std::array<std::string_view, 5> names = {"auto", to_string(all[0]), to_string(all[1]), to_string(all[2]),
+                                                   to_string(all[3])};
     if (const std::size_t k = one_of(*name, names); k > 0) scene.preconditioner = all[k - 1];
   }
   read_number(value, "tolerance", scene.tolerance, 1, 1e-12, 0.5);

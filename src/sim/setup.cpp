@@ -53,8 +53,9 @@ void add(Hash& hash, const std::optional<double>& x) {
   add(hash, x.value_or(0));
 }
 void add(Hash& hash, const Fabric& f) {
-  for (const double x : {f.density_kg_per_m2, f.stretch_u_N_per_m, f.stretch_v_N_per_m, f.shear_N_per_m, f.bend_u_N_m, f.bend_v_N_m,
-                         f.stretch_damping_s, f.shear_damping_s, f.bend_damping_s, f.friction, f.thickness_m})
+  for (const double x :
+       {f.density_kg_per_m2, f.stretch_u_N_per_m, f.stretch_v_N_per_m, f.shear_N_per_m, f.bend_u_N_m, f.bend_v_N_m,
+        f.stretch_damping_s, f.shear_damping_s, f.bend_damping_s, f.friction, f.thickness_m})
     add(hash, x);
 }
 
@@ -75,13 +76,16 @@ void check_areas(std::string_view file, std::span<const Vec3> positions, std::sp
 
 SolidMesh load_body(const SceneBody& body, Hash& inputs) {
   switch (body.kind) {
-    case SceneBody::Kind::none: return {};
-    case SceneBody::Kind::cylinder: return rounded_cylinder(body.cylinder.radius_m, body.cylinder.height_m, body.cylinder.top_m);
+    case SceneBody::Kind::none:
+      return {};
+    case SceneBody::Kind::cylinder:
+      return rounded_cylinder(body.cylinder.radius_m, body.cylinder.height_m, body.cylinder.top_m);
     case SceneBody::Kind::mannequin: {
       CollisionBody made = from_mannequin(make_mannequin());
       return {std::move(made.positions), std::move(made.triangles)};
     }
-    case SceneBody::Kind::mesh: break;
+    case SceneBody::Kind::mesh:
+      break;
   }
   const std::string text = read_file(body.mesh);
   inputs.add_bytes(text.data(), text.size());
@@ -100,7 +104,9 @@ PlacedGrid make_grid(const SceneCloth& cloth) {
   grid.mesh.triangles = sheet.triangles;
   grid.mesh.panel.assign(sheet.triangles.size(), 0);
   grid.mesh.panel_names = {cloth.name};
-  const auto uv = [&](Index i) { return Vec2(sheet.points[at(i)].y(), -sheet.points[at(i)].x()); };  // grain up, as in panels
+  const auto uv = [&](Index i) {
+    return Vec2(sheet.points[at(i)].y(), -sheet.points[at(i)].x());
+  };  // grain up, as in panels
   for (const Triangle& t : sheet.triangles) grid.mesh.uv.push_back({uv(t[0]), uv(t[1]), uv(t[2])});
   for (const Vec2& p : sheet.points) {
     const Vec2 q = p - middle;
@@ -135,9 +141,10 @@ std::vector<Fabric> fabrics_of(const Scene& scene, const ClothMesh& mesh) {
     const auto place = std::find(mesh.panel_names.begin(), mesh.panel_names.end(), panel.name);
     if (place == mesh.panel_names.end()) {
       const std::vector<std::string_view> names(mesh.panel_names.begin(), mesh.panel_names.end());
-      throw InputError(panel.where, panel.pointer,
-                       "a panel of the cloth; nearest is \"" + printable(nearest_name(panel.name, names.data(), names.size())) + '"',
-                       '"' + printable(panel.name) + '"');
+      throw InputError(
+          panel.where, panel.pointer,
+          "a panel of the cloth; nearest is \"" + printable(nearest_name(panel.name, names.data(), names.size())) + '"',
+          '"' + printable(panel.name) + '"');
     }
     if (panel.fabric) fabrics[static_cast<std::size_t>(place - mesh.panel_names.begin())] = *panel.fabric;
   }
@@ -163,8 +170,9 @@ std::vector<Pin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) {
     pin.particle = nearest_particle(x, given.near_m);
     for (std::size_t k = 0; k < pins.size(); ++k)
       if (pins[k].particle == pin.particle)
-        throw InputError(given.where, given.pointer, "pins that hold different particles",
-                         "particle " + std::to_string(pin.particle) + ", held by pin " + std::to_string(k) + " already");
+        throw InputError(
+            given.where, given.pointer, "pins that hold different particles",
+            "particle " + std::to_string(pin.particle) + ", held by pin " + std::to_string(k) + " already");
     if (given.on_path) pin.path = [path = given.path](double t_s) { return along(path, t_s); };
     pins.push_back(std::move(pin));
   }

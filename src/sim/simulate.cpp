@@ -19,10 +19,11 @@
 namespace toile {
 namespace {
 
-constexpr double weightless_s = 0.2, ramp_s = 0.3;   // after the weld
+constexpr double weightless_s = 0.2, ramp_s = 0.3;    // after the weld
 constexpr double at_rest_mm_per_s = 2, rest_s = 0.5;  // when a drape may stop
 constexpr double sewing_film_fps = 30;
-constexpr double thickness_recovery = 1.1;             // per frame, of layers that were thinned to close a seam
+constexpr double frictionless_s = 1;        // after the weld: the garment slips into place before friction holds it
+constexpr double thickness_recovery = 1.1;  // per frame, of layers that were thinned to close a seam
 
 template <class... Values>
 std::string words(const char* format, Values... values) {
@@ -72,10 +73,13 @@ std::string explain(const Sewing& sewing, const GarmentMesh& garment, double wel
   for (const SeamGap& gap : sewing.gaps()) {
     if (gap.gap_m < weld_gap_m) continue;
     if (++open > most) continue;
-    const std::string why = gap.stretch > too_small ? words("too small: the cloth beside it is stretched by %.0f %%", 100 * gap.stretch)
-                                                    : std::string("the body is in the way");
+    const std::string why = gap.stretch > too_small
+                                ? words("too small: the cloth beside it is stretched by %.0f %%", 100 * gap.stretch)
+                                : std::string("the body is in the way");
     text += (open == 1 ? "" : "; ") + ("seam " + garment.seams[static_cast<std::size_t>(gap.seam)].name) +
-            words(" is open by %.1f mm near (%.2f, %.2f, %.2f) m, ", 1e3 * gap.gap_m, gap.where.x(), gap.where.y(), gap.where.z()) + why;
+            words(" is open by %.1f mm near (%.2f, %.2f, %.2f) m, ", 1e3 * gap.gap_m, gap.where.x(), gap.where.y(),
+                  gap.where.z()) +
+            why;
   }
   if (open > most) text += "; and " + std::to_string(open - most) + " more seams";
   return text;
@@ -165,8 +169,8 @@ class Run {
     if (placement.panel_crossings > 0)
       bad_start(std::to_string(placement.panel_crossings) + " edges of the placed panels pass through the body");
     for (const Index seam : placement.blocked_seams)
-      report_.warnings.push_back("the straight way between the two sides of seam " + garment_.seams[static_cast<std::size_t>(seam)].name +
-                                 " leads through the body");
+      report_.warnings.push_back("the straight way between the two sides of seam " +
+                                 garment_.seams[static_cast<std::size_t>(seam)].name + " leads through the body");
     start_.x = garment_.x;
   }
 
@@ -193,10 +197,17 @@ class Run {
     phase.simulated_s = sewing.time_s();
     set_seconds(phase, sewing.seconds());
     switch (sewing.status()) {
-      case SewingStatus::closed: break;
-      case SewingStatus::sewing: end(reason::interrupted, "while sewing, after " + std::to_string(phase.frames) + " frames"); break;
-      case SewingStatus::blocked: end(reason::seam_blocked, explain(sewing, garment_, sewing_options.weld_gap_m)); break;
-      case SewingStatus::failed: end(reason::step_collapsed, "while sewing: " + frame.diagnosis); break;
+      case SewingStatus::closed:
+        break;
+      case SewingStatus::sewing:
+        end(reason::interrupted, "while sewing, after " + std::to_string(phase.frames) + " frames");
+        break;
+      case SewingStatus::blocked:
+        end(reason::seam_blocked, explain(sewing, garment_, sewing_options.weld_gap_m));
+        break;
+      case SewingStatus::failed:
+        end(reason::step_collapsed, "while sewing: " + frame.diagnosis);
+        break;
     }
     if (sewing.status() != SewingStatus::closed) {
       final_ = sewing.state();
@@ -224,14 +235,16 @@ class Run {
   void begin_audit() {
     RunDescription run;
     run.mesh = drawn_mesh(mesh_);
-    const bool elastic = std::any_of(b_of_panel_.begin(), b_of_panel_.end(), [](const Vec2& b) { return b != Vec2(1, 1); });
+    const bool elastic =
+        std::any_of(b_of_panel_.begin(), b_of_panel_.end(), [](const Vec2& b) { return b != Vec2(1, 1); });
     if (elastic) {
       for (const Index panel : mesh_.panel) {
         const Vec2& b = b_of_panel_[static_cast<std::size_t>(panel)];
         run.b.emplace_back(b.y(), b.x());  // the first axis of vt is the weft: run_writer.hpp
       }
       for (std::size_t p = 0; p < b_of_panel_.size(); ++p)
-        if (b_of_panel_[p] != Vec2(1, 1)) report_.rest_stretch.push_back({mesh_.panel_names[p], {b_of_panel_[p].y(), b_of_panel_[p].x()}});
+        if (b_of_panel_[p] != Vec2(1, 1))
+          report_.rest_stretch.push_back({mesh_.panel_names[p], {b_of_panel_[p].y(), b_of_panel_[p].x()}});
     }
     run.body_triangles = body_triangles_;
     run.body_particle_count = static_cast<Index>(body_x_.size());
@@ -275,6 +288,7 @@ class Run {
       if (sewn) {
         model.gravity_m_per_s2 = ramp(t_s) * scene_.gravity_m_per_s2;
         set_rest_stretch(model, ramp(t_s));
+        stepper.integrator().body_constraints().set_friction(t_s < frictionless_s ? 0 : step_.body.friction);
         stepper.integrator().contact_rows().set_thickness_scale(thickness_scale_);
         for (double& scale : thickness_scale_) scale = std::min(1.0, thickness_recovery * scale);
       }
@@ -310,7 +324,8 @@ class Run {
     if (speeds.size() < recent) return false;
     const double limit = Limits{}.still_mm_per_s;
     return std::all_of(speeds.begin(), speeds.end(), [&](double v) { return v <= limit; }) &&
-           std::all_of(speeds.end() - static_cast<std::ptrdiff_t>(recent), speeds.end(), [](double v) { return v <= at_rest_mm_per_s; });
+           std::all_of(speeds.end() - static_cast<std::ptrdiff_t>(recent), speeds.end(),
+                       [](double v) { return v <= at_rest_mm_per_s; });
   }
 
   Report finish() {
@@ -344,7 +359,7 @@ class Run {
   GarmentMesh garment_;
   ClothMesh mesh_;
   std::string name_;
-  std::vector<double> thickness_scale_;   // [welded particle]
+  std::vector<double> thickness_scale_;  // [welded particle]
   ClothState start_, final_;
   std::vector<Fabric> fabrics_;
   std::vector<Vec2> b_of_panel_;

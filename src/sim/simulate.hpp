@@ -18,14 +18,14 @@
 namespace toile {
 
 struct Progress {
-  std::string_view phase;   // "meshing", "placing", "sewing", "draping", "picturing"
-  double share = 0;         // of the phase, 0 ... 1
-  double seconds_left = -1; // of the phase; -1: unknown
+  std::string_view phase;    // "meshing", "placing", "sewing", "draping", "picturing"
+  double share = 0;          // of the phase, 0 ... 1
+  double seconds_left = -1;  // of the phase; -1: unknown
 };
 
 struct RunOptions {
   std::string directory;
-  std::string command;       // as typed, for the report
+  std::string command;  // as typed, for the report
   TextSource read = read_text_file;
   std::function<void(const Progress&)> progress;  // may be empty
   std::function<bool()> stop;                     // asked between frames; may be empty

@@ -8,9 +8,7 @@ namespace toile {
 namespace {
 
 // 16 to 32 aggregates of about 128 particles serve up to 10,000 particles: a dense factor of at most 288 rows.
-int wanted_aggregates(std::size_t particles) {
-  return std::clamp(static_cast<int>(particles / 128), 1, 32);
-}
+int wanted_aggregates(std::size_t particles) { return std::clamp(static_cast<int>(particles / 128), 1, 32); }
 
 // Splits `members` at the median of its longer pattern direction until no part is larger than `largest`.
 void bisect(std::vector<Index>& members, std::size_t begin, std::size_t end, std::size_t largest, const Vec2s& uv,
@@ -26,10 +24,11 @@ void bisect(std::vector<Index>& members, std::size_t begin, std::size_t end, std
     high = high.cwiseMax(uv[static_cast<std::size_t>(members[k])]);
   }
   const Eigen::Index axis = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
-  std::sort(members.begin() + static_cast<std::ptrdiff_t>(begin), members.begin() + static_cast<std::ptrdiff_t>(end), [&](Index a, Index b) {
-    const double p = uv[static_cast<std::size_t>(a)][axis], q = uv[static_cast<std::size_t>(b)][axis];
-    return p != q ? p < q : a < b;
-  });
+  std::sort(members.begin() + static_cast<std::ptrdiff_t>(begin), members.begin() + static_cast<std::ptrdiff_t>(end),
+            [&](Index a, Index b) {
+              const double p = uv[static_cast<std::size_t>(a)][axis], q = uv[static_cast<std::size_t>(b)][axis];
+              return p != q ? p < q : a < b;
+            });
   const std::size_t middle = begin + (end - begin) / 2;
   bisect(members, begin, middle, largest, uv, aggregate, count);
   bisect(members, middle, end, largest, uv, aggregate, count);
@@ -55,7 +54,8 @@ CoarseSpace::CoarseSpace(const ClothMesh& mesh) {
     }
   }
   const std::size_t largest =
-      std::max<std::size_t>(8, (particles + static_cast<std::size_t>(wanted_aggregates(particles)) - 1) / static_cast<std::size_t>(wanted_aggregates(particles)));
+      std::max<std::size_t>(8, (particles + static_cast<std::size_t>(wanted_aggregates(particles)) - 1) /
+                                   static_cast<std::size_t>(wanted_aggregates(particles)));
   for (Index k = 0; k < panels; ++k) {
     std::vector<Index> members;
     for (std::size_t p = 0; p < particles; ++p) {
@@ -64,7 +64,8 @@ CoarseSpace::CoarseSpace(const ClothMesh& mesh) {
     if (!members.empty()) bisect(members, 0, members.size(), largest, uv, aggregate_, aggregate_count_);
   }
   // Affine coordinates: centred on the aggregate, scaled by its extent.
-  std::vector<Vec2> low(static_cast<std::size_t>(aggregate_count_), Vec2::Constant(1e300)), high(low.size(), Vec2::Constant(-1e300));
+  std::vector<Vec2> low(static_cast<std::size_t>(aggregate_count_), Vec2::Constant(1e300)),
+      high(low.size(), Vec2::Constant(-1e300));
   for (std::size_t p = 0; p < particles; ++p) {
     if (aggregate_[p] < 0) aggregate_[p] = 0;  // isolated particles are refused by check_cloth
     const auto a = static_cast<std::size_t>(aggregate_[p]);
@@ -88,12 +89,14 @@ CoarseSpace::CoarseSpace(const ClothMesh& mesh) {
 void CoarseSpace::add_block(Index i, Index j, const Mat3& block) {
   const auto n = static_cast<std::size_t>(dimension());
   const Vec3 &p = basis_[static_cast<std::size_t>(i)], &q = basis_[static_cast<std::size_t>(j)];
-  const auto a = static_cast<std::size_t>(aggregate_[static_cast<std::size_t>(i)]) * 9, b = static_cast<std::size_t>(aggregate_[static_cast<std::size_t>(j)]) * 9;
+  const auto a = static_cast<std::size_t>(aggregate_[static_cast<std::size_t>(i)]) * 9,
+             b = static_cast<std::size_t>(aggregate_[static_cast<std::size_t>(j)]) * 9;
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t r = 0; r < 3; ++r) {
       double* row = &E_[(a + 3 * k + r) * n + b];
       const double p_k = p[static_cast<Eigen::Index>(k)];
-      const double m0 = p_k * block(static_cast<Eigen::Index>(r), 0), m1 = p_k * block(static_cast<Eigen::Index>(r), 1), m2 = p_k * block(static_cast<Eigen::Index>(r), 2);
+      const double m0 = p_k * block(static_cast<Eigen::Index>(r), 0), m1 = p_k * block(static_cast<Eigen::Index>(r), 1),
+                   m2 = p_k * block(static_cast<Eigen::Index>(r), 2);
       for (std::size_t l = 0; l < 3; ++l) {
         const double q_l = q[static_cast<Eigen::Index>(l)];
         row[3 * l] += m0 * q_l;
@@ -172,7 +175,8 @@ void CoarseSpace::add_correction(const LinearSystem<T>& system, std::span<const 
     double* y = &rhs_[static_cast<std::size_t>(aggregate_[p]) * 9];
     const Vec3& q = basis_[p];
     for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t c = 0; c < 3; ++c) y[3 * k + c] += q[static_cast<Eigen::Index>(k)] * static_cast<double>(r[p][c]);
+      for (std::size_t c = 0; c < 3; ++c)
+        y[3 * k + c] += q[static_cast<Eigen::Index>(k)] * static_cast<double>(r[p][c]);
     }
   }
   for (std::size_t k = 0; k < n; ++k) {  // U^T y = rhs
@@ -184,7 +188,7 @@ void CoarseSpace::add_correction(const LinearSystem<T>& system, std::span<const 
     const double y = rhs_[k] /= row[k];
     for (std::size_t j = k + 1; j < n; ++j) rhs_[j] -= row[j] * y;
   }
-  for (std::size_t k = n; k-- > 0;) {    // U x = y, by columns of U: rows of its transpose
+  for (std::size_t k = n; k-- > 0;) {  // U x = y, by columns of U: rows of its transpose
     if (dead_[k]) continue;
     const double* column = &transpose_[k * n];
     const double x = rhs_[k] /= column[k];
@@ -203,7 +207,9 @@ void CoarseSpace::add_correction(const LinearSystem<T>& system, std::span<const 
 
 template void CoarseSpace::factorise(const LinearSystem<float>&);
 template void CoarseSpace::factorise(const LinearSystem<double>&);
-template void CoarseSpace::add_correction(const LinearSystem<float>&, std::span<const Lane<float>>, std::span<Lane<float>>);
-template void CoarseSpace::add_correction(const LinearSystem<double>&, std::span<const Lane<double>>, std::span<Lane<double>>);
+template void CoarseSpace::add_correction(const LinearSystem<float>&, std::span<const Lane<float>>,
+                                          std::span<Lane<float>>);
+template void CoarseSpace::add_correction(const LinearSystem<double>&, std::span<const Lane<double>>,
+                                          std::span<Lane<double>>);
 
 }  // namespace toile

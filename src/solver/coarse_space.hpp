@@ -33,12 +33,12 @@ class CoarseSpace {
   void add_block(Index i, Index j, const Mat3& block);
   void cholesky();
   int aggregate_count_ = 0;
-  std::vector<Index> aggregate_;     // [particle]
-  std::vector<Vec3> basis_;          // [particle] (1, u', v')
-  std::vector<double> E_;            // row-major; upper triangle, then its factor U with E = U^T U
-  std::vector<double> transpose_;    // U^T
+  std::vector<Index> aggregate_;   // [particle]
+  std::vector<Vec3> basis_;        // [particle] (1, u', v')
+  std::vector<double> E_;          // row-major; upper triangle, then its factor U with E = U^T U
+  std::vector<double> transpose_;  // U^T
   std::vector<double> rhs_;
-  std::vector<std::uint8_t> dead_;   // directions in which nothing may move
+  std::vector<std::uint8_t> dead_;  // directions in which nothing may move
 };
 
 }  // namespace toile

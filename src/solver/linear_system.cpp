@@ -21,7 +21,8 @@ void LinearSystem<T>::update(std::span<const ImplicitRow> rows, const ParticleCo
     Row fast{row.particle, {}, to_lane<T>(row.direction), static_cast<T>(row.a)};
     for (std::size_t k = 0; k < 4; ++k) {
       fast.weight[k] = static_cast<T>(row.weight[k]);
-      if (row.particle[k] >= 0) diagonal_[static_cast<std::size_t>(row.particle[k])] += (row.a * row.weight[k] * row.weight[k]) * nn;
+      if (row.particle[k] >= 0)
+        diagonal_[static_cast<std::size_t>(row.particle[k])] += (row.a * row.weight[k] * row.weight[k]) * nn;
     }
     fast_rows_.push_back(fast);
   }
@@ -72,7 +73,8 @@ void LinearSystem<T>::multiply_unfiltered(std::span<const Vec3> x, std::span<Vec
       if (row.particle[k] >= 0) sum += row.weight[k] * row.direction.dot(x[static_cast<std::size_t>(row.particle[k])]);
     }
     for (std::size_t k = 0; k < 4; ++k) {
-      if (row.particle[k] >= 0) y[static_cast<std::size_t>(row.particle[k])] += (row.a * row.weight[k] * sum) * row.direction;
+      if (row.particle[k] >= 0)
+        y[static_cast<std::size_t>(row.particle[k])] += (row.a * row.weight[k] * sum) * row.direction;
     }
   }
 }

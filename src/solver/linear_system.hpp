@@ -39,10 +39,10 @@ class LinearSystem {
   // A_ii + rows, before filtering.
   const Mat3& diagonal(Index i) const { return diagonal_[static_cast<std::size_t>(i)]; }
 
-  Eigen::MatrixXd to_dense() const;   // A + rows, unfiltered; for tests
+  Eigen::MatrixXd to_dense() const;  // A + rows, unfiltered; for tests
 
  private:
-  struct Row {                        // an ImplicitRow in the precision of the iteration
+  struct Row {  // an ImplicitRow in the precision of the iteration
     std::array<Index, 4> particle;
     std::array<T, 4> weight;
     Lane<T> direction;
@@ -54,7 +54,7 @@ class LinearSystem {
   const ParticleConstraints* constraints_ = nullptr;
   std::vector<Mat3> diagonal_, inverse_;
   std::vector<Block<T>> inverse_block_;
-  std::vector<Block<T>> filter_;      // S of the constrained particles, in their order
+  std::vector<Block<T>> filter_;  // S of the constrained particles, in their order
 };
 
 extern template class LinearSystem<float>;

@@ -8,10 +8,14 @@ namespace toile {
 
 std::string_view to_string(Preconditioner preconditioner) {
   switch (preconditioner) {
-    case Preconditioner::diagonal: return "diagonal";
-    case Preconditioner::block_jacobi: return "block_jacobi";
-    case Preconditioner::block_ssor: return "block_ssor";
-    case Preconditioner::block_ssor_coarse: return "block_ssor_coarse";
+    case Preconditioner::diagonal:
+      return "diagonal";
+    case Preconditioner::block_jacobi:
+      return "block_jacobi";
+    case Preconditioner::block_ssor:
+      return "block_ssor";
+    case Preconditioner::block_ssor_coarse:
+      return "block_ssor_coarse";
   }
   return "";
 }
@@ -20,14 +24,16 @@ std::string PcgReport::explain() const {
   char text[256];
   switch (status) {
     case PcgStatus::converged:
-      std::snprintf(text, sizeof text, "converged: residual %.3g <= %.3g after %d iterations", residual, target, iterations);
+      std::snprintf(text, sizeof text, "converged: residual %.3g <= %.3g after %d iterations", residual, target,
+                    iterations);
       break;
     case PcgStatus::iteration_limit:
-      std::snprintf(text, sizeof text, "stopped after %d iterations: residual %.3g, wanted %.3g (started at %.3g)", iterations, residual,
-                    target, initial_residual);
+      std::snprintf(text, sizeof text, "stopped after %d iterations: residual %.3g, wanted %.3g (started at %.3g)",
+                    iterations, residual, target, initial_residual);
       break;
     case PcgStatus::not_positive_definite:
-      std::snprintf(text, sizeof text, "matrix not positive definite: c.A c = %.3g in iteration %d", curvature, iterations);
+      std::snprintf(text, sizeof text, "matrix not positive definite: c.A c = %.3g in iteration %d", curvature,
+                    iterations);
       break;
     case PcgStatus::not_finite:
       std::snprintf(text, sizeof text, "a number was not finite in iteration %d (residual %.3g)", iterations, residual);
@@ -86,19 +92,22 @@ void ModifiedPcg<T>::precondition(const LinearSystem<T>& system, Preconditioner 
     }
     s_[i] -= system.filtered_inverse_block(row).times(sum);
   }
-  if (kind == Preconditioner::block_ssor_coarse) coarse_.add_correction(system, std::span<const Lane<T>>(r_), std::span<Lane<T>>(s_));
+  if (kind == Preconditioner::block_ssor_coarse)
+    coarse_.add_correction(system, std::span<const Lane<T>>(r_), std::span<Lane<T>>(s_));
 }
 
 template <class T>
 double ModifiedPcg<T>::residual_norm2(const LinearSystem<T>& system) const {
   double sum = 0;
-  for (std::size_t i = 0; i < r_.size(); ++i) sum += dot(r_[i], system.filtered_inverse_block(static_cast<Index>(i)).times(r_[i]));
+  for (std::size_t i = 0; i < r_.size(); ++i)
+    sum += dot(r_[i], system.filtered_inverse_block(static_cast<Index>(i)).times(r_[i]));
   return sum;
 }
 
 // r = S (b - A (start + w)), with the product in double.
 template <class T>
-void ModifiedPcg<T>::true_residual(const LinearSystem<T>& system, std::span<const Vec3> b, std::span<const Vec3> start) {
+void ModifiedPcg<T>::true_residual(const LinearSystem<T>& system, std::span<const Vec3> b,
+                                   std::span<const Vec3> start) {
   for (std::size_t i = 0; i < r_.size(); ++i) work_[i] = start[i] + to_vec3(w_[i]);
   system.multiply_unfiltered(work_, work2_);
   for (std::size_t i = 0; i < r_.size(); ++i) work2_[i] = b[i] - work2_[i];
@@ -111,7 +120,7 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
                                 const PcgOptions& options, std::span<Vec3> dv) {
   const std::size_t n = r_.size();
   const ParticleConstraints& constraints = system.constraints();
-  const auto norm2 = [&](std::span<const Vec3> a) {   // |S a|^2 in D^-1
+  const auto norm2 = [&](std::span<const Vec3> a) {  // |S a|^2 in D^-1
     double sum = 0;
     for (std::size_t i = 0; i < n; ++i) sum += a[i].dot(system.filtered_inverse(static_cast<Index>(i)) * a[i]);
     return sum;
@@ -172,7 +181,7 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
       r_[i] -= q_[i] * alpha;
     }
     ++report.iterations;
-    if (report.iterations % 50 == 0) true_residual(system, b, start_);   // rounding of the recurrence is thrown away
+    if (report.iterations % 50 == 0) true_residual(system, b, start_);  // rounding of the recurrence is thrown away
     residual2 = residual_norm2(system);
   }
   if (options.preconditioner == Preconditioner::block_ssor_coarse && report.iterations > 0 && report) {

@@ -27,13 +27,13 @@ struct PcgOptions {
 
 enum class PcgStatus { converged, iteration_limit, not_positive_definite, not_finite };
 
-struct PcgReport {                      // why the solve ended, in numbers
+struct PcgReport {  // why the solve ended, in numbers
   PcgStatus status = PcgStatus::converged;
   int iterations = 0;
-  double initial_residual = 0, residual = 0, target = 0;    // in the D^-1 norm
-  double curvature = 0;                 // c.A'c of the last direction: <= 0 means A' was not positive definite
+  double initial_residual = 0, residual = 0, target = 0;  // in the D^-1 norm
+  double curvature = 0;  // c.A'c of the last direction: <= 0 means A' was not positive definite
   explicit operator bool() const { return status == PcgStatus::converged; }
-  std::string explain() const;          // one sentence for a person
+  std::string explain() const;  // one sentence for a person
 };
 
 template <class T>
@@ -54,8 +54,8 @@ class ModifiedPcg {
   void true_residual(const LinearSystem<T>& system, std::span<const Vec3> b, std::span<const Vec3> start);
 
   CoarseSpace coarse_;
-  std::vector<Lane<T>> r_, c_, q_, s_, w_;      // residual, direction, A' c, M^-1 r, correction to the guess
-  std::vector<Lane<T>> inverse_diagonal_;       // of the diagonal preconditioner
+  std::vector<Lane<T>> r_, c_, q_, s_, w_;  // residual, direction, A' c, M^-1 r, correction to the guess
+  std::vector<Lane<T>> inverse_diagonal_;   // of the diagonal preconditioner
   Vec3s start_, work_, work2_;
 };
 

@@ -8,7 +8,7 @@
 namespace toile {
 namespace {
 
-constexpr int longest_wait = 40;   // accepted steps before a failed increase is tried again [BW98 7]
+constexpr int longest_wait = 40;  // accepted steps before a failed increase is tried again [BW98 7]
 
 }  // namespace
 
@@ -38,7 +38,7 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
         report.step_min_s = report.steps == 1 ? h : std::min(report.step_min_s, h);
         report.step_max_s = std::max(report.step_max_s, h);
         report.cg_max = std::max(report.cg_max, report.last.cg_iterations);
-        if (growing_) patience_ = 2;       // the increase held
+        if (growing_) patience_ = 2;  // the increase held
         growing_ = false;
         ++successes_;
         break;
@@ -70,7 +70,7 @@ std::string AdaptiveStep::diagnose(const ClothState& state, const StepReport& re
   std::string words = "the step collapsed below " + std::to_string(report.h_s) + " s: " + report.explain();
   const ClothModel& model = integrator_.model();
   Index triangle = report.worst_triangle;
-  if (triangle < 0 && report.worst_particle < 0) {   // the solver failed: show the most strained triangle of the state
+  if (triangle < 0 && report.worst_particle < 0) {  // the solver failed: show the most strained triangle of the state
     std::vector<Vec2> w(model.mesh.triangles.size());
     integrator_.elements().stretch(state.x, w);
     double worst = 0;
@@ -85,13 +85,14 @@ std::string AdaptiveStep::diagnose(const ClothState& state, const StepReport& re
   if (triangle >= 0) {
     const Triangle& corners = model.mesh.triangles[static_cast<std::size_t>(triangle)];
     const Vec3& x = state.x[static_cast<std::size_t>(corners[0])];
-    std::snprintf(text, sizeof text, "; triangle %d (particles %d, %d, %d) at (%.3f, %.3f, %.3f) m", triangle, corners[0], corners[1], corners[2],
-                  x.x(), x.y(), x.z());
+    std::snprintf(text, sizeof text, "; triangle %d (particles %d, %d, %d) at (%.3f, %.3f, %.3f) m", triangle,
+                  corners[0], corners[1], corners[2], x.x(), x.y(), x.z());
     words += text;
   }
   if (report.worst_particle >= 0) {
     const Vec3& x = state.x[static_cast<std::size_t>(report.worst_particle)];
-    std::snprintf(text, sizeof text, "; particle %d at (%.3f, %.3f, %.3f) m", report.worst_particle, x.x(), x.y(), x.z());
+    std::snprintf(text, sizeof text, "; particle %d at (%.3f, %.3f, %.3f) m", report.worst_particle, x.x(), x.y(),
+                  x.z());
     words += text;
   }
   return words;

@@ -17,20 +17,21 @@ namespace toile {
 
 struct AdaptiveOptions {
   double step_max_s = 1.0 / 30;
-  double stretch_limit = 0.05;         // change of |w| per step
-  int most_halvings = 10;              // frame / 1024: then the run has collapsed
-  int stretch_floor = 11;              // from this many halvings on the stretch is no longer judged (sewing sets it lower)
-  int passing_floor = 6;               // likewise for pairs that change sides: what a shorter step cannot hold is the safe filter's business
+  double stretch_limit = 0.05;  // change of |w| per step
+  int most_halvings = 10;       // frame / 1024: then the run has collapsed
+  int stretch_floor = 11;       // from this many halvings on the stretch is no longer judged (sewing sets it lower)
+  int passing_floor =
+      6;  // likewise for pairs that change sides: what a shorter step cannot hold is the safe filter's business
 };
 
 struct FrameReport {
   bool ok = true;
   int steps = 0, rejected = 0;
   double step_min_s = 0, step_max_s = 0;
-  int cg_iterations = 0, cg_max = 0;   // summed over steps; the largest of one step
+  int cg_iterations = 0, cg_max = 0;  // summed over steps; the largest of one step
   int passes = 0;
-  StepReport last;                     // of the last attempt: when !ok, why
-  std::string diagnosis;               // when !ok: which triangles and particles, in words
+  StepReport last;        // of the last attempt: when !ok, why
+  std::string diagnosis;  // when !ok: which triangles and particles, in words
 };
 
 class AdaptiveStep {
@@ -51,9 +52,9 @@ class AdaptiveStep {
   ImplicitEuler integrator_;
   AdaptiveOptions options_;
   ClothState candidate_;
-  int halvings_ = 0;                   // h = base / 2^halvings
+  int halvings_ = 0;  // h = base / 2^halvings
   int successes_ = 0, wait_ = 2, patience_ = 2;
-  bool growing_ = false;               // the present h is the first try after a doubling
+  bool growing_ = false;  // the present h is the first try after a doubling
 };
 
 }  // namespace toile

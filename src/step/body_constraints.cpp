@@ -9,12 +9,12 @@
 namespace toile {
 namespace {
 
-constexpr double static_over_kinetic = 1.02;    // hysteresis, so that stick and slip do not alternate at the cone
-constexpr double largest_alteration = 0.2;      // of the offset, per step
-constexpr double dead_band = 0.02;              // of the offset
-constexpr double slowest_slip = 1e-3;           // v_0, m/s
-constexpr double stick_below = 0.99;            // of v_0: below v_0 friction needs less than its cone
-constexpr double pull_of_weight = 0.01;         // a pull below this part of the particle's weight is solver noise
+constexpr double static_over_kinetic = 1.02;  // hysteresis, so that stick and slip do not alternate at the cone
+constexpr double largest_alteration = 0.2;    // of the offset, per step
+constexpr double dead_band = 0.02;            // of the offset
+constexpr double slowest_slip = 1e-3;         // v_0, m/s
+constexpr double stick_below = 0.99;          // of v_0: below v_0 friction needs less than its cone
+constexpr double pull_of_weight = 0.01;       // a pull below this part of the particle's weight is solver noise
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -47,7 +47,8 @@ void BodyConstraints::detect(const ClothState& state, double h_s) {
     if (point.triangle < 0) continue;
     Near near{static_cast<Index>(i), point, Vec3::Zero()};
     const Triangle& t = body_->triangles()[at(point.triangle)];
-    for (std::size_t c = 0; c < 3; ++c) near.body_travel += point.barycentric[static_cast<Eigen::Index>(c)] * (end[at(t[c])] - start[at(t[c])]);
+    for (std::size_t c = 0; c < 3; ++c)
+      near.body_travel += point.barycentric[static_cast<Eigen::Index>(c)] * (end[at(t[c])] - start[at(t[c])]);
     near_.push_back(near);
   }
 }
@@ -111,13 +112,14 @@ void BodyConstraints::apply(const ClothState& state, double h_s, ParticleConstra
   }
 }
 
-BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> e, double h_s, bool first_passes) {
+BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::span<const Vec3> dv,
+                                                std::span<const Vec3> e, double h_s, bool first_passes) {
   Change change;
   for (Near& near : near_) {
     if (near.pinned) continue;
     const std::size_t i = at(near.particle);
     const Vec3& n = near.point.normal;
-    const Vec3 velocity = state.v[i] + dv[i] - near.body_travel / h_s;   // relative to the body, at the end of the step
+    const Vec3 velocity = state.v[i] + dv[i] - near.body_travel / h_s;  // relative to the body, at the end of the step
     if (near.touch == Touch::none) {
       if (near.point.gap_m + h_s * n.dot(velocity) < (1 - dead_band) * options_.offset_m) {
         near.lambda_n = 0;
@@ -129,7 +131,8 @@ BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::sp
     }
     const Vec3 force = e[i] / h_s;
     const double lambda = n.dot(force);
-    if (lambda < -pull_of_weight * model_->mass_kg[i] * model_->gravity_m_per_s2.norm() && !near.released && first_passes) {
+    if (lambda < -pull_of_weight * model_->mass_kg[i] * model_->gravity_m_per_s2.norm() && !near.released &&
+        first_passes) {
       near.touch = Touch::none;
       near.released = true;
       near.lambda_n = 0;
@@ -156,14 +159,16 @@ void BodyConstraints::accept() {
   std::fill(touch_.begin(), touch_.end(), Touch::none);
   std::fill(lambda_n_.begin(), lambda_n_.end(), 0.0);
   for (const Near& near : near_) {
-    const bool stopped = options_.friction > 0 && near.touch == Touch::slides && near.slip_m_per_s < stick_below * slowest_slip;
+    const bool stopped =
+        options_.friction > 0 && near.touch == Touch::slides && near.slip_m_per_s < stick_below * slowest_slip;
     touch_[at(near.particle)] = stopped ? Touch::sticks : near.touch;
     if (near.touch != Touch::none) lambda_n_[at(near.particle)] = near.lambda_n;
   }
 }
 
 int BodyConstraints::touching() const {
-  return static_cast<int>(std::count_if(near_.begin(), near_.end(), [](const Near& near) { return near.touch != Touch::none; }));
+  return static_cast<int>(
+      std::count_if(near_.begin(), near_.end(), [](const Near& near) { return near.touch != Touch::none; }));
 }
 
 }  // namespace toile

@@ -25,8 +25,8 @@
 namespace toile {
 
 struct BodyContactOptions {
-  double offset_m = 2.5e-3;        // r: where cloth rests above the body
-  double friction = 0.4;           // mu; kinetic, the static one is 2 % larger
+  double offset_m = 2.5e-3;  // r: where cloth rests above the body
+  double friction = 0.4;     // mu; kinetic, the static one is 2 % larger
 };
 
 enum class Touch : std::uint8_t { none, slides, sticks };
@@ -46,9 +46,10 @@ class BodyConstraints {
              std::vector<LinearSpring>& springs);
   // After a solve: releases, adds, and lets slip.  `first_passes`: releases are allowed.
   struct Change {
-    int normal = 0, slipped = 0, touching = 0;   // released or added; from stick to slip; in touch now
+    int normal = 0, slipped = 0, touching = 0;  // released or added; from stick to slip; in touch now
   };
-  Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> e, double h_s, bool first_passes);
+  Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> e, double h_s,
+                bool first_passes);
   // After an accepted step: remembers forces and modes for the next.
   void accept();
 
@@ -60,14 +61,14 @@ class BodyConstraints {
   const BodyContactOptions& options() const { return options_; }
 
  private:
-  struct Near {                    // a particle within reach of the body
+  struct Near {  // a particle within reach of the body
     Index particle;
     BodyPoint point;
-    Vec3 body_travel;              // of the contact's material point over the step, m
+    Vec3 body_travel;  // of the contact's material point over the step, m
     Touch touch = Touch::none;
     bool released = false, slipped = false, pinned = false;
-    double lambda_n = 0;           // N
-    double slip_m_per_s = 0;       // |v_t| relative to the body
+    double lambda_n = 0;      // N
+    double slip_m_per_s = 0;  // |v_t| relative to the body
   };
   void touch_down(Near& near, const Vec3& v, double h_s) const;
   double alteration(const Near& near) const;

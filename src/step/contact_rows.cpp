@@ -11,17 +11,17 @@
 namespace toile {
 namespace {
 
-constexpr double rest_share = 0.45;         // of the shortest rest edge: pairs that are neighbours at rest do not repel
-constexpr double stiffness_factor = 1;      // c
-constexpr double load_share = 0.1;          // of r: how far the load of the last step may press the spring
-constexpr double slowest_slip = 1e-3;       // m/s
+constexpr double rest_share = 0.45;     // of the shortest rest edge: pairs that are neighbours at rest do not repel
+constexpr double stiffness_factor = 1;  // c
+constexpr double load_share = 0.1;      // of r: how far the load of the last step may press the spring
+constexpr double slowest_slip = 1e-3;   // m/s
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-ContactRows::ContactRows(const ClothModel& model, const BodySurface* body, std::span<const Index> merged_particle, double body_offset_m,
-                         double body_friction, const ContactRowOptions& options)
+ContactRows::ContactRows(const ClothModel& model, const BodySurface* body, std::span<const Index> merged_particle,
+                         double body_offset_m, double body_friction, const ContactRowOptions& options)
     : model_(&model),
       body_(body),
       body_r_m_(options.body_share * body_offset_m),
@@ -54,13 +54,14 @@ void ContactRows::detect(const ClothState& state, double h_s) {
   if (tree_.triangle_count() == 0) tree_ = TriangleTree(state.x, model_->mesh.triangles);
   // How far ahead pairs are watched does not shrink with a thinned r: how fast they close has nothing to do with it.
   double thickest = 0;
-  for (std::size_t i = 0; i < reach_m_.size(); ++i) thickest = std::max(thickest, std::max(1.0, thickness_scale(i)) * reach_m_[i]);
+  for (std::size_t i = 0; i < reach_m_.size(); ++i)
+    thickest = std::max(thickest, std::max(1.0, thickness_scale(i)) * reach_m_[i]);
   const double r_max = std::max(options_.cloth_cloth ? thickest : 0, body_ ? body_r_m_ : 0);
   const double range = (1 + options_.look_ahead) * r_max;
 
   if (options_.cloth_cloth) {
     const Timed timed(cloth_seconds);
-    find_cloth_contacts(topology_, tree_, state.x, {range, 0}, workspace_, cloth_contacts_);
+    find_cloth_contacts(topology_, tree_, state.x, {range, 0, options_.region_tolerance}, workspace_, cloth_contacts_);
     for (const ClothContact& contact : cloth_contacts_) {
       double r = std::numeric_limits<double>::infinity(), full = r, friction = 0;
       for (std::size_t k = 0; k < 4; ++k) {
@@ -70,20 +71,36 @@ void ContactRows::detect(const ClothState& state, double h_s) {
         r = std::min(r, thickness_scale(i) * reach_m_[i]);
         friction = std::max(friction, model_->friction[at(contact.particle[k])]);
       }
-      Pair pair{{contact.kind, false, {contact.particle[0], contact.particle[1], contact.particle[2], contact.particle[3], -1}}, {}, contact.gap_m, r, friction};
+      Pair pair{{contact.kind,
+                 false,
+                 {contact.particle[0], contact.particle[1], contact.particle[2], contact.particle[3], -1}},
+                {},
+                contact.gap_m,
+                r,
+                friction};
       pair.spring.particle = contact.particle;
       pair.spring.weight = contact.weight;
       pair.spring.direction = contact.normal;
       const double closing = std::max(0.0, -contact.normal.dot(relative_velocity(pair, state.v, h_s))) * h_s;
-      if (contact.gap_m < r + std::min(options_.look_ahead * std::max(r, full), closing + h_s * h_s * model_->gravity_m_per_s2.norm())) pairs_.push_back(pair);
+      if (contact.gap_m <
+          r + std::min(options_.look_ahead * std::max(r, full), closing + h_s * h_s * model_->gravity_m_per_s2.norm()))
+        pairs_.push_back(pair);
     }
   }
   if (body_) {
     const Timed timed(body_seconds);
-    find_body_contacts(topology_, tree_, state.x, *body_, {range, 4 * body_r_m_}, workspace_, body_contacts_);
+    find_body_contacts(topology_, tree_, state.x, *body_, {range, 4 * body_r_m_, options_.region_tolerance}, workspace_,
+                       body_contacts_);
     const auto start = body_->positions(), end = body_->next_positions();
     for (const BodyContact& contact : body_contacts_) {
-      Pair pair{{contact.kind, true, {contact.particle[0], contact.particle[1], contact.particle[2], contact.body_vertex[0], contact.body_vertex[1]}}, {}, contact.gap_m, body_r_m_, body_friction_};
+      Pair pair{{contact.kind,
+                 true,
+                 {contact.particle[0], contact.particle[1], contact.particle[2], contact.body_vertex[0],
+                  contact.body_vertex[1]}},
+                {},
+                contact.gap_m,
+                body_r_m_,
+                body_friction_};
       for (std::size_t k = 0; k < 3; ++k) {
         pair.spring.particle[k] = contact.particle[k];
         pair.spring.weight[k] = contact.weight[k];
@@ -101,7 +118,8 @@ void ContactRows::detect(const ClothState& state, double h_s) {
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) { return a.key < b.key; });
 }
 
-void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, double h_s, double base_h_s, std::span<const Mat3> diagonal) {
+void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, double h_s, double base_h_s,
+                        std::span<const Mat3> diagonal) {
   auto memory = memory_.begin();
   for (Pair& pair : pairs_) {
     LinearSpring& spring = pair.spring;
@@ -111,7 +129,8 @@ void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, doubl
       const std::size_t i = at(spring.particle[k]);
       const double w2 = spring.weight[k] * spring.weight[k];
       inverse_mass += w2 / model_->mass_kg[i];
-      elastic += w2 * (spring.direction.dot(diagonal[i] * spring.direction) - model_->mass_kg[i]);   // h^2 k_n (and damping)
+      elastic +=
+          w2 * (spring.direction.dot(diagonal[i] * spring.direction) - model_->mass_kg[i]);  // h^2 k_n (and damping)
     }
     const double h = base_h_s;
     spring.stiffness_N_per_m = stiffness_factor * (1 / inverse_mass + elastic * (h * h) / (h_s * h_s)) / (h * h);
@@ -122,11 +141,13 @@ void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, doubl
     if (lived) {
       pair.lambda_N = memory->lambda_N;
       pair.slip_m_per_s = memory->slip_m_per_s;
-      spring.stiffness_N_per_m = std::max({spring.stiffness_N_per_m, memory->stiffness, memory->lambda_N / (load_share * pair.r_m)});
+      spring.stiffness_N_per_m =
+          std::max({spring.stiffness_N_per_m, memory->stiffness, memory->lambda_N / (load_share * pair.r_m)});
     }
     spring.damping_N_s_per_m = options_.damping_s * spring.stiffness_N_per_m;
     spring.force_N = spring.stiffness_N_per_m * (pair.r_m - pair.gap_m);
-    const double predicted = pair.gap_m + h_s * (along(spring, state.v) + along(spring, dv)) - spring.body_displacement_m;
+    const double predicted =
+        pair.gap_m + h_s * (along(spring, state.v) + along(spring, dv)) - spring.body_displacement_m;
     pair.active = lived || predicted < pair.r_m;
   }
 }
@@ -149,11 +170,13 @@ void ContactRows::append_springs(const ClothState& state, double h_s, std::vecto
   }
 }
 
-ContactRows::Change ContactRows::update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> y, double h_s, bool may_drop) {
+ContactRows::Change ContactRows::update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> y,
+                                        double h_s, bool may_drop) {
   Change change;
   for (Pair& pair : pairs_) {
     const LinearSpring& spring = pair.spring;
-    pair.predicted_m = pair.gap_m + h_s * (along(spring, state.v) + along(spring, dv)) + along(spring, y) - spring.body_displacement_m;
+    pair.predicted_m =
+        pair.gap_m + h_s * (along(spring, state.v) + along(spring, dv)) + along(spring, y) - spring.body_displacement_m;
     if (pair.active && pair.predicted_m > pair.r_m && may_drop) {
       pair.active = false;
       ++change.dropped;
@@ -172,7 +195,8 @@ void ContactRows::accept(const ClothState& end_state) {
     if (!pair.active) continue;
     const Vec3 velocity = relative_velocity(pair, end_state.v, h_s_);
     const Vec3& n = pair.spring.direction;
-    memory_.push_back({pair.key, pair.spring.stiffness_N_per_m, pair.spring.stiffness_N_per_m * std::max(0.0, pair.r_m - pair.predicted_m),
+    memory_.push_back({pair.key, pair.spring.stiffness_N_per_m,
+                       pair.spring.stiffness_N_per_m * std::max(0.0, pair.r_m - pair.predicted_m),
                        velocity - n.dot(velocity) * n});
   }
 }
@@ -184,11 +208,13 @@ int ContactRows::passed_through(const Vec3s& start, const Vec3s& end) const {
   };
   int count = 0;
   for (const Pair& pair : pairs_) {
-    if (pair.key.body || (pair.key.kind != ContactKind::vertex_face && pair.key.kind != ContactKind::edge_edge)) continue;
+    if (pair.key.body || (pair.key.kind != ContactKind::vertex_face && pair.key.kind != ContactKind::edge_edge))
+      continue;
     const std::array<Index, 4>& p = pair.spring.particle;
     if ((side(start, p) > 0) == (side(end, p) > 0)) continue;
     if (pair.key.kind == ContactKind::vertex_face) {
-      if (closest_vertex_triangle(end[at(p[0])], end[at(p[1])], end[at(p[2])], end[at(p[3])]).feature == Feature::face) ++count;
+      if (closest_vertex_triangle(end[at(p[0])], end[at(p[1])], end[at(p[2])], end[at(p[3])]).feature == Feature::face)
+        ++count;
     } else if (closest_edge_edge(end[at(p[0])], end[at(p[1])], end[at(p[2])], end[at(p[3])]).interior) {
       ++count;
     }

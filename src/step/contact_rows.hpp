@@ -19,22 +19,25 @@ namespace toile {
 
 struct ContactRowOptions {
   bool cloth_cloth = true;
-  double body_share = 0.5;       // r of body rows, as part of the body's offset: they only stop what pokes between particles
-  double damping_s = 2e-3;       // relaxation time of contact springs
-  double look_ahead = 1;         // pairs farther than r + look_ahead r are left to the next step
+  double body_share = 0.5;  // r of body rows, as part of the body's offset: they only stop what pokes between particles
+  double damping_s = 2e-3;  // relaxation time of contact springs
+  double region_tolerance =
+      0.5;  // contact/proximity.hpp; 0.1 lost contacts in the corners of seams (docs/deviations.md#contact-rows)
+  double look_ahead = 1;  // pairs farther than r + look_ahead r are left to the next step
 };
 
 class ContactRows {
  public:
   // `merged_particle`: of seams still open, as in contact/features.hpp; may be empty.
-  ContactRows(const ClothModel& model, const BodySurface* body, std::span<const Index> merged_particle, double body_offset_m,
-              double body_friction, const ContactRowOptions& options);
+  ContactRows(const ClothModel& model, const BodySurface* body, std::span<const Index> merged_particle,
+              double body_offset_m, double body_friction, const ContactRowOptions& options);
 
   // L0: pairs near at the state's positions.
   void detect(const ClothState& state, double h_s);
   // Stiffness of each pair and the rows with which a step begins.  `base_h_s` is the frame's own step, before any halving.
   // A pair that was active in the last step, or that the guess `dv` brings below r, begins active.
-  void begin(const ClothState& state, std::span<const Vec3> dv, double h_s, double base_h_s, std::span<const Mat3> diagonal);
+  void begin(const ClothState& state, std::span<const Vec3> dv, double h_s, double base_h_s,
+             std::span<const Mat3> diagonal);
   void append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const;
 
   struct Change {
@@ -53,7 +56,7 @@ class ContactRows {
 
   int active() const;
   std::size_t candidates() const { return pairs_.size(); }
-  double cloth_seconds = 0, body_seconds = 0;   // time spent in detect, accumulated; for reports
+  double cloth_seconds = 0, body_seconds = 0;  // time spent in detect, accumulated; for reports
 
  private:
   struct Key {
@@ -64,35 +67,37 @@ class ContactRows {
   };
   struct Pair {
     Key key;
-    LinearSpring spring;            // direction, particles, weights, stiffness, body travel
+    LinearSpring spring;  // direction, particles, weights, stiffness, body travel
     double gap_m, r_m, friction;
-    double lambda_N = 0;            // of the step before, then of this one
-    Vec3 slip_m_per_s{0, 0, 0};     // tangential velocity of the step before
+    double lambda_N = 0;         // of the step before, then of this one
+    Vec3 slip_m_per_s{0, 0, 0};  // tangential velocity of the step before
     bool active = false;
-    double predicted_m = 0;         // gap of the last update
+    double predicted_m = 0;  // gap of the last update
   };
-  struct Memory {                   // what outlives a step
+  struct Memory {  // what outlives a step
     Key key;
     double stiffness, lambda_N;
     Vec3 slip_m_per_s;
   };
-  double thickness_scale(std::size_t particle) const { return thickness_scale_.empty() ? 1 : thickness_scale_[particle]; }
+  double thickness_scale(std::size_t particle) const {
+    return thickness_scale_.empty() ? 1 : thickness_scale_[particle];
+  }
   Vec3 relative_velocity(const Pair& pair, const Vec3s& v, double h_s) const;
 
   const ClothModel* model_;
   const BodySurface* body_;
   double body_r_m_, body_friction_;
   ContactRowOptions options_;
-  std::vector<double> reach_m_;                  // [particle] thickness, at most 0.45 of the shortest rest edge around it
+  std::vector<double> reach_m_;  // [particle] thickness, at most 0.45 of the shortest rest edge around it
   ClothTopology topology_;
   TriangleTree tree_;
   ProximityWorkspace workspace_;
   std::vector<ClothContact> cloth_contacts_;
   std::vector<BodyContact> body_contacts_;
-  std::vector<Pair> pairs_;                      // sorted by key
-  std::vector<Memory> memory_;                   // sorted by key
+  std::vector<Pair> pairs_;     // sorted by key
+  std::vector<Memory> memory_;  // sorted by key
   double h_s_ = 0;
-  std::vector<double> thickness_scale_;          // [particle]
+  std::vector<double> thickness_scale_;  // [particle]
 };
 
 }  // namespace toile

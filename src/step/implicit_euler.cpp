@@ -9,18 +9,24 @@
 namespace toile {
 namespace {
 
-constexpr double loose_passes = 10;   // times the tolerance
+constexpr double loose_passes = 10;  // times the tolerance
 
 }  // namespace
 
 std::string_view to_string(StepStatus status) {
   switch (status) {
-    case StepStatus::accepted: return "accepted";
-    case StepStatus::solver_failed: return "solver_failed";
-    case StepStatus::stretched: return "stretched";
-    case StepStatus::passed_through: return "passed_through";
-    case StepStatus::too_fast: return "too_fast";
-    case StepStatus::not_finite: return "not_finite";
+    case StepStatus::accepted:
+      return "accepted";
+    case StepStatus::solver_failed:
+      return "solver_failed";
+    case StepStatus::stretched:
+      return "stretched";
+    case StepStatus::passed_through:
+      return "passed_through";
+    case StepStatus::too_fast:
+      return "too_fast";
+    case StepStatus::not_finite:
+      return "not_finite";
   }
   return "";
 }
@@ -29,14 +35,18 @@ std::string StepReport::explain() const {
   char text[256];
   switch (status) {
     case StepStatus::accepted:
-      std::snprintf(text, sizeof text, "accepted: h = %.3g ms, %d passes, %d CG iterations", 1e3 * h_s, passes, cg_iterations);
+      std::snprintf(text, sizeof text, "accepted: h = %.3g ms, %d passes, %d CG iterations", 1e3 * h_s, passes,
+                    cg_iterations);
       break;
-    case StepStatus::solver_failed: return "linear solver: " + pcg.explain();
+    case StepStatus::solver_failed:
+      return "linear solver: " + pcg.explain();
     case StepStatus::stretched:
-      std::snprintf(text, sizeof text, "h = %.3g ms: stretch of triangle %d changes by %.3g in one step", 1e3 * h_s, worst_triangle, stretch_change);
+      std::snprintf(text, sizeof text, "h = %.3g ms: stretch of triangle %d changes by %.3g in one step", 1e3 * h_s,
+                    worst_triangle, stretch_change);
       break;
     case StepStatus::passed_through:
-      std::snprintf(text, sizeof text, "h = %.3g ms: %d pairs of cloth in contact pass through each other", 1e3 * h_s, passed_through);
+      std::snprintf(text, sizeof text, "h = %.3g ms: %d pairs of cloth in contact pass through each other", 1e3 * h_s,
+                    passed_through);
       break;
     case StepStatus::too_fast:
       std::snprintf(text, sizeof text, "h = %.3g ms: particle %d is faster than the limit", 1e3 * h_s, worst_particle);
@@ -60,7 +70,8 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       body_(model, world.body, options.body),
       rows_(model, world.body, world.merged_particle, options.body.offset_m, options.body.friction, options.rows) {
   const auto n = static_cast<std::size_t>(model.particle_count());
-  for (Vec3s* vector : {&force_, &b_, &y_, &displacement_, &reference_, &dv_, &dv_last_, &e_}) vector->assign(n, Vec3::Zero());
+  for (Vec3s* vector : {&force_, &b_, &y_, &displacement_, &reference_, &dv_, &dv_last_, &e_})
+    vector->assign(n, Vec3::Zero());
   diagonal_.assign(n, Mat3::Zero());
   stretch_.resize(model.mesh.triangles.size());
   stretch_candidate_.resize(model.mesh.triangles.size());
@@ -97,7 +108,8 @@ void ImplicitEuler::hold_pins(const ClothState& state, double t_s, double h_s) {
   }
 }
 
-StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_s, const StepLimits& limits, ClothState& candidate) {
+StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_s, const StepLimits& limits,
+                                  ClothState& candidate) {
   StepReport report;
   report.h_s = h_s;
   const std::size_t n = force_.size();
@@ -136,7 +148,8 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
       for (std::size_t i = 0; i < n; ++i) b_[i] *= h_s;
       for (const ImplicitRow& row : implicit_rows_) {
         for (std::size_t k = 0; k < 4; ++k) {
-          if (row.particle[k] >= 0) b_[static_cast<std::size_t>(row.particle[k])] += (row.beta * row.weight[k]) * row.direction;
+          if (row.particle[k] >= 0)
+            b_[static_cast<std::size_t>(row.particle[k])] += (row.beta * row.weight[k]) * row.direction;
         }
       }
     }
@@ -158,7 +171,8 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     report.rows = change.active;
     const bool last = pcg_options.tolerance == options_.pcg.tolerance;
     // A few particles that begin to slip, or rows that come and go, can wait for the next step; a missing contact cannot.
-    const bool settled = body.normal == 0 && 20 * body.slipped <= body.touching && 20 * (change.added + change.dropped) <= change.active;
+    const bool settled =
+        body.normal == 0 && 20 * body.slipped <= body.touching && 20 * (change.added + change.dropped) <= change.active;
     if ((settled && last) || report.passes >= options_.max_passes) break;
     if (settled || report.passes + 1 >= options_.max_passes) pcg_options.tolerance = options_.pcg.tolerance;
   }
@@ -175,7 +189,8 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   return report;
 }
 
-void ImplicitEuler::judge(const ClothState& state, const StepLimits& limits, const ClothState& candidate, StepReport& report) {
+void ImplicitEuler::judge(const ClothState& state, const StepLimits& limits, const ClothState& candidate,
+                          StepReport& report) {
   double fastest2 = options_.max_speed_m_per_s * options_.max_speed_m_per_s;
   for (std::size_t i = 0; i < candidate.x.size(); ++i) {
     const double speed2 = candidate.v[i].squaredNorm();

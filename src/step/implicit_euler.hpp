@@ -23,23 +23,23 @@ namespace toile {
 // A particle held by the user.
 struct Pin {
   Index particle = -1;
-  int held_directions = 3;                      // 3: held; 2: along p and q (moves on a line); 1: along p (moves in a plane)
-  Vec3 p{1, 0, 0}, q{0, 1, 0};                  // unit, orthogonal
-  std::function<Vec3(double t_s)> path;         // where it must be; empty: it stays where it is along the held directions
+  int held_directions = 3;               // 3: held; 2: along p and q (moves on a line); 1: along p (moves in a plane)
+  Vec3 p{1, 0, 0}, q{0, 1, 0};           // unit, orthogonal
+  std::function<Vec3(double t_s)> path;  // where it must be; empty: it stays where it is along the held directions
 };
 
 struct StepOptions {
   PcgOptions pcg;
   ContactRowOptions rows;
   BodyContactOptions body;
-  int max_passes = 8;                           // of the active set
-  double max_speed_m_per_s = 100;               // beyond this the step is refused
+  int max_passes = 8;              // of the active set
+  double max_speed_m_per_s = 100;  // beyond this the step is refused
 };
 
 // What a step must not do.
 struct StepLimits {
-  double stretch = 0.05;                        // largest accepted change of |w_u| or |w_v| away from rest
-  bool passing = true;                          // refuse when contact pairs of cloth change sides
+  double stretch = 0.05;  // largest accepted change of |w_u| or |w_v| away from rest
+  bool passing = true;    // refuse when contact pairs of cloth change sides
 };
 
 // Time per phase, for reports; s.
@@ -50,17 +50,17 @@ struct PhaseSeconds {
 enum class StepStatus { accepted, solver_failed, stretched, passed_through, too_fast, not_finite };
 std::string_view to_string(StepStatus status);
 
-struct StepReport {                             // what happened, in numbers a log can plot
+struct StepReport {  // what happened, in numbers a log can plot
   StepStatus status = StepStatus::accepted;
   double h_s = 0;
   int passes = 0, cg_iterations = 0;
-  int passed_through = 0;                       // contact pairs that changed sides
-  int touching = 0, rows = 0;                   // body constraints and contact rows of the last pass
-  double stretch_change = 0;                    // max over triangles of | |w|' - |w| | away from rest
+  int passed_through = 0;      // contact pairs that changed sides
+  int touching = 0, rows = 0;  // body constraints and contact rows of the last pass
+  double stretch_change = 0;   // max over triangles of | |w|' - |w| | away from rest
   Index worst_triangle = -1, worst_particle = -1;
-  PcgReport pcg;                                // of the last pass
+  PcgReport pcg;  // of the last pass
   explicit operator bool() const { return status == StepStatus::accepted; }
-  std::string explain() const;                  // one sentence for a person
+  std::string explain() const;  // one sentence for a person
 };
 
 // Everything that acts on the cloth besides its own elements.
@@ -69,7 +69,7 @@ struct StepWorld {
   std::vector<Pin> pins;
   // Extra springs (sewing, attachments) at a state, for a step of h_s.
   std::function<void(const ClothState&, double h_s, std::vector<LinearSpring>&)> springs;
-  std::vector<Index> merged_particle;           // of seams still open: contact/proximity.hpp
+  std::vector<Index> merged_particle;  // of seams still open: contact/proximity.hpp
 };
 
 class ImplicitEuler {
@@ -79,7 +79,8 @@ class ImplicitEuler {
   // Evaluates elements and near pairs at the state; `base_h_s` is the longest step that will be tried from it.
   void prepare(const ClothState& state, double base_h_s);
   // Tries a step of h_s from the prepared state (at time t_s) and writes the candidate.  The state is not touched.
-  [[nodiscard]] StepReport attempt(const ClothState& state, double t_s, double h_s, const StepLimits& limits, ClothState& candidate);
+  [[nodiscard]] StepReport attempt(const ClothState& state, double t_s, double h_s, const StepLimits& limits,
+                                   ClothState& candidate);
   // The candidate of the last attempt becomes the state: contacts and forces are remembered.
   void accept(const ClothState& candidate);
 
@@ -87,7 +88,7 @@ class ImplicitEuler {
   const BodyConstraints& body_constraints() const { return body_; }
   BodyConstraints& body_constraints() { return body_; }
   ContactRows& contact_rows() { return rows_; }
-  std::span<const Vec3> constraint_impulse() const { return e_; }   // e = A dv - b of the last pass, N s
+  std::span<const Vec3> constraint_impulse() const { return e_; }  // e = A dv - b of the last pass, N s
   const PhaseSeconds& seconds() const;
   // f + h K terms of the last assembled system, for tests.
   const BlockMatrix<float>& A() const { return A_; }

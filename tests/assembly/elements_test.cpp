@@ -43,11 +43,13 @@ std::vector<Mat3> scattered_blocks(const Cloth& cloth, const Elements& elements,
     const FMatrix H{h * h * r.K.uu + h * r.D.uu, h * h * r.K.uv + h * r.D.uv, h * h * r.K.vv + h * r.D.vv};
     for (Eigen::Index a = 0; a < 3; ++a) {
       for (Eigen::Index b = 0; b < 3; ++b) {
-        const Index i = model.mesh.triangles[t][static_cast<std::size_t>(a)], j = model.mesh.triangles[t][static_cast<std::size_t>(b)];
+        const Index i = model.mesh.triangles[t][static_cast<std::size_t>(a)],
+                    j = model.mesh.triangles[t][static_cast<std::size_t>(b)];
         if (i >= j) continue;
         const Vec3 &alpha = model.membrane[t].alpha, &beta = model.membrane[t].beta;
         blocks[static_cast<std::size_t>(elements.pattern()->slot(i, j))] +=
-            alpha[a] * alpha[b] * H.uu + alpha[a] * beta[b] * H.uv + beta[a] * alpha[b] * H.uv.transpose() + beta[a] * beta[b] * H.vv;
+            alpha[a] * alpha[b] * H.uu + alpha[a] * beta[b] * H.uv + beta[a] * alpha[b] * H.uv.transpose() +
+            beta[a] * beta[b] * H.vv;
       }
     }
   }
@@ -98,7 +100,8 @@ TEST(Elements, SameBitsForOneTwoAndFiveThreads) {
   }
   for (std::size_t k = 1; k < forces.size(); ++k) {
     EXPECT_EQ(0, std::memcmp(forces[0].data(), forces[k].data(), forces[0].size() * sizeof(Vec3)));
-    EXPECT_EQ(0, std::memcmp(matrices[0].data(), matrices[k].data(), static_cast<std::size_t>(matrices[0].size()) * sizeof(double)));
+    EXPECT_EQ(0, std::memcmp(matrices[0].data(), matrices[k].data(),
+                             static_cast<std::size_t>(matrices[0].size()) * sizeof(double)));
   }
 }
 
@@ -186,10 +189,12 @@ TEST(Elements, AnAffineDeformationLeavesInteriorParticlesWithoutForce) {
   elements.forces(f);
   std::vector<bool> boundary(state.x.size(), false);
   for (const Edge& edge : model.topology.edges) {
-    if (edge.triangle[1] < 0) boundary[static_cast<std::size_t>(edge.a)] = boundary[static_cast<std::size_t>(edge.b)] = true;
+    if (edge.triangle[1] < 0)
+      boundary[static_cast<std::size_t>(edge.a)] = boundary[static_cast<std::size_t>(edge.b)] = true;
   }
   double interior = 0, edge = 0;
-  for (std::size_t i = 0; i < f.size(); ++i) (boundary[i] ? edge : interior) = std::max(boundary[i] ? edge : interior, f[i].norm());
+  for (std::size_t i = 0; i < f.size(); ++i)
+    (boundary[i] ? edge : interior) = std::max(boundary[i] ? edge : interior, f[i].norm());
   EXPECT_GT(edge, 1e-2);
   EXPECT_LT(interior, 1e-11 * edge);
 }
@@ -225,7 +230,8 @@ TEST(BlockMatrix, KeepsATranslationExactInFloat) {
   Elements elements(cloth.model);
   elements.evaluate(cloth.model, cloth.state);
   BlockMatrix<float> A(elements.pattern());
-  for (Index i = 0; i < A.rows(); ++i) A.grounded(i) = cloth.model.mass_kg[static_cast<std::size_t>(i)] * Mat3::Identity();
+  for (Index i = 0; i < A.rows(); ++i)
+    A.grounded(i) = cloth.model.mass_kg[static_cast<std::size_t>(i)] * Mat3::Identity();
   elements.assemble(1.0 / 30, A);
   const Vec3s x(cloth.state.x.size(), Vec3(0.1, -9.81, 3));
   Vec3s y(x.size());

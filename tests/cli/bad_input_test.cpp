@@ -16,11 +16,13 @@ namespace {
 using test::Ended;
 using test::run_toile;
 
-void expect_refused(const Scratch& scratch, const Ended& ended, int exit_code, std::initializer_list<std::string_view> words) {
+void expect_refused(const Scratch& scratch, const Ended& ended, int exit_code,
+                    std::initializer_list<std::string_view> words) {
   EXPECT_EQ(ended.signal, 0);
   EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
   EXPECT_EQ(ended.err_lines(), 1) << ended.err;
-  for (const std::string_view word : words) EXPECT_NE(ended.err.find(word), std::string::npos) << '"' << word << "\" is not in: " << ended.err;
+  for (const std::string_view word : words)
+    EXPECT_NE(ended.err.find(word), std::string::npos) << '"' << word << "\" is not in: " << ended.err;
   EXPECT_FALSE(std::filesystem::exists(scratch / "out/report.json"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "out/cloth.pc2"));
 }
@@ -35,22 +37,27 @@ std::string put_body(const Scratch& scratch, double scale = 1, std::string_view 
 }
 
 // Two rectangles in front of and behind the body, sewn at both sides.
-std::string pattern(std::string_view front_edges, std::string_view stitches, std::string_view front_vertices = "[[-30,0],[30,0],[30,40],[-30,40]]") {
+std::string pattern(std::string_view front_edges, std::string_view stitches,
+                    std::string_view front_vertices = "[[-30,0],[30,0],[30,40],[-30,40]]") {
   return R"({"pattern": {"panels": {
     "front": {"translation": [0, 40, 30], "rotation": [0, 0, 0], "vertices": )" +
          std::string(front_vertices) + R"(, "edges": [)" + std::string(front_edges) + R"(]},
     "back": {"translation": [0, 40, -30], "rotation": [0, 0, 0], "vertices": [[-30,0],[-30,40],[30,40],[30,0]],
       "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
-    "stitches": [)" + std::string(stitches) + R"(]}, "properties": {"units_in_meter": 100}})";
+    "stitches": [)" +
+         std::string(stitches) + R"(]}, "properties": {"units_in_meter": 100}})";
 }
-const std::string good_edges = R"({"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]})";
-const std::string good_stitches = R"([{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}])";
+const std::string good_edges =
+    R"({"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]})";
+const std::string good_stitches =
+    R"([{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}])";
 
 void expect_pattern_refused(const std::string& text, std::initializer_list<std::string_view> words) {
   const Scratch scratch;
   scratch.put("p.json", text);
   put_body(scratch);
-  expect_refused(scratch, run_toile(scratch, {"dress", "p.json", "--body", "body.obj", "--out", "out", "--quiet"}), 3, words);
+  expect_refused(scratch, run_toile(scratch, {"dress", "p.json", "--body", "body.obj", "--out", "out", "--quiet"}), 3,
+                 words);
   const Ended check = run_toile(scratch, {"check", "p.json"});
   EXPECT_EQ(check.exit_code, 3) << "toile check finds the same";
 }
@@ -59,7 +66,8 @@ void expect_body_refused(const std::string& text, int code, std::initializer_lis
   const Scratch scratch;
   scratch.put("p.json", pattern(good_edges, good_stitches));
   scratch.put("body.obj", text);
-  expect_refused(scratch, run_toile(scratch, {"dress", "p.json", "--body", "body.obj", "--out", "out", "--quiet"}), code, words);
+  expect_refused(scratch, run_toile(scratch, {"dress", "p.json", "--body", "body.obj", "--out", "out", "--quiet"}),
+                 code, words);
 }
 
 void expect_scene_refused(const std::string& text, std::initializer_list<std::string_view> words) {
@@ -71,11 +79,13 @@ void expect_scene_refused(const std::string& text, std::initializer_list<std::st
 TEST(BadInput, AMissingFileIsAnOutputError) {
   const Scratch scratch;
   put_body(scratch);
-  expect_refused(scratch, run_toile(scratch, {"dress", "none.json", "--body", "body.obj", "--out", "out"}), 6, {"none.json"});
+  expect_refused(scratch, run_toile(scratch, {"dress", "none.json", "--body", "body.obj", "--out", "out"}), 6,
+                 {"none.json"});
   expect_refused(scratch, run_toile(scratch, {"run", "none.json", "--out", "out"}), 6, {"none.json"});
   expect_refused(scratch, run_toile(scratch, {"check", "none.obj"}), 6, {"none.obj"});
   scratch.put("p.json", pattern(good_edges, good_stitches));
-  expect_refused(scratch, run_toile(scratch, {"dress", "p.json", "--body", "none.obj", "--out", "out"}), 6, {"none.obj"});
+  expect_refused(scratch, run_toile(scratch, {"dress", "p.json", "--body", "none.obj", "--out", "out"}), 6,
+                 {"none.obj"});
 }
 
 TEST(BadInput, ATruncatedFileIsNamedWithItsLine) {
@@ -83,18 +93,24 @@ TEST(BadInput, ATruncatedFileIsNamedWithItsLine) {
   expect_pattern_refused(whole.substr(0, whole.size() / 2), {"p.json:", "expected", "got"});
 }
 
-TEST(BadInput, NotANumberInABody) { expect_body_refused("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n", 3, {"body.obj:3", "expected", "nan"}); }
+TEST(BadInput, NotANumberInABody) {
+  expect_body_refused("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n", 3, {"body.obj:3", "expected", "nan"});
+}
 TEST(BadInput, AnEmptyMesh) { expect_body_refused("v 0 0 0\n", 3, {"body.obj", "expected", "got"}); }
-TEST(BadInput, AnIndexOutOfRange) { expect_body_refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", 3, {"body.obj:4", "expected an index in 1..3", "got 9"}); }
+TEST(BadInput, AnIndexOutOfRange) {
+  expect_body_refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", 3, {"body.obj:4", "expected an index in 1..3", "got 9"});
+}
 
 TEST(BadInput, ABodyThatIsNotClosed) {
-  expect_body_refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n", 3, {"body.obj", "edge", "expected", "got"});
+  expect_body_refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n", 3,
+                      {"body.obj", "edge", "expected", "got"});
 }
 
 TEST(BadInput, ATriangleWithoutArea) {
   const Scratch scratch;
   scratch.put("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
-  expect_refused(scratch, run_toile(scratch, {"check", "flat.obj"}), 3, {"flat.obj", "triangle 0", "expected an area above zero", "got 0"});
+  expect_refused(scratch, run_toile(scratch, {"check", "flat.obj"}), 3,
+                 {"flat.obj", "triangle 0", "expected an area above zero", "got 0"});
   // The same in a closed body: one edge of the tetrahedron has a corner in its middle.
   expect_body_refused(
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0 0\nf 1 3 2\nf 1 2 5\nf 1 5 4\nf 5 2 4\nf 2 3 4\nf 1 4 3\n", 3,
@@ -105,48 +121,64 @@ TEST(BadInput, ABodyInTheWrongUnitIsAskedFor) {
   const Scratch scratch;
   scratch.put("p.json", pattern(good_edges, good_stitches));
   put_body(scratch, 100);
-  expect_refused(scratch, run_toile(scratch, {"dress", "p.json", "--body", "body.obj", "--out", "out"}), 3, {"body.obj", "--body-unit", "cm"});
+  expect_refused(scratch, run_toile(scratch, {"dress", "p.json", "--body", "body.obj", "--out", "out"}), 3,
+                 {"body.obj", "--body-unit", "cm"});
 }
 
 TEST(BadInput, APatternWithAnOpenLoop) {
-  expect_pattern_refused(pattern(R"({"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]})", good_stitches), {"p.json:", "front", "expected", "got"});
+  expect_pattern_refused(pattern(R"({"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]})", good_stitches),
+                         {"p.json:", "front", "expected", "got"});
 }
 TEST(BadInput, APanelThatCrossesItself) {
-  expect_pattern_refused(pattern(good_edges, good_stitches, "[[-30,0],[30,40],[30,0],[-30,40]]"), {"p.json", "front", "expected", "got"});
+  expect_pattern_refused(pattern(good_edges, good_stitches, "[[-30,0],[30,40],[30,0],[-30,40]]"),
+                         {"p.json", "front", "expected", "got"});
 }
 TEST(BadInput, AStitchToAMissingEdge) {
-  expect_pattern_refused(pattern(good_edges, R"([{"panel": "front", "edge": 7}, {"panel": "back", "edge": 2}])"), {"p.json:", "stitches/0", "expected", "got 7"});
+  expect_pattern_refused(pattern(good_edges, R"([{"panel": "front", "edge": 7}, {"panel": "back", "edge": 2}])"),
+                         {"p.json:", "stitches/0", "expected", "got 7"});
 }
 TEST(BadInput, AnEdgeStitchedTwice) {
   expect_pattern_refused(
-      pattern(good_edges, R"([{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 1}, {"panel": "back", "edge": 0}])"),
+      pattern(
+          good_edges,
+          R"([{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 1}, {"panel": "back", "edge": 0}])"),
       {"p.json:", "stitches/1", "expected", "got"});
 }
 TEST(BadInput, ATwistedSeam) {
   expect_pattern_refused(
-      pattern(good_edges, R"([{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}, "right_wrong"], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}])"),
+      pattern(
+          good_edges,
+          R"([{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}, "right_wrong"], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}])"),
       {"p.json", "seam front.3 - back.0", "twisted"});
 }
 TEST(BadInput, AnUnknownCurve) {
-  expect_pattern_refused(pattern(R"({"endpoints": [0,1], "curvature": {"type": "spline", "params": [[0.5, 0.1]]}}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]})",
-                                 good_stitches),
-                         {"p.json:", "curvature", "expected", "spline"});
+  expect_pattern_refused(
+      pattern(
+          R"({"endpoints": [0,1], "curvature": {"type": "spline", "params": [[0.5, 0.1]]}}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]})",
+          good_stitches),
+      {"p.json:", "curvature", "expected", "spline"});
 }
 
 TEST(BadInput, ANegativeStiffnessOrDensity) {
-  expect_scene_refused("{\"cloth\": [{\"grid\": {},\n \"fabric\": {\"density_kg_per_m2\": -0.2}}]}", {"s.json:2", "/cloth/0/fabric/density_kg_per_m2", "expected a number above zero", "got -0.2"});
-  expect_scene_refused("{\"cloth\": [{\"grid\": {}, \"fabric\": {\"stretch_u_N_per_m\": -1}}]}", {"s.json:1", "stretch_u_N_per_m", "got -1"});
+  expect_scene_refused("{\"cloth\": [{\"grid\": {},\n \"fabric\": {\"density_kg_per_m2\": -0.2}}]}",
+                       {"s.json:2", "/cloth/0/fabric/density_kg_per_m2", "expected a number above zero", "got -0.2"});
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}, \"fabric\": {\"stretch_u_N_per_m\": -1}}]}",
+                       {"s.json:1", "stretch_u_N_per_m", "got -1"});
 }
 TEST(BadInput, AnUnknownKeyIsAnsweredWithTheNearest) {
-  expect_scene_refused("{\"cloth\": [{\"grid\": {\"widht_m\": 2}}]}", {"s.json:1", "/cloth/0/grid", "width_m", "widht_m"});
+  expect_scene_refused("{\"cloth\": [{\"grid\": {\"widht_m\": 2}}]}",
+                       {"s.json:1", "/cloth/0/grid", "width_m", "widht_m"});
   expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"wrold\": {}}", {"world", "wrold"});
 }
 TEST(BadInput, AFabricThatDoesNotExistIsAnsweredWithTheNearest) {
-  expect_scene_refused("{\"cloth\": [{\"grid\": {}, \"fabric\": \"coton\"}]}", {"/cloth/0/fabric", "nearest is \"cotton\"", "coton"});
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}, \"fabric\": \"coton\"}]}",
+                       {"/cloth/0/fabric", "nearest is \"cotton\"", "coton"});
 }
 TEST(BadInput, WhatIsNotAvailableYetIsRefusedAndNotIgnored) {
-  expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"world\": {\"wind_m_per_s\": [1, 0, 0]}}", {"/world/wind_m_per_s", "not available yet"});
-  expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"body\": {\"mannequin\": \"woman\", \"motion\": \"walk\"}}", {"/body/motion", "not available yet"});
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"world\": {\"wind_m_per_s\": [1, 0, 0]}}",
+                       {"/world/wind_m_per_s", "not available yet"});
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"body\": {\"mannequin\": \"woman\", \"motion\": \"walk\"}}",
+                       {"/body/motion", "not available yet"});
   expect_scene_refused("{\"cloth\": [{\"grid\": {}}, {\"grid\": {}}]}", {"/cloth", "not available yet"});
 }
 
@@ -162,9 +194,17 @@ TEST(BadInput, AnOutputThatCannotBeWritten) {
 
 TEST(Usage, EndsWithTwoAndOneLine) {
   const Scratch scratch;
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {}, {"fly"}, {"run"}, {"dress", "p.json"}, {"demo", "tshrit"}, {"demo", "--threads", "-3"}, {"demo", "--seconds", "nan"}, {"run", "s.json", "--nonsense"},
-           {"dress", "p.json", "--body", "mannequin", "--body-unit", "inch"}, {"dress", "p.json", "--body", "mannequin", "--motion", "walk.bvh"}}) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{},
+                                             {"fly"},
+                                             {"run"},
+                                             {"dress", "p.json"},
+                                             {"demo", "tshrit"},
+                                             {"demo", "--threads", "-3"},
+                                             {"demo", "--seconds", "nan"},
+                                             {"run", "s.json", "--nonsense"},
+                                             {"dress", "p.json", "--body", "mannequin", "--body-unit", "inch"},
+                                             {"dress", "p.json", "--body", "mannequin", "--motion", "walk.bvh"}}) {
     const Ended ended = run_toile(scratch, words);
     EXPECT_EQ(ended.exit_code, 2) << (words.empty() ? "" : words.front()) << ": " << ended.err;
     EXPECT_EQ(ended.err_lines(), 1) << ended.err;

@@ -28,7 +28,8 @@ Ended run_toile(const Scratch& scratch, std::vector<std::string> words, During&&
   argv.push_back(nullptr);
   const pid_t child = fork();
   if (child == 0) {
-    const int to_out = open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644), to_err = open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
+    const int to_out = open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644),
+              to_err = open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
     if (dup2(to_out, 1) < 0 || dup2(to_err, 2) < 0 || chdir(directory.c_str()) != 0) _exit(126);
     execv(TOILE_PROGRAM, argv.data());
     _exit(127);

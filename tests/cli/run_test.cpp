@@ -48,7 +48,8 @@ TEST(Run, GivesTheSameBitsTwiceAndForAnyNumberOfThreads) {
 TEST(Run, AnotherInputHasAnotherHash) {
   const Scratch scratch;
   scratch.put("s.json", small_scene);
-  const Json first = run_small(scratch, "a", {"--seconds", "0.1"}), second = run_small(scratch, "b", {"--seconds", "0.2"});
+  const Json first = run_small(scratch, "a", {"--seconds", "0.1"}),
+             second = run_small(scratch, "b", {"--seconds", "0.2"});
   const Json third = run_small(scratch, "c", {"--seconds", "0.1", "--fabric", "silk"});
   EXPECT_NE(first.at("input_hash").string(), second.at("input_hash").string());
   EXPECT_NE(first.at("input_hash").string(), third.at("input_hash").string());
@@ -60,13 +61,38 @@ TEST(Run, WritesTheFilesOfTheContractAndVerifyAgrees) {
   const Scratch scratch;
   scratch.put("s.json", small_scene);
   const Json said = run_small(scratch, "a", {});
-  for (const char* name : {"cloth.obj", "cloth.pc2", "body.obj", "body.pc2", "report.json"}) EXPECT_TRUE(std::filesystem::exists(scratch / (std::string("a/") + name))) << name;
-  for (const auto& entry : std::filesystem::directory_iterator(scratch / "a")) EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+  for (const char* name : {"cloth.obj", "cloth.pc2", "body.obj", "body.pc2", "report.json"})
+    EXPECT_TRUE(std::filesystem::exists(scratch / (std::string("a/") + name))) << name;
+  for (const auto& entry : std::filesystem::directory_iterator(scratch / "a"))
+    EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
   const Json report = Json::load(scratch / "a/report.json");
   EXPECT_EQ(report.at("state_hash").string(), said.at("state_hash").string()) << "--json prints the report";
-  for (const char* key : {"toile_version", "command", "input_hash", "state_hash", "verdict", "reasons", "limits", "threads", "units", "cloth", "body", "fps", "frames", "steps",
-                          "steps_rejected", "step_min_ms", "step_max_ms", "seconds_total", "seconds_per_frame", "cg_iterations", "stretch", "shear_degrees", "penetrations",
-                          "gap_mm", "still", "peak_memory_mb"})
+  for (const char* key : {"toile_version",
+                          "command",
+                          "input_hash",
+                          "state_hash",
+                          "verdict",
+                          "reasons",
+                          "limits",
+                          "threads",
+                          "units",
+                          "cloth",
+                          "body",
+                          "fps",
+                          "frames",
+                          "steps",
+                          "steps_rejected",
+                          "step_min_ms",
+                          "step_max_ms",
+                          "seconds_total",
+                          "seconds_per_frame",
+                          "cg_iterations",
+                          "stretch",
+                          "shear_degrees",
+                          "penetrations",
+                          "gap_mm",
+                          "still",
+                          "peak_memory_mb"})
     EXPECT_NE(report.find(key), nullptr) << key;
   EXPECT_EQ(report.at("frames").integer(), 21) << "0.7 s at 30 per second, frame 0 included";
   std::int32_t samples = 0;
@@ -78,14 +104,18 @@ TEST(Run, WritesTheFilesOfTheContractAndVerifyAgrees) {
   const Json judged = Json::parse(verify.out, "stdout");
   EXPECT_EQ(judged.at("verdict").string(), report.at("verdict").string());
   for (const char* kind : {"cloth_body_edges", "cloth_cloth_edges"})
-    EXPECT_EQ(judged.at("penetrations").at(kind).at("max").number(), report.at("penetrations").at(kind).at("max").number());
-  for (const char* part : {"p50", "p99", "max"}) EXPECT_NEAR(judged.at("stretch").at(part).number(), report.at("stretch").at(part).number(), 1e-4) << part;
+    EXPECT_EQ(judged.at("penetrations").at(kind).at("max").number(),
+              report.at("penetrations").at(kind).at("max").number());
+  for (const char* part : {"p50", "p99", "max"})
+    EXPECT_NEAR(judged.at("stretch").at(part).number(), report.at("stretch").at(part).number(), 1e-4) << part;
 }
 
 TEST(Run, AnUnfinishedFailureIsDiagnosedWithExitCodeFive) {
   const Scratch scratch;
   // Two corners of one cloth are torn apart: no step can follow without stretching the cloth past all limits.
-  scratch.put("s.json", R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05}, "placement": {"translation_m": [0, 1, 0]},
+  scratch.put(
+      "s.json",
+      R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05}, "placement": {"translation_m": [0, 1, 0]},
     "pins": [{"near_m": [-0.1, 1.1, 0]}, {"near_m": [0.1, 1.1, 0], "hold": "path", "path_m": [[0, 0.1, 1.1, 0], [0.3, 1, 1.1, 0]]}]}],
     "time": {"seconds": 0.5}})");
   const Ended ended = run_toile(scratch, {"run", "s.json", "--out", "a", "--json"});
@@ -99,9 +129,12 @@ TEST(Run, AnUnfinishedFailureIsDiagnosedWithExitCodeFive) {
 
 TEST(Run, AnInterruptedRunKeepsConsistentFilesAndSaysSo) {
   const Scratch scratch;
-  scratch.put("s.json", R"({"cloth": [{"grid": {"edge_m": 0.03}, "placement": {"translation_m": [0, 1, 0]}, "pins": [{"near_m": [-0.5, 1.5, 0]}]}], "time": {"seconds": 600}})");
+  scratch.put(
+      "s.json",
+      R"({"cloth": [{"grid": {"edge_m": 0.03}, "placement": {"translation_m": [0, 1, 0]}, "pins": [{"near_m": [-0.5, 1.5, 0]}]}], "time": {"seconds": 600}})");
   const Ended ended = run_toile(scratch, {"run", "s.json", "--out", "a"}, [&](pid_t child) {
-    for (int k = 0; k < 200 && !std::filesystem::exists(scratch / "a/cloth.pc2.tmp"); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    for (int k = 0; k < 200 && !std::filesystem::exists(scratch / "a/cloth.pc2.tmp"); ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     kill(child, SIGINT);
   });
@@ -125,9 +158,11 @@ TEST(Run, AKilledRunDoesNotLookFinished) {
   scratch.put("s.json", small_scene);
   run_small(scratch, "a", {"--seconds", "0.1"});
   ASSERT_TRUE(std::filesystem::exists(scratch / "a/report.json"));
-  scratch.put("s.json", R"({"cloth": [{"grid": {"edge_m": 0.03}, "pins": [{"near_m": [0, 0, 0]}]}], "time": {"seconds": 600}})");
+  scratch.put("s.json",
+              R"({"cloth": [{"grid": {"edge_m": 0.03}, "pins": [{"near_m": [0, 0, 0]}]}], "time": {"seconds": 600}})");
   const Ended ended = run_toile(scratch, {"run", "s.json", "--out", "a"}, [&](pid_t child) {
-    for (int k = 0; k < 200 && !std::filesystem::exists(scratch / "a/cloth.pc2.tmp"); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    for (int k = 0; k < 200 && !std::filesystem::exists(scratch / "a/cloth.pc2.tmp"); ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
     kill(child, SIGKILL);
   });
   EXPECT_EQ(ended.signal, SIGKILL);
@@ -138,7 +173,8 @@ TEST(Run, AKilledRunDoesNotLookFinished) {
 
 TEST(Check, CountsAPatternAndSpeaksJson) {
   const Scratch scratch;
-  const Ended ended = run_toile(scratch, {"check", TOILE_SOURCE_DIR "/patterns/tshirt.json", TOILE_SOURCE_DIR "/scenes/cylinder.json", "--json"});
+  const Ended ended = run_toile(
+      scratch, {"check", TOILE_SOURCE_DIR "/patterns/tshirt.json", TOILE_SOURCE_DIR "/scenes/cylinder.json", "--json"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   const Json json = Json::parse(ended.out, "stdout");
   const Json& shirt = json.at("files").array().at(0);
@@ -162,7 +198,8 @@ TEST(Demo, ListsWhatItHas) {
   const Scratch scratch;
   const Ended ended = run_toile(scratch, {"demo", "--list"});
   EXPECT_EQ(ended.exit_code, 0);
-  for (const char* name : {"tshirt", "skirt", "cylinder", "sheet"}) EXPECT_NE(ended.out.find(name), std::string::npos) << name;
+  for (const char* name : {"tshirt", "skirt", "cylinder", "sheet"})
+    EXPECT_NE(ended.out.find(name), std::string::npos) << name;
 }
 
 }  // namespace

@@ -30,8 +30,10 @@ Report run(const Scratch& scratch, const Scene& scene, const std::function<bool(
 
 Scene falling_cloth(const std::string& more = "") {
   return parse_scene(R"({"cloth": [{"name": "cloth", "grid": {"width_m": 0.4, "height_m": 0.3, "edge_m": 0.04},
-    "placement": {"translation_m": [0, 0.01, 0], "rotation_deg": [-90, 0, 0]})" + more + R"(}],
-    "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.5}}, "time": {"seconds": 0.3}})", "s.json");
+    "placement": {"translation_m": [0, 0.01, 0], "rotation_deg": [-90, 0, 0]})" +
+                         more + R"(}],
+    "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.5}}, "time": {"seconds": 0.3}})",
+                     "s.json");
 }
 
 TEST(Cylinder, HasThePapersCountsAndIsClosed) {
@@ -124,7 +126,8 @@ TEST(Run, AnElasticPanelIsJudgedAgainstItsOwnRestLength) {
 
 TEST(Run, APinFollowsItsPathAndAnotherStays) {
   const Scratch scratch;
-  Scene scene = falling_cloth(R"(, "pins": [{"near_m": [-0.2, 0.01, -0.15]}, {"near_m": [0.2, 0.01, -0.15], "hold": "path", "path_m": [[0, 0.2, 0.01, -0.15], [0.2, 0.15, 0.06, -0.15]]}])");
+  Scene scene = falling_cloth(
+      R"(, "pins": [{"near_m": [-0.2, 0.01, -0.15]}, {"near_m": [0.2, 0.01, -0.15], "hold": "path", "path_m": [[0, 0.2, 0.01, -0.15], [0.2, 0.15, 0.06, -0.15]]}])");
   scene.body.kind = SceneBody::Kind::none;
   run(scratch, scene);
   Pc2Reader frames(scratch / "out/cloth.pc2");
@@ -162,7 +165,8 @@ TEST(Run, AStartInsideTheBodyIsWarnedOfOrRefused) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_start);
   }
-  EXPECT_FALSE(std::filesystem::exists(scratch / "out/report.json")) << "neither the run nor the one before it looks finished";
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/report.json"))
+      << "neither the run nor the one before it looks finished";
 }
 
 TEST(Run, APanelThatTheClothDoesNotHaveIsNamed) {
@@ -184,8 +188,9 @@ Scene tube(const Scratch& scratch, double body_radius_m) {
       "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
     "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
     "properties": {"units_in_meter": 100}})");
-  Scene scene = parse_scene(R"({"cloth": [{"pattern": "tube.json", "resolution_cm": 4}], "body": {"cylinder": {"height_m": 1, "top_m": [0, 0.6, 0]}}, "time": {"seconds": 0.8}})",
-                            scratch / "s.json");
+  Scene scene = parse_scene(
+      R"({"cloth": [{"pattern": "tube.json", "resolution_cm": 4}], "body": {"cylinder": {"height_m": 1, "top_m": [0, 0.6, 0]}}, "time": {"seconds": 0.8}})",
+      scratch / "s.json");
   scene.body.cylinder.radius_m = body_radius_m;
   scene.until_still = false;
   return scene;
@@ -215,8 +220,10 @@ TEST(Run, ASeamThatCannotCloseIsReportedByName) {
   EXPECT_EQ(exit_code(report), ExitCode::simulation_failed);
   ASSERT_FALSE(report.verdict.reasons.empty());
   EXPECT_EQ(report.verdict.reasons.front().code, "seam_blocked");
-  EXPECT_NE(report.verdict.reasons.front().detail.find("seam front."), std::string::npos) << report.verdict.reasons.front().detail;
-  EXPECT_NE(report.verdict.reasons.front().detail.find("too small"), std::string::npos) << report.verdict.reasons.front().detail;
+  EXPECT_NE(report.verdict.reasons.front().detail.find("seam front."), std::string::npos)
+      << report.verdict.reasons.front().detail;
+  EXPECT_NE(report.verdict.reasons.front().detail.find("too small"), std::string::npos)
+      << report.verdict.reasons.front().detail;
   EXPECT_TRUE(std::filesystem::exists(scratch / "out/sewing.pc2"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "out/cloth.pc2"));
   const Json json = Json::load(scratch / "out/report.json");

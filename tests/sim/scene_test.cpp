@@ -18,11 +18,13 @@ std::string refusal(const std::string& text) {
 void expect_refused(const std::string& text, std::initializer_list<std::string_view> words) {
   const std::string message = refusal(text);
   EXPECT_EQ(message.rfind("dir/s.json:", 0), 0u) << message;
-  for (const std::string_view word : words) EXPECT_NE(message.find(word), std::string::npos) << '"' << word << "\" is not in: " << message;
+  for (const std::string_view word : words)
+    EXPECT_NE(message.find(word), std::string::npos) << '"' << word << "\" is not in: " << message;
 }
 
 TEST(Scene, APatternAndABodyAreAComplete) {
-  const Scene scene = parse_scene(R"({"cloth": [{"pattern": "p.json"}], "body": {"mesh": "../b.obj"}})", "dir/scenes/s.json");
+  const Scene scene =
+      parse_scene(R"({"cloth": [{"pattern": "p.json"}], "body": {"mesh": "../b.obj"}})", "dir/scenes/s.json");
   EXPECT_EQ(scene.name, "s");
   EXPECT_EQ(scene.cloth.at(0).pattern, "dir/scenes/p.json") << "paths start at the scene's folder";
   EXPECT_EQ(scene.body.mesh, "dir/b.obj");
@@ -89,21 +91,32 @@ TEST(Scene, NamesThePlaceOfEveryRefusal) {
   expect_refused(R"({"cloth": [{}]})", {"/cloth/0", "either \"pattern\" or \"grid\""});
   expect_refused(R"({"cloth": [{"grid": {}, "pattern": "p"}]})", {"/cloth/0", "both"});
   expect_refused(R"({"cloth": [{"grid": {"edge_m": 0}}]})", {"/cloth/0/grid/edge_m", "of at least 0.0005", "got 0"});
-  expect_refused(R"({"cloth": [{"grid": {"edge_m": 0.0005, "width_m": 10, "height_m": 10}}]})", {"/cloth/0/grid", "2 million"});
-  expect_refused(R"({"cloth": [{"grid": {}, "pins": [{"near_m": [0, 0]}]}]})", {"/cloth/0/pins/0/near_m", "three numbers"});
-  expect_refused(R"({"cloth": [{"grid": {}, "pins": [{"near_m": [0, 0, 0], "hold": "path"}]}]})", {"/cloth/0/pins/0", "path_m"});
-  expect_refused(R"({"cloth": [{"grid": {}, "pins": [{"near_m": [0, 0, 0], "hold": "path", "path_m": [[1, 0, 0, 0], [1, 0, 0, 0]]}]}]})", {"path_m", "ascend"});
-  expect_refused(R"({"cloth": [{"pattern": "p", "pins": [{"near_m": [0, 0, 0]}]}]})", {"/cloth/0/pins", "not available yet"});
-  expect_refused(R"({"cloth": [{"grid": {}}], "body": {"mesh": "b.obj", "mannequin": "woman"}})", {"/body", "2 of them"});
-  expect_refused(R"({"cloth": [{"grid": {}}], "body": {"mannequin": "womn"}})", {"/body/mannequin", "nearest is \"woman\""});
+  expect_refused(R"({"cloth": [{"grid": {"edge_m": 0.0005, "width_m": 10, "height_m": 10}}]})",
+                 {"/cloth/0/grid", "2 million"});
+  expect_refused(R"({"cloth": [{"grid": {}, "pins": [{"near_m": [0, 0]}]}]})",
+                 {"/cloth/0/pins/0/near_m", "three numbers"});
+  expect_refused(R"({"cloth": [{"grid": {}, "pins": [{"near_m": [0, 0, 0], "hold": "path"}]}]})",
+                 {"/cloth/0/pins/0", "path_m"});
+  expect_refused(
+      R"({"cloth": [{"grid": {}, "pins": [{"near_m": [0, 0, 0], "hold": "path", "path_m": [[1, 0, 0, 0], [1, 0, 0, 0]]}]}]})",
+      {"path_m", "ascend"});
+  expect_refused(R"({"cloth": [{"pattern": "p", "pins": [{"near_m": [0, 0, 0]}]}]})",
+                 {"/cloth/0/pins", "not available yet"});
+  expect_refused(R"({"cloth": [{"grid": {}}], "body": {"mesh": "b.obj", "mannequin": "woman"}})",
+                 {"/body", "2 of them"});
+  expect_refused(R"({"cloth": [{"grid": {}}], "body": {"mannequin": "womn"}})",
+                 {"/body/mannequin", "nearest is \"woman\""});
   expect_refused(R"({"cloth": [{"grid": {}}], "body": {"mannequin": "woman", "unit": "cm"}})", {"/body/unit"});
-  expect_refused(R"({"cloth": [{"grid": {}}], "time": {"integrator": "bdf2"}})", {"/time/integrator", "backward_euler"});
-  expect_refused(R"({"cloth": [{"grid": {}}], "solver": {"preconditioner": "block_jacbi"}})", {"/solver/preconditioner", "nearest is \"block_jacobi\""});
+  expect_refused(R"({"cloth": [{"grid": {}}], "time": {"integrator": "bdf2"}})",
+                 {"/time/integrator", "backward_euler"});
+  expect_refused(R"({"cloth": [{"grid": {}}], "solver": {"preconditioner": "block_jacbi"}})",
+                 {"/solver/preconditioner", "nearest is \"block_jacobi\""});
   expect_refused(R"({"cloth": [{"grid": {}}], "output": {"preview": 1}})", {"/output/preview"});
 }
 
 TEST(Scene, TakesTheLineOfTheValueThatIsWrong) {
-  EXPECT_EQ(refusal("{\"cloth\": [{\"grid\": {},\n\"fabric\": {\n\"bend_u_N_m\": -1e-5}}]}").rfind("dir/s.json:3:", 0), 0u);
+  EXPECT_EQ(refusal("{\"cloth\": [{\"grid\": {},\n\"fabric\": {\n\"bend_u_N_m\": -1e-5}}]}").rfind("dir/s.json:3:", 0),
+            0u);
 }
 
 }  // namespace

@@ -12,14 +12,20 @@
 namespace toile {
 namespace {
 
-constexpr std::array all = {Preconditioner::diagonal, Preconditioner::block_jacobi, Preconditioner::block_ssor, Preconditioner::block_ssor_coarse};
+constexpr std::array all = {Preconditioner::diagonal, Preconditioner::block_jacobi, Preconditioner::block_ssor,
+                            Preconditioner::block_ssor_coarse};
 
 // A crumpled cloth's system with contact-like rows, and constraints of every kind with z different from zero.
 template <class T>
 struct Problem {
-  explicit Problem(double h = 1.0 / 60, double crumple_m = 0.006) : Problem(test::equilateral_sheet(0.2, 0.2, 0.02), h, crumple_m) {}
+  explicit Problem(double h = 1.0 / 60, double crumple_m = 0.006)
+      : Problem(test::equilateral_sheet(0.2, 0.2, 0.02), h, crumple_m) {}
   Problem(const test::Sheet& sheet, double h, double crumple_m)
-      : model(build_model(sheet.mesh, std::array{Fabric{}})), elements(model), A(elements.pattern()), system(A), constraints(model.particle_count()) {
+      : model(build_model(sheet.mesh, std::array{Fabric{}})),
+        elements(model),
+        A(elements.pattern()),
+        system(A),
+        constraints(model.particle_count()) {
     ClothState state{test::crumpled(sheet.x, crumple_m, 1), {}};
     test::Random random(2);
     for (std::size_t i = 0; i < state.x.size(); ++i) state.v.push_back(random.vector(0.3));
@@ -70,7 +76,8 @@ double error_against_dense(Problem<T>& p, const Vec3s& dv) {
   Eigen::VectorXd exact, e;
   p.dense(exact, e);
   double sum = 0;
-  for (std::size_t i = 0; i < dv.size(); ++i) sum += (dv[i] - exact.segment<3>(3 * static_cast<Eigen::Index>(i))).squaredNorm();
+  for (std::size_t i = 0; i < dv.size(); ++i)
+    sum += (dv[i] - exact.segment<3>(3 * static_cast<Eigen::Index>(i))).squaredNorm();
   return std::sqrt(sum) / exact.norm();
 }
 
@@ -109,12 +116,13 @@ TEST(ModifiedPcg, ConstraintsAreExactAtEveryIterationCount) {
       pcg.prepare(p.system, options);
       test::Random random(9);
       Vec3s dv(p.b.size());
-      for (Vec3& dv_i : dv) dv_i = random.vector(1);   // a bad guess must not break them either
+      for (Vec3& dv_i : dv) dv_i = random.vector(1);  // a bad guess must not break them either
       const PcgReport report = pcg.solve(p.system, p.b, p.reference, options, dv);
       EXPECT_EQ(report.status, PcgStatus::iteration_limit);
       for (const Index i : p.constraints.constrained()) {
         const Mat3 held = Mat3::Identity() - p.constraints.S(i);
-        EXPECT_LT((held * dv[static_cast<std::size_t>(i)] - p.constraints.z(i)).norm(), 1e-15) << limit << " iterations, particle " << i;
+        EXPECT_LT((held * dv[static_cast<std::size_t>(i)] - p.constraints.z(i)).norm(), 1e-15)
+            << limit << " iterations, particle " << i;
       }
     }
   }
@@ -132,7 +140,8 @@ TEST(ModifiedPcg, TheResidualIsTheConstraintForceOfTheDenseSolve) {
   p.dense(exact_dv, exact_e);
   ASSERT_GT(exact_e.norm(), 1e-4);
   for (std::size_t i = 0; i < e.size(); ++i) {
-    EXPECT_LT((e[i] - p.b[i] - exact_e.segment<3>(3 * static_cast<Eigen::Index>(i))).norm(), 1e-6 * exact_e.norm()) << "particle " << i;
+    EXPECT_LT((e[i] - p.b[i] - exact_e.segment<3>(3 * static_cast<Eigen::Index>(i))).norm(), 1e-6 * exact_e.norm())
+        << "particle " << i;
   }
 }
 

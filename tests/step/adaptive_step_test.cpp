@@ -42,7 +42,7 @@ TEST(Determinism, OneTwoAndFiveThreadsGiveTheSameBits) {
 
 TEST(AdaptiveStep, LandsOnFrameBoundariesAndUsesTheLongestStepThatHolds) {
   ClothRun run(test::equilateral_sheet(0.2, 0.2, 0.02), Fabric{});
-  run.adaptive.step_max_s = 0.02;   // does not divide 1/30: two steps of 1/60
+  run.adaptive.step_max_s = 0.02;  // does not divide 1/30: two steps of 1/60
   const FrameReport report = run.frame();
   EXPECT_EQ(report.steps, 2);
   EXPECT_DOUBLE_EQ(report.step_max_s, 1.0 / 60);
@@ -65,7 +65,7 @@ TEST(AdaptiveStep, HalvesOnAJerkAndGrowsBack) {
 TEST(AdaptiveStep, ACollapseNamesTheTriangleAndLeavesTheStateWhereItWasAccepted) {
   ClothRun run(test::equilateral_sheet(0.1, 0.1, 0.02), Fabric{});
   run.pin(0);
-  Pin torn;   // a second particle that is driven away at 1 km/s
+  Pin torn;  // a second particle that is driven away at 1 km/s
   torn.particle = 20;
   const Vec3 start = run.state.x[20];
   torn.path = [start](double t_s) -> Vec3 { return start + Vec3(1000 * t_s, 0, 0); };
@@ -100,7 +100,7 @@ TEST(Golden, StateHashesOfThreeScenes) {
   const auto folding = [] {
     BodySurface slab = test::tilted_slab(1, 0.2, 0);
     Sheet sheet = test::equilateral_sheet(0.2, 0.3, 0.02);
-    for (Vec3& p : sheet.x) p = Vec3(p.x() - 0.1, 0.004 - p.z(), 0.001 * std::abs(p.z()));   // stands on its edge
+    for (Vec3& p : sheet.x) p = Vec3(p.x() - 0.1, 0.004 - p.z(), 0.001 * std::abs(p.z()));  // stands on its edge
     ClothRun run(sheet, Fabric{});
     run.world.body = &slab;
     run.run(15);

@@ -88,7 +88,7 @@ TEST(BodyContact, ALandingDoesNotBounceAndAliftedSheetIsLetGo) {
     EXPECT_NEAR(run.state.x[i].y(), offset, 0.05 * offset);
     EXPECT_LT(run.state.v[i].norm(), 1e-3);
   }
-  for (Vec3& v : run.state.v) v = Vec3(0, 1, 0);   // thrown up: an equality on the body would hold it
+  for (Vec3& v : run.state.v) v = Vec3(0, 1, 0);  // thrown up: an equality on the body would hold it
   run.frame();
   for (const Vec3& v : run.state.v) EXPECT_GT(v.y(), 0.6);
 }

@@ -22,7 +22,8 @@ double fall_error(Preconditioner preconditioner, double crumple_m) {
 }
 
 TEST(FreeMotion, FreeFallIsNotBrakedByTheSolversTolerance) {
-  for (const Preconditioner preconditioner : {Preconditioner::diagonal, Preconditioner::block_jacobi, Preconditioner::block_ssor, Preconditioner::block_ssor_coarse}) {
+  for (const Preconditioner preconditioner : {Preconditioner::diagonal, Preconditioner::block_jacobi,
+                                              Preconditioner::block_ssor, Preconditioner::block_ssor_coarse}) {
     EXPECT_LT(fall_error(preconditioner, 0), 1e-12) << to_string(preconditioner);
   }
 }
@@ -71,7 +72,8 @@ TEST(FreeMotion, EnergyNeverRisesWithoutInput) {
   const auto energy = [&] {
     elements.evaluate(run.model, run.state);
     double kinetic = 0;
-    for (std::size_t i = 0; i < run.state.v.size(); ++i) kinetic += 0.5 * run.model.mass_kg[i] * run.state.v[i].squaredNorm();
+    for (std::size_t i = 0; i < run.state.v.size(); ++i)
+      kinetic += 0.5 * run.model.mass_kg[i] * run.state.v[i].squaredNorm();
     return kinetic + elements.energy_J();
   };
   double last = energy();

@@ -12,7 +12,7 @@ using test::Sheet;
 // Turned so that v runs down: hangs from its edge v = 0.
 Sheet hanging_strip(double width, double length, double edge) {
   Sheet sheet = test::equilateral_sheet(width, length, edge);
-  for (Vec3& p : sheet.x) p = Vec3(p.x(), p.z(), 0);   // z = -v
+  for (Vec3& p : sheet.x) p = Vec3(p.x(), p.z(), 0);  // z = -v
   return sheet;
 }
 
@@ -20,7 +20,7 @@ double tip_elongation(double edge, bool paper_scaling, double stiffness) {
   Fabric fabric;
   fabric.density_kg_per_m2 = 0.15;
   fabric.stretch_u_N_per_m = fabric.stretch_v_N_per_m = stiffness;
-  fabric.shear_N_per_m = 0;                              // one-dimensional: no Poisson-like coupling at the clamp
+  fabric.shear_N_per_m = 0;  // one-dimensional: no Poisson-like coupling at the clamp
   ModelOptions options;
   options.paper_scaling = paper_scaling;
   const Sheet sheet = hanging_strip(0.2, 1, edge);

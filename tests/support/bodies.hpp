@@ -28,7 +28,8 @@ inline BodySurface tilted_slab(double half_width_m, double thickness_m, double a
 // An octahedron subdivided `levels` times onto a sphere.
 inline BodySurface sphere(const Vec3& centre, double radius_m, int levels) {
   std::vector<Vec3> x = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  std::vector<Triangle> triangles = {{2, 4, 0}, {2, 0, 5}, {2, 5, 1}, {2, 1, 4}, {3, 0, 4}, {3, 5, 0}, {3, 1, 5}, {3, 4, 1}};
+  std::vector<Triangle> triangles = {{2, 4, 0}, {2, 0, 5}, {2, 5, 1}, {2, 1, 4},
+                                     {3, 0, 4}, {3, 5, 0}, {3, 1, 5}, {3, 4, 1}};
   for (int level = 0; level < levels; ++level) {
     std::map<std::pair<Index, Index>, Index> middle;
     const auto between = [&](Index a, Index b) {

@@ -10,7 +10,8 @@
 namespace toile::test {
 
 struct ClothRun {
-  ClothRun(const Sheet& sheet, const Fabric& fabric, const ModelOptions& options = {}) : model(build_model(sheet.mesh, {&fabric, 1}, options)) {
+  ClothRun(const Sheet& sheet, const Fabric& fabric, const ModelOptions& options = {})
+      : model(build_model(sheet.mesh, {&fabric, 1}, options)) {
     state.x = sheet.x;
     state.v.assign(sheet.x.size(), Vec3::Zero());
   }

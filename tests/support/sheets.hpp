@@ -12,7 +12,7 @@ namespace toile::test {
 
 struct Sheet {
   ClothMesh mesh;
-  Vec3s x;   // flat in the plane y = 0, u along x, v along -z, so that the right side faces up
+  Vec3s x;  // flat in the plane y = 0, u along x, v along -z, so that the right side faces up
 };
 
 // Rows of equilateral triangles; odd rows are shifted by half an edge and close with a half triangle at both ends.
@@ -43,15 +43,21 @@ inline Sheet equilateral_sheet(double width_m, double height_m, double edge_m) {
     const auto &low = row_points[static_cast<std::size_t>(r)], &high = row_points[static_cast<std::size_t>(r) + 1];
     std::size_t i = 0, j = 0;
     while (i + 1 < low.size() || j + 1 < high.size()) {
-      const bool step_low = j + 1 >= high.size() || (i + 1 < low.size() && uv[static_cast<std::size_t>(low[i + 1])].x() <= uv[static_cast<std::size_t>(high[j + 1])].x());
+      const bool step_low =
+          j + 1 >= high.size() || (i + 1 < low.size() && uv[static_cast<std::size_t>(low[i + 1])].x() <=
+                                                             uv[static_cast<std::size_t>(high[j + 1])].x());
       const Index a = low[i], b = high[j], c = step_low ? low[i + 1] : high[j + 1];
       sheet.mesh.triangles.push_back({a, c, b});
-      if (step_low) ++i; else ++j;
+      if (step_low)
+        ++i;
+      else
+        ++j;
     }
   }
   sheet.mesh.particle_count = static_cast<Index>(uv.size());
   for (const Triangle& t : sheet.mesh.triangles) {
-    sheet.mesh.uv.push_back({uv[static_cast<std::size_t>(t[0])], uv[static_cast<std::size_t>(t[1])], uv[static_cast<std::size_t>(t[2])]});
+    sheet.mesh.uv.push_back(
+        {uv[static_cast<std::size_t>(t[0])], uv[static_cast<std::size_t>(t[1])], uv[static_cast<std::size_t>(t[2])]});
     sheet.mesh.panel.push_back(0);
   }
   sheet.mesh.panel_names = {"sheet"};
@@ -66,7 +72,7 @@ class Random {
   double operator()(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1.0p-53;
   }
-  Vec3 vector(double size) { 
+  Vec3 vector(double size) {
     const double x = (*this)(-size, size), y = (*this)(-size, size), z = (*this)(-size, size);
     return {x, y, z};
   }

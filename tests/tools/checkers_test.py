@@ -16,10 +16,10 @@ sound_tree = {
                           "toile_module(io DEPENDS mesh)\ntoile_module(material DEPENDS core)\n",
     "src/core/types.hpp": "// docs/units.md#length\n",
     "src/mesh/mesh.hpp": '#include "core/types.hpp"\n#include "mesh/mesh.hpp"\n#include <vector>\n',
-    "src/io/obj.cpp": '#include "core/types.hpp"\n#include "mesh/mesh.hpp"\n',
+    "src/io/obj.cpp": '#include "core/types.hpp"\n#include "mesh/mesh.hpp"\nconstexpr double gap_m = 1e-3;\n',
     "tests/mesh/mesh_test.cpp": "TEST(Mesh, IsOne) {}\n",
     "docs/units.md": "# Units\n\n## Length\n\nSee [home](../README.md#toile), `src/core/types.hpp`, `src/{io,mesh}/*.*pp`, "
-                     "`Mesh.IsOne` and units.md.\n",
+                     "`Mesh.IsOne`, `gap_m = 0.001` and units.md.\n",
     "README.md": "# Toile\n\n[units](docs/units.md#length)\n\n```sh\nmake build   # comment\n"
                  "build/release/toile check shirt.json\nbuild/release/toile check \\\n    bad.json   # exit 3\n"
                  "build/release/toile dress PATTERN\nbuild/release/toile check ../elsewhere/body.obj\n```\n\n"
@@ -77,6 +77,7 @@ class Checkers(unittest.TestCase):
         self.refuses(tool, {"docs/a.md": "`src/core/type.hpp`\n"}, "'src/core/type.hpp'")
         self.refuses(tool, {"docs/a.md": "`src/{io,solver}/*.cpp` `tests/*/gone_*.cpp`\n"}, "gone_")
         self.refuses(tool, {"docs/a.md": "`Mesh.IsTwo`\n"}, "'Mesh.IsTwo': there is no such test")
+        self.refuses(tool, {"docs/a.md": "`gap_m = 0.002`\n"}, "'gap_m = 0.002': no source says so")
         self.refuses(tool, {"src/core/a.cpp": "// docs/gone.md\n"}, "src/core/a.cpp:1")
         self.refuses(tool, {"src/core/a.cpp": "// docs/units.md#mass.\n"}, "docs/units.md#mass")
         self.accepts(tool, {"docs/a.md": "```\n[x](gone.md)\n```\n\n    [y](gone.md)\n\n<https://example.org/gone.md>\n"})
