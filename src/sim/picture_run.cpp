@@ -54,6 +54,20 @@ void grow(std::array<Vec3, 2>& box, const Vec3s& x) {
   }
 }
 
+// Front, side and back of the cloth as it is; of the body only as much as the cloth reaches, and a little more.
+Image three_views(const PreviewScene& scene, const Vec3s& cloth, const RenderOptions& options) {
+  std::array<Vec3, 2> box{Vec3::Constant(1e30), Vec3::Constant(-1e30)};
+  grow(box, cloth);
+  const Vec3 margin = 0.08 * (box[1] - box[0]);
+  std::vector<Image> views;
+  const double aspect = static_cast<double>(options.width) / options.height;
+  for (const double azimuth_deg : {0.0, 90.0, 180.0}) {
+    views.push_back(render(scene, frame_subject(box[0] - margin, box[1] + margin, azimuth_deg, 8, aspect), options));
+  }
+  const std::array<std::string, 3> captions{"front", "side", "back"};
+  return contact_sheet(views, captions, 3);
+}
+
 void add_shots(const Take& take, int count, std::vector<Shot>& shots) {
   const int last = take.frames->samples() - 1;
   for (int k = 0; k < count; ++k)
@@ -115,7 +129,7 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   sheet.width = options.sheet_width;
   sheet.height = options.sheet_height;
   sheet.samples = options.sheet_samples;
-  write_png((folder / "preview.png").string(), turntable_sheet(scene, sheet));
+  write_png((folder / "preview.png").string(), three_views(scene, x, sheet));
   scene.red_segments.clear();
   if (progress) progress(0.1);
 

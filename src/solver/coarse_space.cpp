@@ -8,7 +8,7 @@ namespace toile {
 namespace {
 
 // 16 to 32 aggregates of about 128 particles serve up to 10,000 particles: a dense factor of at most 288 rows.
-int wanted_aggregates(std::size_t particles) { return std::clamp(static_cast<int>(particles / 128), 1, 32); }
+int wanted_aggregates(std::size_t particles) { return std::clamp(static_cast<int>(particles / 160), 1, 32); }
 
 // Splits `members` at the median of its longer pattern direction until no part is larger than `largest`.
 void bisect(std::vector<Index>& members, std::size_t begin, std::size_t end, std::size_t largest, const Vec2s& uv,

@@ -43,11 +43,11 @@ std::string PcgReport::explain() const {
 }
 
 template <class T>
-void ModifiedPcg<T>::prepare(const LinearSystem<T>& system, const PcgOptions& options) {
+void ModifiedPcg<T>::prepare(const LinearSystem<T>& system, const PcgOptions& options, bool refresh_coarse) {
   const auto n = static_cast<std::size_t>(system.size());
   for (auto* vector : {&r_, &c_, &q_, &s_, &w_}) vector->resize(n);
   for (auto* vector : {&start_, &work_, &work2_}) vector->resize(n);
-  if (options.preconditioner == Preconditioner::block_ssor_coarse) coarse_.factorise(system);
+  if (options.preconditioner == Preconditioner::block_ssor_coarse && refresh_coarse) coarse_.factorise(system);
   if (options.preconditioner == Preconditioner::diagonal) {
     inverse_diagonal_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {

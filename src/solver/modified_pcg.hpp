@@ -41,8 +41,9 @@ class ModifiedPcg {
  public:
   explicit ModifiedPcg(const ClothMesh& mesh) : coarse_(mesh) {}
 
-  // Call when the system's A, rows or constraints have changed.
-  void prepare(const LinearSystem<T>& system, const PcgOptions& options);
+  // Call when the system's A, rows or constraints have changed.  `refresh_coarse` = false keeps the factor of the coarse space: still
+  // symmetric positive definite, and good while only a few rows or constraints differ.
+  void prepare(const LinearSystem<T>& system, const PcgOptions& options, bool refresh_coarse = true);
 
   // dv: in, a guess; out, the solution.  `reference` is h m g.  Sizes equal the system's.
   [[nodiscard]] PcgReport solve(const LinearSystem<T>& system, std::span<const Vec3> b, std::span<const Vec3> reference,

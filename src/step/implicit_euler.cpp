@@ -9,7 +9,7 @@
 namespace toile {
 namespace {
 
-constexpr double loose_passes = 10;  // times the tolerance
+constexpr double loose_passes = 10;  // times the tolerance  // times the tolerance
 
 }  // namespace
 
@@ -70,7 +70,7 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       body_(model, world.body, options.body),
       rows_(model, world.body, world.merged_particle, options.body.offset_m, options.body.friction, options.rows) {
   const auto n = static_cast<std::size_t>(model.particle_count());
-  for (Vec3s* vector : {&force_, &b_, &y_, &displacement_, &reference_, &dv_, &dv_last_, &e_})
+  for (Vec3s* vector : {&force_, &b_, &y_, &y_linearised_, &linearised_, &displacement_, &reference_, &dv_, &dv_last_, &e_})
     vector->assign(n, Vec3::Zero());
   diagonal_.assign(n, Mat3::Zero());
   stretch_.resize(model.mesh.triangles.size());
@@ -129,6 +129,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   body_.begin(state, dv_, h_s);
   rows_.begin(state, dv_, h_s, base_h_s_, diagonal_);
 
+  int changed = 0;   // contacts, since the coarse space was factorised
   for (report.passes = 1;; ++report.passes) {
     {
       const Timed timed(seconds_.eval);
@@ -140,12 +141,13 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
       if (world_->springs) world_->springs(state, h_s, springs_);
       implicit_rows_.clear();
       for (const LinearSpring& spring : springs_) implicit_rows_.push_back(implicit_row(spring, h_s, state.v, y_));
-      for (std::size_t i = 0; i < n; ++i) {
-        displacement_[i] = h_s * state.v[i] + y_[i];
-        b_[i] = force_[i];
+      if (report.passes == 1 || y_ != y_linearised_) {   // f - K (h v + y) changes with y only
+        y_linearised_ = y_;
+        linearised_ = force_;
+        for (std::size_t i = 0; i < n; ++i) displacement_[i] = h_s * state.v[i] + y_[i];
+        elements_.subtract_stiffness(displacement_, linearised_);
       }
-      elements_.subtract_stiffness(displacement_, b_);
-      for (std::size_t i = 0; i < n; ++i) b_[i] *= h_s;
+      for (std::size_t i = 0; i < n; ++i) b_[i] = h_s * linearised_[i];
       for (const ImplicitRow& row : implicit_rows_) {
         for (std::size_t k = 0; k < 4; ++k) {
           if (row.particle[k] >= 0)
@@ -155,7 +157,10 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     }
     const Timed timed(seconds_.cg);
     system_.update(implicit_rows_, constraints_);
-    pcg_.prepare(system_, pcg_options);
+    // The coarse factor of an almost unchanged system is as good a preconditioner, and free.
+    const bool refresh = report.passes == 1 || 20 * changed > body_.touching() + rows_.active();
+    pcg_.prepare(system_, pcg_options, refresh);
+    if (refresh) changed = 0;
     report.pcg = pcg_.solve(system_, b_, reference_, pcg_options, dv_);
     report.cg_iterations += report.pcg.iterations;
     if (!report.pcg) {
@@ -169,6 +174,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     const BodyConstraints::Change body = body_.update(state, dv_, e_, h_s, first_passes);
     const ContactRows::Change change = rows_.update(state, dv_, y_, h_s, report.passes <= 4);
     report.rows = change.active;
+    changed += body.normal + body.slipped + change.added + change.dropped;
     const bool last = pcg_options.tolerance == options_.pcg.tolerance;
     // A few particles that begin to slip, or rows that come and go, can wait for the next step; a missing contact cannot.
     const bool settled =

@@ -111,7 +111,7 @@ class ImplicitEuler {
   ContactRows rows_;
   std::vector<LinearSpring> springs_;
   std::vector<ImplicitRow> implicit_rows_;
-  Vec3s force_, b_, y_, displacement_, reference_, dv_, dv_last_, e_;
+  Vec3s force_, b_, y_, y_linearised_, linearised_, displacement_, reference_, dv_, dv_last_, e_;
   std::vector<Mat3> diagonal_;
   std::vector<Vec2> stretch_, stretch_candidate_;
   double base_h_s_ = 0, h_last_s_ = 0;
