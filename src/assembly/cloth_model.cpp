@@ -43,6 +43,7 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
   ClothModel model;
   model.gravity_m_per_s2 = options.gravity_m_per_s2;
   model.damping_jacobian = options.damping_jacobian;
+  model.drag_per_s = options.drag_per_s;
   model.topology = build_topology(mesh.particle_count, mesh.triangles);
   model.mesh = std::move(mesh);
 

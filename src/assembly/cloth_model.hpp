@@ -19,6 +19,9 @@ struct ModelOptions {
   Vec3 gravity_m_per_s2{0, -9.81, 0};
   bool paper_scaling = false;  // conditions scaled by area and bend without geometry, as printed in 1998
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
+  // Brakes every motion, f = -drag m v.  Physics has none (it would brake falling too); sewing uses it to keep loose
+  // panels from whipping.
+  double drag_per_s = 0;
 };
 
 struct ClothModel {
@@ -32,6 +35,7 @@ struct ClothModel {
   std::vector<double> friction;              // [particle]
   Vec3 gravity_m_per_s2{0, -9.81, 0};
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
+  double drag_per_s = 0;
 
   Index particle_count() const { return mesh.particle_count; }
 };

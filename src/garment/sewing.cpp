@@ -10,6 +10,7 @@ namespace {
 
 constexpr int most_escalations = 4;  // thin layers, friction off, then two doublings of the pull
 constexpr double thinning_per_frame = 0.95;
+constexpr double least_thickness = 0.1, thickness_growth = 1.1;  // per frame of the drape
 constexpr double coincident_m = 1e-7;  // below it the direction of a pair means nothing: its spring is isotropic
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -21,6 +22,7 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
     : garment_(&garment), options_(options) {
   ModelOptions weightless;
   weightless.gravity_m_per_s2.setZero();
+  weightless.drag_per_s = options.drag_per_s;
   model_ = build_model(garment.mesh, fabrics, weightless);
   state_ = {garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
   for (const SeamPair& pair : garment.pairs) {
@@ -99,9 +101,8 @@ FrameReport Sewing::frame() {
 
 void Sewing::judge_progress() {
   const double gap = widest_gap_m();
-  const double enough = escalations_ > 0 ? std::max(options_.weld_gap_m, options_.thick_corner_share * mean_edge_m_)
-                                         : options_.weld_gap_m;
-  if (gap < enough) {
+  const bool thick_corner = escalations_ > 0 && gap < options_.thick_corner_share * mean_edge_m_;
+  if (gap < options_.weld_gap_m || thick_corner) {
     status_ = SewingStatus::closed;
     return;
   }
@@ -177,6 +178,18 @@ std::vector<double> weld_thickness(const WeldedMesh& welded, const std::vector<d
     s = std::min(s, scale[i]);
   }
   return joined;
+}
+
+void switch_off_near(std::span<const Vec3> points, double radius_m, const Vec3s& x, std::vector<double>& scale) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const bool near =
+        std::any_of(points.begin(), points.end(), [&](const Vec3& p) { return (x[i] - p).norm() < radius_m; });
+    if (near) scale[i] = 0;
+  }
+}
+
+void grow_thickness(std::vector<double>& scale) {
+  for (double& s : scale) s = std::min(1.0, thickness_growth * std::max(s, least_thickness));
 }
 
 ClothState weld_state(const GarmentMesh& garment, const WeldedMesh& welded, const ClothModel& model,

@@ -5,9 +5,9 @@
 //   in A        secant stiffness F / (|d| - l) along d, the geometric F / |d| across it, damping 0.02 s x the secant
 //
 // Gravity is off while sewing (with it on, folds get caught).  If a seam still gapes when l = 0, the layers of cloth around the gap are
-// thinned (where four panels meet, their thickness alone holds a corner open by a centimetre) and the last third of an edge is left to the
-// weld: squeezing layers thinner than that pushes them through each other.  Then the body's friction goes to 0; then f_max
-// doubles, at most twice; then the garment is reported as blocked, by seam.
+// thinned: where four panels meet, their thickness alone holds a corner open by a centimetre.  The last part of an edge is left to the weld;
+// squeezing layers thinner than that pushes them through each other.  Then the body's friction goes to 0; then f_max doubles, at
+// most twice; then the garment is reported as blocked, by seam.
 #pragma once
 #include "garment/garment_mesh.hpp"
 #include "step/adaptive_step.hpp"
@@ -21,16 +21,16 @@ namespace toile {
 struct SewingOptions {
   double closing_speed_m_per_s = 0.5;
   double pull_N_per_m = 300;
-  double give_m = 3e-3;  // at this gap beyond l the pull is at its limit
+  double give_m = 3e-3;    // at this gap beyond l the pull is at its limit
+  double drag_per_s = 20;  // keeps loose panels from whipping and folding under the pull of their edges
   double damping_s = 0.02;
   double friction = 0.3;   // of the body, at most
   double offset_m = 4e-3;  // contact distance from the body while sewing, at least
   double weld_gap_m = 1.5e-3;
-  double thick_corner_share =
-      0.2;                  // of the mean edge: once layers had to be thinned, this gap is closed by the weld itself
-  double patience_s = 0.4;  // without progress, before friction goes, and before each doubling of the pull
-  double thickness_scale = 1.6;  // of the fabrics' contact distance, while sewing
-  double thinnest = 0.2;         // the same, within `thin_radius_m` of a seam that will not close
+  double thick_corner_share = 0.2;  // of the mean edge: once layers had to be thinned, the weld closes this gap
+  double patience_s = 0.4;          // without progress, before friction goes, and before each doubling of the pull
+  double thickness_scale = 1.6;     // of the fabrics' contact distance, while sewing
+  double thinnest = 0.2;            // the same, within `thin_radius_m` of a seam that will not close
   double thin_radius_m = 0.03;
   double fps = 60;
 };
@@ -88,7 +88,12 @@ class Sewing {
 ClothState weld_state(const GarmentMesh& garment, const WeldedMesh& welded, const ClothModel& unwelded_model,
                       const ClothState& state);
 
-// The layers that sewing thinned, on the welded cloth: scale per particle, at most 1.  The drape grows them back.
+// The layers that sewing thinned, on the welded cloth: scale per particle, at most 1.
 std::vector<double> weld_thickness(const WeldedMesh& welded, const std::vector<double>& scale);
+// A fold that is caught in a closed corner is held there for good by the contact of its own layers: within `radius_m` of the given points
+// contact is switched off (0), so that bending opens the fold.
+void switch_off_near(std::span<const Vec3> points, double radius_m, const Vec3s& x, std::vector<double>& scale);
+// Layers come back to their fabrics' thickness, a frame of the drape at a time.
+void grow_thickness(std::vector<double>& scale);
 
 }  // namespace toile

@@ -22,8 +22,7 @@ namespace {
 constexpr double weightless_s = 0.2, ramp_s = 0.3;    // after the weld
 constexpr double at_rest_mm_per_s = 2, rest_s = 0.5;  // when a drape may stop
 constexpr double sewing_film_fps = 30;
-constexpr double frictionless_s = 1;        // after the weld: the garment slips into place before friction holds it
-constexpr double thickness_recovery = 1.1;  // per frame, of layers that were thinned to close a seam
+constexpr double frictionless_s = 1;  // after the weld: the garment slips into place before friction holds it
 
 template <class... Values>
 std::string words(const char* format, Values... values) {
@@ -216,6 +215,10 @@ class Run {
     const WeldedMesh welded = weld(garment_);
     start_ = weld_state(garment_, welded, sewing.model(), sewing.state());
     thickness_scale_ = weld_thickness(welded, sewing.thickness_scale());
+    std::vector<Vec3> caught;
+    for (const Crossing& crossing : find_cloth_crossings(welded.mesh.triangles, start_.x))
+      caught.push_back(crossing.position);
+    switch_off_near(caught, SewingOptions{}.thin_radius_m, start_.x, thickness_scale_);
     mesh_ = welded.mesh;
     report_.vertices = mesh_.particle_count;
     return true;
@@ -290,7 +293,7 @@ class Run {
         set_rest_stretch(model, ramp(t_s));
         stepper.integrator().body_constraints().set_friction(t_s < frictionless_s ? 0 : step_.body.friction);
         stepper.integrator().contact_rows().set_thickness_scale(thickness_scale_);
-        for (double& scale : thickness_scale_) scale = std::min(1.0, thickness_recovery * scale);
+        if (t_s >= weightless_s + ramp_s) grow_thickness(thickness_scale_);
       }
       FrameReport frame;
       {

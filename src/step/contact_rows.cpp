@@ -71,6 +71,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
         r = std::min(r, thickness_scale(i) * reach_m_[i]);
         friction = std::max(friction, model_->friction[at(contact.particle[k])]);
       }
+      if (r <= 0) continue;  // contact is switched off here
       Pair pair{{contact.kind,
                  false,
                  {contact.particle[0], contact.particle[1], contact.particle[2], contact.particle[3], -1}},

@@ -47,7 +47,7 @@ class ContactRows {
   void accept(const ClothState& end_state);
 
   // Scales the distance at which layers of cloth meet, per particle (empty: the fabrics' own everywhere).  Four layers in a corner of a seam
-  // are a centimetre thick: sewing thins them there to let the corner close.
+  // are a centimetre thick: sewing thins them there to let the corner close.  0 switches the contact of layers off.
   void set_thickness_scale(std::vector<double> scale) { thickness_scale_ = std::move(scale); }
 
   // Pairs of the last detect() that have changed sides between the state's positions and `end`: the step was too long for their normals.

@@ -70,7 +70,8 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       body_(model, world.body, options.body),
       rows_(model, world.body, world.merged_particle, options.body.offset_m, options.body.friction, options.rows) {
   const auto n = static_cast<std::size_t>(model.particle_count());
-  for (Vec3s* vector : {&force_, &b_, &y_, &y_linearised_, &linearised_, &displacement_, &reference_, &dv_, &dv_last_, &e_})
+  for (Vec3s* vector :
+       {&force_, &b_, &y_, &y_linearised_, &linearised_, &displacement_, &reference_, &dv_, &dv_last_, &e_})
     vector->assign(n, Vec3::Zero());
   diagonal_.assign(n, Mat3::Zero());
   stretch_.resize(model.mesh.triangles.size());
@@ -84,7 +85,8 @@ void ImplicitEuler::prepare(const ClothState& state, double base_h_s) {
     const Timed timed(seconds_.eval);
     elements_.evaluate(*model_, state);
     elements_.forces(force_);
-    for (std::size_t i = 0; i < force_.size(); ++i) force_[i] += model_->mass_kg[i] * model_->gravity_m_per_s2;
+    for (std::size_t i = 0; i < force_.size(); ++i)
+      force_[i] += model_->mass_kg[i] * (model_->gravity_m_per_s2 - model_->drag_per_s * state.v[i]);
     elements_.stretch(state.x, stretch_);
   }
   {
@@ -115,6 +117,9 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   const std::size_t n = force_.size();
   {
     const Timed timed(seconds_.eval);
+    for (std::size_t i = 0; i < n; ++i) {
+      A_.grounded(static_cast<Index>(i)) = model_->mass_kg[i] * (1 + h_s * model_->drag_per_s) * Mat3::Identity();
+    }
     elements_.assemble(h_s, A_);
     for (std::size_t i = 0; i < n; ++i) {
       diagonal_[i] = A_.diagonal(static_cast<Index>(i));
@@ -129,7 +134,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   body_.begin(state, dv_, h_s);
   rows_.begin(state, dv_, h_s, base_h_s_, diagonal_);
 
-  int changed = 0;   // contacts, since the coarse space was factorised
+  int changed = 0;  // contacts, since the coarse space was factorised
   for (report.passes = 1;; ++report.passes) {
     {
       const Timed timed(seconds_.eval);
@@ -141,7 +146,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
       if (world_->springs) world_->springs(state, h_s, springs_);
       implicit_rows_.clear();
       for (const LinearSpring& spring : springs_) implicit_rows_.push_back(implicit_row(spring, h_s, state.v, y_));
-      if (report.passes == 1 || y_ != y_linearised_) {   // f - K (h v + y) changes with y only
+      if (report.passes == 1 || y_ != y_linearised_) {  // f - K (h v + y) changes with y only
         y_linearised_ = y_;
         linearised_ = force_;
         for (std::size_t i = 0; i < n; ++i) displacement_[i] = h_s * state.v[i] + y_[i];

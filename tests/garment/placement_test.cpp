@@ -1,0 +1,149 @@
+// Where the flat panels hang before they are sewn: the shift that frees the seams, and no longer one than needed.
+#include "garment/placement.hpp"
+
+#include "core/parallel.hpp"
+#include "garments.hpp"
+#include "support/bodies.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace toile {
+namespace {
+
+// A box with half sizes `half` around `centre`.
+BodySurface box(const Vec3& centre, const Vec3& half) {
+  std::vector<Vec3> x;
+  for (const double y : {-1.0, 1.0}) {
+    for (const double z : {-1.0, 1.0}) {
+      for (const double u : {-1.0, 1.0}) x.push_back(centre + half.cwiseProduct(Vec3(u, y, z)));
+    }
+  }
+  return BodySurface(std::move(x), {{4, 6, 5},
+                                    {5, 6, 7},
+                                    {0, 1, 2},
+                                    {1, 3, 2},
+                                    {0, 4, 1},
+                                    {1, 4, 5},
+                                    {2, 3, 6},
+                                    {3, 7, 6},
+                                    {0, 2, 4},
+                                    {2, 6, 4},
+                                    {1, 5, 3},
+                                    {3, 5, 7}});
+}
+
+// Panels 20 cm wide and 10 high before and behind a slab 20 cm deep, 40 wide and 20 high, whose top is at y = 0.  Their sides are sewn straight
+// through it unless their lower rim is above.
+GarmentMesh panels_over_a_slab(double lower_rim) {
+  return mesh_garment(test::tube_pattern(0.2, 0.1, 0.3, {0, lower_rim + 0.05, 0}), 0.02);
+}
+BodySurface slab() { return box({0, -0.1, 0}, {0.2, 0.1, 0.1}); }
+
+TEST(Placement, PanelsThreeCentimetresTooLowAreRaisedUntilNoSeamIsBlocked) {
+  GarmentMesh garment = panels_over_a_slab(-0.025);
+  const Vec3s before = garment.x;
+  const BodySurface body = slab();
+  const Placement placement = place_garment(garment, body);
+  // Pairs 2 cm apart along 10 cm of each side: those at -2.5 and -0.5 cm are in the slab.
+  EXPECT_EQ(placement.blocked_before, 4);
+  EXPECT_EQ(placement.blocked, 0);
+  EXPECT_EQ(placement.panel_crossings, 0);
+  EXPECT_TRUE(placement.blocked_seams.empty());
+  EXPECT_NEAR(placement.shift_m.y(), 0.03, 1e-12) << "the smallest step that does it";
+  EXPECT_NEAR(placement.shift_m.z(), 0, 1e-12);
+  EXPECT_EQ(placement.shift_m.x(), 0);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_LT((garment.x[i] - before[i] - placement.shift_m).norm(), 1e-12);
+}
+
+TEST(Placement, AGarmentThatIsFreeStaysToTheBit) {
+  GarmentMesh garment = panels_over_a_slab(0.01);
+  const Vec3s before = garment.x;
+  const BodySurface body = slab();
+  const Placement placement = place_garment(garment, body);
+  EXPECT_LT(placement.shift_m.norm(), 1e-15);
+  EXPECT_EQ(placement.blocked_before, 0);
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LT((garment.x[i] - before[i]).norm(), 1e-15);
+}
+
+TEST(Placement, TheShorterOfTwoWaysOutIsTaken) {
+  // Samples from -5 to 5 cm, a slab from -0.5 to 4.5 cm (or its mirror image): 6 cm one way free all of them, 10 the other.
+  for (const double middle : {-0.02, 0.02}) {
+    GarmentMesh garment = mesh_garment(test::tube_pattern(0.2, 0.1, 0.3), 0.02);
+    const BodySurface body = box({0, middle, 0}, {0.2, 0.025, 0.1});
+    const Placement placement = place_garment(garment, body);
+    EXPECT_EQ(placement.blocked_before, 4);
+    EXPECT_EQ(placement.blocked, 0);
+    EXPECT_NEAR(placement.shift_m.y(), middle > 0 ? -0.06 : 0.06, 1e-12);
+    EXPECT_NEAR(placement.shift_m.z(), 0, 1e-12);
+  }
+}
+
+TEST(Placement, SeamsThatStayBehindTheBodyAreNamed) {
+  // A post far taller than any shift, beside the middle, through the right side (+x) only.
+  GarmentMesh garment = mesh_garment(test::tube_pattern(0.2, 0.1, 0.3), 0.02);
+  const BodySurface body = box({0.1, 0, 0}, {0.03, 1, 0.08});
+  const Placement placement = place_garment(garment, body);
+  EXPECT_EQ(placement.blocked_before, 6);
+  EXPECT_EQ(placement.blocked, 6);
+  EXPECT_EQ(placement.blocked_seams, (std::vector<Index>{0}));
+  EXPECT_LT(placement.shift_m.norm(), 1e-15) << "nothing is gained, so nothing is moved";
+}
+
+TEST(Placement, PanelsThatStartInTheBodyAreMovedOut) {
+  // The front panel stands 3 cm deep in a box; two steps forward (4 cm) free it.
+  GarmentMesh garment = mesh_garment(test::tube_pattern(0.1, 0.1, 0.3), 0.02);
+  const BodySurface body = box({0, 0, 0}, {0.3, 1, 0.17});
+  EXPECT_EQ(place_garment(garment, body).panel_crossings, 0) << "wholly inside, nothing crosses";
+  GarmentMesh other = mesh_garment(test::tube_pattern(0.1, 0.1, 0.3), 0.02);
+  const BodySurface corner =
+      box({0.05, 0, 0.15}, {0.02, 1, 0.03});  // a post from z = 12 to 18 cm through the front panel at 15
+  const Placement placement = place_garment(other, corner);
+  EXPECT_EQ(placement.panel_crossings, 0);
+  EXPECT_NEAR(std::abs(placement.shift_m.z()), 0.04, 1e-12);
+}
+
+TEST(Placement, PanelsThatNoShiftFreesAreCounted) {
+  GarmentMesh garment = mesh_garment(test::tube_pattern(0.1, 0.1, 0.3), 0.02);
+  const BodySurface body = box({0.05, 0, 0}, {0.02, 1, 0.5});  // both panels cut it, and no shift in y or z helps
+  const Placement placement = place_garment(garment, body);
+  EXPECT_GT(placement.panel_crossings, 10);
+}
+
+TEST(Placement, ATubeAroundASphereIsRaisedFromBelowItsMiddle) {
+  // The sphere hangs low between the panels: their sides pass beside it (x = 9 cm), the bridge of samples does not cross it once they are
+  // above 6 cm of its centre's height, since 9^2 + 6^2 > 10^2.
+  GarmentMesh garment = mesh_garment(test::tube_pattern(0.18, 0.1, 0.3, {0, 0.085, 0}), 0.01);
+  const BodySurface body = test::sphere({0, 0, 0}, 0.1, 4);
+  const Placement placement = place_garment(garment, body);
+  EXPECT_GT(placement.blocked_before, 0);
+  EXPECT_EQ(placement.blocked, 0);
+  EXPECT_GT(placement.shift_m.y(), 0);
+  EXPECT_LT(placement.shift_m.y(), 0.021);
+}
+
+TEST(Placement, AnOldPatternIsRaisedFromThePelvis) {
+  GarmentMesh garment = mesh_garment(test::tube_pattern(0.1, 0.1, 0.3), 0.02);
+  garment.legacy_frame = true;
+  const Vec3 first = garment.x.front();
+  const BodySurface body = box({0, 0.5, 0}, {0.01, 0.5, 0.01});  // 1 m tall from the floor, between the panels
+  const Placement placement = place_garment(garment, body);
+  EXPECT_LT((placement.shift_m - Vec3(0, 0.68, 0)).norm(), 1e-12);
+  EXPECT_LT((garment.x.front() - first - placement.shift_m).norm(), 1e-12);
+}
+
+TEST(Placement, DoesNotDependOnTheThreads) {
+  const BodySurface body = test::sphere({0.01, 0, 0.02}, 0.1, 4);
+  Vec3s reference;
+  for (const int threads : {1, 2, 5}) {
+    GarmentMesh garment = mesh_garment(test::tube_pattern(0.18, 0.1, 0.3, {0, 0.06, 0}), 0.01);
+    with_threads(threads, [&] { place_garment(garment, body); });
+    if (threads == 1) reference = garment.x;
+    EXPECT_EQ(std::memcmp(reference.data(), garment.x.data(), reference.size() * sizeof(Vec3)), 0) << threads;
+  }
+}
+
+}  // namespace
+}  // namespace toile

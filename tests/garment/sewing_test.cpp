@@ -1,0 +1,205 @@
+// From flat panels to one closed garment: it closes, nothing crosses, and what cannot close is named.
+#include "garment/sewing.hpp"
+
+#include "core/parallel.hpp"
+#include "garments.hpp"
+#include "support/bodies.hpp"
+#include "support/sheets.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace toile {
+namespace {
+
+using test::at;
+
+// An upright capsule: a sphere cut at its equator and drawn apart.
+BodySurface capsule(double radius, double half_length, int levels) {
+  const BodySurface ball = test::sphere({0, 0, 0}, radius, levels);
+  std::vector<Vec3> x(ball.positions().begin(), ball.positions().end());
+  for (Vec3& p : x) p.y() += p.y() > 1e-9 ? half_length : p.y() < -1e-9 ? -half_length : 0;
+  return BodySurface(std::move(x), {ball.triangles().begin(), ball.triangles().end()});
+}
+
+struct SewingRun {
+  SewingRun(const Pattern& pattern, double resolution, BodySurface* body = nullptr, const SewingOptions& options = {})
+      : garment(mesh_garment(pattern, resolution)) {
+    sewing.emplace(garment, std::span<const Fabric>(&fabric, 1), body, StepOptions{}, options);
+  }
+  void run(int most_frames) {
+    for (int f = 0; f < most_frames && sewing->status() == SewingStatus::sewing; ++f) {
+      const FrameReport report = sewing->frame();
+      EXPECT_TRUE(report.ok) << report.diagnosis;
+    }
+  }
+  Fabric fabric;
+  GarmentMesh garment;
+  std::optional<Sewing> sewing;
+};
+
+double widest(const GarmentMesh& garment, const Vec3s& x) {
+  double gap = 0;
+  for (const SeamPair& pair : garment.pairs) gap = std::max(gap, (x[at(pair.a)] - x[at(pair.b)]).norm());
+  return gap;
+}
+
+void expect_closed_without_crossings(const SewingRun& run) {
+  const Sewing& sewing = *run.sewing;
+  ASSERT_EQ(sewing.status(), SewingStatus::closed);
+  EXPECT_LT(widest(run.garment, sewing.state().x), SewingOptions{}.weld_gap_m) << "a simple tube needs no thick corner";
+  EXPECT_NEAR(sewing.widest_gap_m(), widest(run.garment, sewing.state().x), 1e-15);
+  const WeldedMesh welded = weld(run.garment);
+  const ClothState joined = weld_state(run.garment, welded, sewing.model(), sewing.state());
+  EXPECT_EQ(test::crossings_of(joined.x, welded.mesh.triangles), 0);
+}
+
+TEST(Sewing, ATubeInTheAirCloses) {
+  SewingRun run(test::tube_pattern(0.12, 0.12, 0.1), 0.02);
+  run.run(200);
+  expect_closed_without_crossings(run);
+  EXPECT_GT(run.sewing->closed_share(), 0.98);
+  // A closed tube and not a flat bag: nothing pushed it to one side.
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& p : run.sewing->state().x) mean += p / static_cast<double>(run.garment.x.size());
+  EXPECT_LT(mean.norm(), 2e-3) << "no gravity, no outer force";
+}
+
+TEST(Sewing, ATubeAroundACapsuleCloses) {
+  BodySurface body = capsule(0.025, 0.1, 3);
+  SewingRun run(test::tube_pattern(0.12, 0.12, 0.1), 0.02, &body);
+  run.run(200);
+  expect_closed_without_crossings(run);
+  for (const Vec3& p : run.sewing->state().x) {
+    const BodyPoint near = body.nearest(p, 0.05);
+    if (near.triangle >= 0) {
+      EXPECT_GT(near.gap_m, 0.5 * SewingOptions{}.offset_m);
+    }
+  }
+}
+
+TEST(Sewing, PairsCloseNoFasterThanTheWantedDistanceShrinks) {
+  SewingRun run(test::tube_pattern(0.12, 0.12, 0.1), 0.02);
+  const double start = widest(run.garment, run.garment.x);
+  while (run.sewing->status() == SewingStatus::sewing && run.sewing->time_s() < 0.15) {
+    run.sewing->frame();
+    const double wanted = start - SewingOptions{}.closing_speed_m_per_s * run.sewing->time_s();
+    double narrowest = 1;
+    for (const SeamPair& pair : run.garment.pairs) {
+      narrowest = std::min(narrowest, (run.sewing->state().x[at(pair.a)] - run.sewing->state().x[at(pair.b)]).norm());
+    }
+    EXPECT_GT(narrowest, wanted - 0.015) << run.sewing->time_s();
+  }
+}
+
+TEST(Sewing, TheWeldKeepsMassAndMomentumAndTheMeanOfEveryClass) {
+  SewingRun run(test::tube_pattern(0.12, 0.12, 0.1), 0.02);
+  ClothState state = run.sewing->state();
+  test::Random random(3);
+  for (std::size_t i = 0; i < state.x.size(); ++i) {
+    state.x[i] += random.vector(0.01);
+    state.v[i] = random.vector(1);
+  }
+  const WeldedMesh welded = weld(run.garment);
+  const ClothModel& model = run.sewing->model();
+  const ClothModel joined_model = build_model(welded.mesh, {&run.fabric, 1});
+  const ClothState joined = weld_state(run.garment, welded, model, state);
+  Vec3 momentum = Vec3::Zero(), moment = Vec3::Zero(), joined_momentum = Vec3::Zero(), joined_moment = Vec3::Zero();
+  double mass = 0, joined_mass = 0;
+  for (std::size_t i = 0; i < state.x.size(); ++i) {
+    mass += model.mass_kg[i];
+    momentum += model.mass_kg[i] * state.v[i];
+    moment += model.mass_kg[i] * state.x[i];
+  }
+  for (std::size_t p = 0; p < joined.x.size(); ++p) {
+    joined_mass += joined_model.mass_kg[p];
+    joined_momentum += joined_model.mass_kg[p] * joined.v[p];
+    joined_moment += joined_model.mass_kg[p] * joined.x[p];
+  }
+  EXPECT_NEAR(mass / joined_mass, 1, 1e-12);
+  EXPECT_GT(momentum.norm(), 1e-5);
+  EXPECT_LT((momentum - joined_momentum).norm(), 1e-12 * mass * 100);
+  EXPECT_LT((moment - joined_moment).norm(), 1e-12 * mass * 100);
+  for (std::size_t i = 0; i < state.x.size(); ++i) {  // what is not sewn is untouched
+    if (std::count(run.garment.merged.begin(), run.garment.merged.end(), run.garment.merged[i]) > 1) continue;
+    EXPECT_LT((joined.x[at(welded.particle_of[i])] - state.x[i]).norm(), 1e-15);
+  }
+}
+
+TEST(Sewing, TheWeldKeepsTheThinnestLayerAndNothingThickerThanTheFabric) {
+  SewingRun run(test::tube_pattern(0.12, 0.12, 0.1), 0.02);
+  const WeldedMesh welded = weld(run.garment);
+  std::vector<double> scale(run.garment.x.size(), 1.6);
+  const SeamPair& pair = run.garment.pairs.front();
+  scale[at(pair.b)] = 0.3;
+  const std::vector<double> joined = weld_thickness(welded, scale);
+  ASSERT_EQ(joined.size(), at(welded.mesh.particle_count));
+  for (std::size_t p = 0; p < joined.size(); ++p)
+    EXPECT_EQ(joined[p], p == at(welded.particle_of[at(pair.a)]) ? 0.3 : 1.0);
+}
+
+TEST(Sewing, ATubeTooSmallForTheBodyIsBlockedAndItsSeamsAreStretched) {
+  BodySurface body = capsule(0.05, 0.1, 3);  // 34 cm around with the offset; the tube has 20
+  SewingOptions options;
+  options.patience_s = 0.1;
+  SewingRun run(test::tube_pattern(0.10, 0.08, 0.14), 0.02, &body, options);
+  run.run(300);
+  {
+    double lo = 1, mx = 0;
+    for (const Vec3& p : run.sewing->state().x) {
+      auto n = body.nearest(p, 0.2);
+      lo = std::min(lo, n.gap_m);
+      mx = std::max(mx, n.gap_m);
+    }
+    printf("DBG %g lo %g hi %g t %g\n", run.sewing->widest_gap_m(), lo, mx, run.sewing->time_s());
+    for (auto& g : run.sewing->gaps())
+      printf("DBG seam %d gap %g stretch %g at %g %g %g\n", g.seam, g.gap_m, g.stretch, g.where.x(), g.where.y(),
+             g.where.z());
+  }
+  ASSERT_EQ(run.sewing->status(), SewingStatus::blocked);
+  const std::vector<SeamGap> gaps = run.sewing->gaps();
+  ASSERT_EQ(gaps.size(), 2U);
+  EXPECT_GE(gaps[0].gap_m, gaps[1].gap_m);
+  EXPECT_NE(gaps[0].seam, gaps[1].seam);
+  EXPECT_NEAR(gaps[0].gap_m, run.sewing->widest_gap_m(), 1e-15);
+  for (const SeamGap& gap : gaps) {
+    EXPECT_GT(gap.gap_m, 5e-3);
+    EXPECT_GT(gap.stretch, 0.05) << run.garment.seams[at(gap.seam)].name;
+    EXPECT_EQ(gap.where.x() > 0, gap.seam == 0) << "each is named where it is";
+  }
+  const Vec3s before = run.sewing->state().x;  // once ended, it stays as it is
+  run.sewing->frame();
+  EXPECT_EQ(std::memcmp(before.data(), run.sewing->state().x.data(), before.size() * sizeof(Vec3)), 0);
+}
+
+TEST(Sewing, AGarmentWithoutSeamsIsClosedAtOnce) {
+  Pattern pattern = test::tube_pattern(0.1, 0.1, 0.1);
+  pattern.stitches.clear();
+  const SewingRun run(pattern, 0.02);
+  EXPECT_EQ(run.sewing->status(), SewingStatus::closed);
+  EXPECT_EQ(run.sewing->closed_share(), 1);
+  EXPECT_TRUE(run.sewing->gaps().empty());
+}
+
+TEST(Sewing, GivesTheSameBitsOnAnyNumberOfThreads) {
+  Vec3s reference;
+  for (const int threads : {1, 2, 5}) {
+    Vec3s x;
+    with_threads(threads, [&] {
+      BodySurface body = capsule(0.03, 0.1, 3);
+      SewingRun run(test::tube_pattern(0.12, 0.12, 0.1), 0.015, &body);
+      run.run(20);
+      x = run.sewing->state().x;
+    });
+    if (threads == 1) {
+      reference = x;
+    } else {
+      EXPECT_EQ(std::memcmp(reference.data(), x.data(), x.size() * sizeof(Vec3)), 0) << threads;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace toile

@@ -1,0 +1,308 @@
+// Layers of cloth in contact: the gap, the momentum, the stiffness, and who passed through whom.
+#include "step/contact_rows.hpp"
+
+#include "support/run_cloth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+namespace toile {
+namespace {
+
+using test::ClothRun;
+using test::Sheet;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// Two horizontal sheets as one mesh: the lower at y = 0, the upper `gap_m` above it and a quarter of an edge aside, so that its vertices
+// lie over faces.  The first half of the particles is the lower sheet.
+Sheet two_sheets(double size_m, double edge_m, double gap_m) {
+  Sheet both = test::equilateral_sheet(size_m, size_m, edge_m);
+  const Sheet one = both;
+  const Index count = one.mesh.particle_count;
+  both.mesh.particle_count = 2 * count;
+  both.mesh.panel_names = {"lower", "upper"};
+  for (const Vec3& p : one.x) both.x.push_back(p + Vec3(0.25 * edge_m, gap_m, 0.15 * edge_m));
+  for (std::size_t t = 0; t < one.mesh.triangles.size(); ++t) {
+    Triangle c = one.mesh.triangles[t];
+    for (Index& i : c) i += count;
+    both.mesh.triangles.push_back(c);
+    both.mesh.uv.push_back(one.mesh.uv[t]);
+    both.mesh.panel.push_back(1);
+  }
+  return both;
+}
+
+Vec3 momentum(const ClothModel& model, const Vec3s& v) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < v.size(); ++i) sum += model.mass_kg[i] * v[i];
+  return sum;
+}
+
+double mean_height(const Vec3s& x, bool upper) {
+  const std::size_t half = x.size() / 2;
+  double sum = 0;
+  for (std::size_t i = 0; i < half; ++i) sum += x[upper ? half + i : i].y();
+  return sum / static_cast<double>(half);
+}
+
+Fabric frictionless() {
+  Fabric fabric;
+  fabric.friction = 0;
+  return fabric;
+}
+
+ModelOptions weightless() {
+  ModelOptions options;
+  options.gravity_m_per_s2.setZero();
+  return options;
+}
+
+// Rest on a lower sheet whose particles are all held, under the given weight.  Those of the upper move up and down only: without friction
+// it would slide off.
+double resting_gap(double edge_m, double gravity) {
+  ModelOptions options;
+  options.gravity_m_per_s2 = Vec3(0, -gravity, 0);
+  ClothRun run(two_sheets(0.12, edge_m, 2.4e-3), frictionless(), options);
+  const Index half = run.model.particle_count() / 2;
+  for (Index i = 0; i < half; ++i) run.pin(i);
+  for (Index i = half; i < 2 * half; ++i) {
+    Pin rail;
+    rail.particle = i;
+    rail.held_directions = 2;
+    rail.p = Vec3::UnitX();
+    rail.q = Vec3::UnitZ();
+    run.world.pins.push_back(rail);
+  }
+  run.run(60);
+  EXPECT_LT(run.fastest(), 5e-3);
+  return mean_height(run.state.x, true) - mean_height(run.state.x, false);
+}
+
+// The rows themselves, one step at a time, with no solver between: the cloth moves as the test says.
+struct Rows {
+  Rows(const Sheet& sheet, const Fabric& fabric, const ContactRowOptions& options = {})
+      : model(build_model(sheet.mesh, {&fabric, 1}, weightless())), rows(model, nullptr, {}, 2.5e-3, 0, options) {
+    state.x = sheet.x;
+    still();
+    diagonal.resize(sheet.x.size());
+    for (std::size_t i = 0; i < diagonal.size(); ++i) diagonal[i] = model.mass_kg[i] * Mat3::Identity();
+  }
+  void still() { state.v.assign(state.x.size(), Vec3::Zero()); }
+  void raise_upper(double by) {
+    for (std::size_t i = state.x.size() / 2; i < state.x.size(); ++i) state.x[i].y() += by;
+  }
+  // One accepted step in which nothing moves.
+  std::vector<LinearSpring> step(double h, double base_h) {
+    const Vec3s dv(state.x.size(), Vec3::Zero());
+    rows.detect(state, h);
+    rows.begin(state, dv, h, base_h, diagonal);
+    rows.update(state, dv, dv, h, true);
+    std::vector<LinearSpring> springs;
+    rows.append_springs(state, h, springs);
+    rows.accept(state);
+    return springs;
+  }
+  ClothModel model;
+  ContactRows rows;
+  ClothState state;
+  std::vector<Mat3> diagonal;
+};
+
+std::map<std::array<Index, 4>, double> stiffness_of(const std::vector<LinearSpring>& springs) {
+  std::map<std::array<Index, 4>, double> stiffness;
+  for (const LinearSpring& spring : springs) {
+    if (spring.stiffness_N_per_m > 0) stiffness[spring.particle] = spring.stiffness_N_per_m;
+  }
+  return stiffness;
+}
+
+TEST(ContactRows, AnUpperSheetRestsOnALowerOneBetweenHalfAndAllOfTheThickness) {
+  const double r = Fabric{}.thickness_m;
+  for (const double gravity : {9.81, 49.0}) {  // its own weight, and five layers'
+    const double gap = resting_gap(0.02, gravity);
+    EXPECT_GT(gap, 0.5 * r) << gravity;
+    EXPECT_LT(gap, r) << gravity;
+  }
+}
+
+TEST(ContactRows, TheRestingGapDoesNotDependOnTheMesh) {
+  const double coarse = resting_gap(0.02, 9.81), fine = resting_gap(0.01, 9.81);
+  EXPECT_NEAR(fine / coarse, 1, 0.2);
+}
+
+TEST(ContactRows, TwoSheetsThatMeetKeepTheirMomentum) {
+  ClothRun run(two_sheets(0.12, 0.02, 5e-3), Fabric{}, weightless());
+  for (std::size_t i = run.state.v.size() / 2; i < run.state.v.size(); ++i) run.state.v[i] = Vec3(0.01, -0.1, 0.005);
+  const Vec3 before = momentum(run.model, run.state.v);
+  double lowest = 1;
+  for (int f = 0; f < 10; ++f) {
+    run.frame();
+    lowest = std::min(lowest, mean_height(run.state.x, true) - mean_height(run.state.x, false));
+    EXPECT_LT((momentum(run.model, run.state.v) - before).norm(), 1e-3 * before.norm()) << f;
+  }
+  EXPECT_GT(lowest, 0) << "the upper one stays above";
+  EXPECT_LT(lowest, 3e-3);
+  // They met: the lower one, at rest before, now moves down too.
+  Vec3 lower = Vec3::Zero();
+  for (std::size_t i = 0; i < run.state.v.size() / 2; ++i)
+    lower += run.state.v[i] / static_cast<double>(run.state.v.size() / 2);
+  EXPECT_LT(lower.y(), -0.02);
+}
+
+TEST(ContactRows, AMeetingGivesNoEnergy) {
+  ClothRun run(two_sheets(0.12, 0.02, 5e-3), Fabric{}, weightless());
+  double before = 0;
+  for (std::size_t i = 0; i < run.state.v.size(); ++i) {
+    if (i >= run.state.v.size() / 2) run.state.v[i] = Vec3(0, -0.1, 0);
+    before += 0.5 * run.model.mass_kg[i] * run.state.v[i].squaredNorm();
+  }
+  run.run(10);
+  double after = 0;
+  for (std::size_t i = 0; i < run.state.v.size(); ++i)
+    after += 0.5 * run.model.mass_kg[i] * run.state.v[i].squaredNorm();
+  EXPECT_LT(after, before);
+}
+
+TEST(ContactRows, AStackThatFallsFreelyFeelsNoContact) {
+  ClothRun run(two_sheets(0.12, 0.02, 3e-3), Fabric{});
+  run.start();
+  const double before = mean_height(run.state.x, true) - mean_height(run.state.x, false);
+  for (int f = 0; f < 15; ++f) {
+    run.frame();
+    EXPECT_EQ(run.stepper->integrator().contact_rows().active(), 0) << f;
+  }
+  EXPECT_GT(run.stepper->integrator().contact_rows().candidates(), 0U) << "near, and yet not touching";
+  EXPECT_NEAR(mean_height(run.state.x, true) - mean_height(run.state.x, false), before, 1e-6);
+  for (const Vec3& v : run.state.v) EXPECT_NEAR(v.y(), -9.81 * run.time_s, 1e-3);
+}
+
+TEST(ContactRows, EveryRowConservesMomentumAndPushesAlongAUnitNormal) {
+  Rows rows(two_sheets(0.12, 0.02, 1.5e-3), Fabric{});
+  const auto springs = rows.step(1.0 / 60, 1.0 / 60);
+  ASSERT_GT(springs.size(), 20U);
+  for (const LinearSpring& spring : springs) {
+    double sum = 0;
+    for (const double w : spring.weight) sum += w;
+    EXPECT_NEAR(sum, 0, 1e-12);
+    EXPECT_NEAR(spring.direction.norm(), 1, 1e-12);
+    EXPECT_GT(spring.force_N, 0);
+    EXPECT_NEAR(spring.force_N, spring.stiffness_N_per_m * 1e-3, 0.05 * spring.force_N)
+        << "k (r - g), r = 2.5 mm, g = 1.5 mm";
+  }
+}
+
+TEST(ContactRows, TheStiffnessIsThatOfTheMassInOneFrame) {
+  // Without elasticity k = m_eff / h^2 of the frame's step, whatever part of it is tried.
+  const double h = 1.0 / 60;
+  Rows whole(two_sheets(0.12, 0.02, 1.5e-3), Fabric{}), half(two_sheets(0.12, 0.02, 1.5e-3), Fabric{});
+  const auto a = whole.step(h, h), b = half.step(h / 2, h);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    double inverse = 0;
+    for (std::size_t j = 0; j < 4; ++j) {
+      if (a[k].particle[j] >= 0) inverse += a[k].weight[j] * a[k].weight[j] / whole.model.mass_kg[at(a[k].particle[j])];
+    }
+    EXPECT_NEAR(a[k].stiffness_N_per_m * inverse * h * h, 1, 1e-9);
+    EXPECT_NEAR(a[k].stiffness_N_per_m / b[k].stiffness_N_per_m, 1, 1e-9);
+  }
+}
+
+TEST(ContactRows, TheStiffnessNeverShrinksWhileTheContactLives) {
+  Rows rows(two_sheets(0.12, 0.02, 2.2e-3), frictionless());
+  auto last = stiffness_of(rows.step(1.0 / 60, 1.0 / 60));
+  ASSERT_GT(last.size(), 20U);
+  const auto first = last;
+  int grown = 0;
+  for (const double raise : {-1.0e-3, -0.5e-3, 0.0, 0.5e-3, 1.0e-3, 0.1e-3}) {  // pressed, held, and let up again
+    rows.raise_upper(raise);
+    const auto now = stiffness_of(rows.step(1.0 / 60, raise > 0 ? 1.0 / 30 : 1.0 / 60));
+    int common = 0;
+    for (const auto& [particles, k] : now) {
+      const auto found = last.find(particles);
+      if (found == last.end()) continue;
+      ++common;
+      EXPECT_GE(k, found->second * (1 - 1e-12)) << raise;
+      grown += k > 1.01 * found->second ? 1 : 0;
+    }
+    EXPECT_GT(common, 20) << raise;
+    last = now;
+  }
+  EXPECT_GT(grown, 20) << "a load of more than a tenth of r stiffens it";
+  // A contact that ended and comes again starts as the first one did.
+  rows.raise_upper(5e-3);
+  EXPECT_TRUE(rows.step(1.0 / 60, 1.0 / 60).empty());
+  rows.raise_upper(-5.1e-3);
+  for (const auto& [particles, k] : stiffness_of(rows.step(1.0 / 60, 1.0 / 60))) {
+    const auto found = first.find(particles);
+    if (found != first.end()) {
+      EXPECT_NEAR(k / found->second, 1, 0.01);
+    }
+  }
+}
+
+TEST(ContactRows, AThicknessScaleThinsTheLayersItNames) {
+  Rows rows(two_sheets(0.12, 0.02, 1.5e-3), frictionless());
+  rows.rows.set_thickness_scale(std::vector<double>(rows.state.x.size(), 0.5));  // r = 1.25 mm: not touching
+  EXPECT_TRUE(rows.step(1.0 / 60, 1.0 / 60).empty());
+  rows.rows.set_thickness_scale({});
+  EXPECT_FALSE(rows.step(1.0 / 60, 1.0 / 60).empty());
+}
+
+TEST(ContactRows, AFineMeshIsThinnerThanItsEdgesSoThatNeighboursDoNotRepel) {
+  Rows rows(test::equilateral_sheet(0.03, 0.03, 2e-3), Fabric{});  // edges of 2 mm, thickness 2.5 mm
+  EXPECT_TRUE(rows.step(1.0 / 60, 1.0 / 60).empty());
+}
+
+TEST(ContactRows, CountsAVertexThatChangedSidesAndNotOneThatStayed) {
+  // A large triangle at y = 0 and a small one, standing on its tip 1 mm above the large one's middle.
+  Sheet sheet;
+  sheet.x = {{0, 0, 0}, {0.1, 0, 0}, {0, 0, -0.1}, {0.025, 1e-3, -0.025}, {0.035, 0.05, -0.025}, {0.015, 0.05, -0.025}};
+  sheet.mesh.particle_count = 6;
+  sheet.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  sheet.mesh.uv = {{Vec2(0, 0), Vec2(0.1, 0), Vec2(0, 0.1)}, {Vec2(0, 0), Vec2(0.01, 0.05), Vec2(-0.01, 0.05)}};
+  sheet.mesh.panel = {0, 0};
+  sheet.mesh.panel_names = {"cloth"};
+  Rows rows(sheet, Fabric{});
+  rows.rows.detect(rows.state, 1.0 / 60);
+  ASSERT_GT(rows.rows.candidates(), 0U);
+  const Vec3s start = rows.state.x;
+  EXPECT_EQ(rows.rows.passed_through(start, start), 0);
+  Vec3s end = start;
+  end[3] = Vec3(0.03, 2e-4, -0.03);  // along, still above
+  EXPECT_EQ(rows.rows.passed_through(start, end), 0);
+  end[3] = Vec3(0.025, -1e-3, -0.025);  // through the face
+  EXPECT_EQ(rows.rows.passed_through(start, end), 1);
+  end[3] = Vec3(0.025, -1e-3, 0.004);  // below its plane, but round the edge
+  EXPECT_EQ(rows.rows.passed_through(start, end), 0);
+  end = start;
+  for (Vec3& p : end) p.y() -= 0.02;  // both move alike
+  EXPECT_EQ(rows.rows.passed_through(start, end), 0);
+}
+
+TEST(ContactRows, CountsTwoEdgesThatPassedThroughEachOther) {
+  // Two upright triangles whose free edges cross 1 mm apart, the upper hanging down, the lower standing up.
+  Sheet sheet;
+  sheet.x = {{-0.02, 0, 0}, {0.02, 0, 0}, {0, -0.03, 0}, {0, 1e-3, -0.02}, {0, 1e-3, 0.02}, {0, 0.031, 0}};
+  sheet.mesh.particle_count = 6;
+  sheet.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  sheet.mesh.uv = {{Vec2(0, 0), Vec2(0.04, 0), Vec2(0.02, 0.03)}, {Vec2(0, 0), Vec2(0.04, 0), Vec2(0.02, 0.03)}};
+  sheet.mesh.panel = {0, 0};
+  sheet.mesh.panel_names = {"cloth"};
+  Rows rows(sheet, Fabric{});
+  rows.rows.detect(rows.state, 1.0 / 60);
+  ASSERT_GT(rows.rows.candidates(), 0U);
+  Vec3s end = rows.state.x;
+  for (const std::size_t i : {3U, 4U, 5U}) end[i].y() -= 5e-4;
+  EXPECT_EQ(rows.rows.passed_through(rows.state.x, end), 0);
+  for (const std::size_t i : {3U, 4U, 5U}) end[i].y() -= 1e-3;
+  EXPECT_EQ(rows.rows.passed_through(rows.state.x, end), 1);
+  for (const std::size_t i : {3U, 4U, 5U}) end[i].x() += 0.05;  // below, but beside
+  EXPECT_EQ(rows.rows.passed_through(rows.state.x, end), 0);
+}
+
+}  // namespace
+}  // namespace toile
