@@ -217,7 +217,8 @@ TEST(ContactRows, TheStiffnessNeverShrinksWhileTheContactLives) {
   ASSERT_GT(last.size(), 20U);
   const auto first = last;
   int grown = 0;
-  for (const double raise : {-1.0e-3, -0.5e-3, 0.0, 0.5e-3, 1.0e-3, 0.1e-3}) {  // pressed, held, and let up again
+  for (const double raise :
+       {-1.0e-3, -0.5e-3, 0.0, 0.5e-3, 1.0e-3, 0.1e-3, 0.1e-3, 0.05e-3}) {  // pressed, held, and let up again
     rows.raise_upper(raise);
     const auto now = stiffness_of(rows.step(1.0 / 60, raise > 0 ? 1.0 / 30 : 1.0 / 60));
     int common = 0;
@@ -235,7 +236,7 @@ TEST(ContactRows, TheStiffnessNeverShrinksWhileTheContactLives) {
   // A contact that ended and comes again starts as the first one did.
   rows.raise_upper(5e-3);
   EXPECT_TRUE(rows.step(1.0 / 60, 1.0 / 60).empty());
-  rows.raise_upper(-5.1e-3);
+  rows.raise_upper(-5.25e-3);
   for (const auto& [particles, k] : stiffness_of(rows.step(1.0 / 60, 1.0 / 60))) {
     const auto found = first.find(particles);
     if (found != first.end()) {
@@ -253,8 +254,10 @@ TEST(ContactRows, AThicknessScaleThinsTheLayersItNames) {
 }
 
 TEST(ContactRows, AFineMeshIsThinnerThanItsEdgesSoThatNeighboursDoNotRepel) {
-  Rows rows(test::equilateral_sheet(0.03, 0.03, 2e-3), Fabric{});  // edges of 2 mm, thickness 2.5 mm
-  EXPECT_TRUE(rows.step(1.0 / 60, 1.0 / 60).empty());
+  // Edges of 2 mm, thickness 2.5 mm: layers meet at 0.45 of the shortest edge.
+  Rows apart(two_sheets(0.03, 2e-3, 1.5e-3), Fabric{}), near(two_sheets(0.03, 2e-3, 0.6e-3), Fabric{});
+  EXPECT_TRUE(apart.step(1.0 / 60, 1.0 / 60).empty());
+  EXPECT_FALSE(near.step(1.0 / 60, 1.0 / 60).empty());
 }
 
 TEST(ContactRows, CountsAVertexThatChangedSidesAndNotOneThatStayed) {
