@@ -184,6 +184,15 @@ TEST(GarmentMesh, ATwistedSeamIsRefusedByName) {
   EXPECT_EQ(message.find("front.1 - back.3"), std::string::npos) << message;
 }
 
+TEST(GarmentMesh, ATwistThatLeavesTwoSidesIsRefusedByWhereThePanelsArePlaced) {
+  // Both seams the other way round: following them finds no contradiction, but their ends lie at the opposite ends.
+  Pattern pattern = test::tube_pattern(0.2, 0.3, 0.02);
+  for (Stitch& stitch : pattern.stitches) stitch.right_wrong = true;
+  const std::string message = complaint(pattern);
+  EXPECT_NE(message.find("front.1 - back.3"), std::string::npos) << message;
+  EXPECT_NE(message.find("opposite ends"), std::string::npos) << message;
+}
+
 TEST(GarmentMesh, AOneSidedSurfaceIsRefusedByNameWhereThePlacementSaysNothing) {
   // Far apart, the ends of the twisted seam are nearly as far from each other either way: only following the seams round tells.
   Pattern pattern = test::tube_pattern(0.2, 0.3, 1.0);

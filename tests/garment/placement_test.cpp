@@ -93,6 +93,13 @@ TEST(Placement, SeamsThatStayBehindTheBodyAreNamed) {
   EXPECT_LT(placement.shift_m.norm(), 1e-15) << "nothing is gained, so nothing is moved";
 }
 
+TEST(Placement, ALineThatEndsBeforeASlantedFaceIsNotBlocked) {
+  // An octahedron, |x| + |y| + |z| <= 10 cm: at the sides of the panels (x = 3, y up to 3 cm) its faces are at z <= 7 cm, the lines end at 8.
+  GarmentMesh garment = mesh_garment(test::tube_pattern(0.06, 0.06, 0.1, {0, 0, 0.13}), 0.02);
+  const BodySurface body = test::sphere({0, 0, 0}, 0.1, 0);
+  EXPECT_EQ(place_garment(garment, body).blocked_before, 0);
+}
+
 TEST(Placement, PanelsThatStartInTheBodyAreMovedOut) {
   // A post from z = 12 to 18 cm through the middle of the front panel at 15, away from the seams: none of them is blocked, and yet the garment
   // has to move two steps.
