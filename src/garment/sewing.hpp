@@ -63,7 +63,7 @@ class Sewing {
   std::vector<SeamGap> gaps() const;
   double widest_gap_m() const;
   const ImplicitEuler& integrator() const { return stepper_->integrator(); }
-  const PhaseSeconds& seconds() const { return stepper_->integrator().seconds(); }
+  PhaseSeconds seconds() const { return stepper_->integrator().seconds(); }
 
  private:
   void append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const;

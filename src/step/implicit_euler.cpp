@@ -239,9 +239,11 @@ void ImplicitEuler::accept(const ClothState& candidate) {
   rows_.accept(candidate);
 }
 
-const PhaseSeconds& ImplicitEuler::seconds() const {
-  seconds_.cloth_cloth = rows_.cloth_seconds;
-  return seconds_;
+PhaseSeconds ImplicitEuler::seconds() const {
+  PhaseSeconds total = seconds_;
+  total.cloth_cloth += rows_.cloth_seconds;
+  total.cloth_solid += rows_.body_seconds;
+  return total;
 }
 
 }  // namespace toile

@@ -89,7 +89,7 @@ class ImplicitEuler {
   BodyConstraints& body_constraints() { return body_; }
   ContactRows& contact_rows() { return rows_; }
   std::span<const Vec3> constraint_impulse() const { return e_; }  // e = A dv - b of the last pass, N s
-  const PhaseSeconds& seconds() const;
+  PhaseSeconds seconds() const;
   // f + h K terms of the last assembled system, for tests.
   const BlockMatrix<float>& A() const { return A_; }
   const StepOptions& options() const { return options_; }
@@ -115,7 +115,7 @@ class ImplicitEuler {
   std::vector<Mat3> diagonal_;
   std::vector<Vec2> stretch_, stretch_candidate_;
   double base_h_s_ = 0, h_last_s_ = 0;
-  mutable PhaseSeconds seconds_;
+  PhaseSeconds seconds_;
 };
 
 }  // namespace toile
