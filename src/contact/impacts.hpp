@@ -1,0 +1,47 @@
+// contact/impacts.hpp: which features of the cloth would pass through each other on a straight motion.       (L0 and L3)
+//
+//   x(t) = start + t (end - start),  0 <= t <= 1
+//   xi   = min(0.1 r, 0.5 d_0)         separation that a pair keeps: r its contact distance, d_0 its distance at the start
+//
+// Every vertex-face and edge-edge pair that does not touch (share a merged particle) and whose swept boxes meet is
+// decided by additive CCD (contact/ccd.hpp); most are settled by one distance, because their relative motion is
+// shorter than it.
+//
+// Easily got wrong: a pair that already intersects has a distance like any other, and would be kept on its wrong side
+// for good.  The caller names the particles to be left alone by r = 0.
+#pragma once
+#include "contact/proximity.hpp"
+
+#include <span>
+#include <vector>
+
+namespace toile {
+
+struct Impact {
+  ContactKind kind;               // vertex_face: (vertex, corners);  edge_edge: (ends, ends)
+  std::array<Index, 4> particle;  // of one cloth
+  std::array<double, 4> weight;   // of the closest points at the impact; sums to 0
+  Vec3 normal;                    // unit, there, from the second feature to the first
+  double time;                    // 0 ... 1
+  double start_gap_m, contact_m;  // d_0 and r
+  double separation_m;            // xi
+};
+
+// Memory that a caller keeps between queries.
+struct ImpactWorkspace {
+  TriangleTree tree;
+  std::vector<TreeTask> tasks;
+  std::vector<std::vector<Impact>> found;  // by task
+  std::vector<Vec3> displacement_m;
+};
+
+// All impacts, in an order that depends on the input only.  `contact_m` is r per particle, a pair takes the least of
+// its four; 0 exempts.  Of `tree` only the hierarchy is used.
+void find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+                  std::span<const Vec3> end, std::span<const double> contact_m, ImpactWorkspace& workspace,
+                  std::vector<Impact>& impacts);
+
+// When does this pair meet on another motion?  As Impact::time, or no_impact.
+double impact_time(const Impact& pair, std::span<const Vec3> start, std::span<const Vec3> end);
+
+}  // namespace toile
