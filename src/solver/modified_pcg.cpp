@@ -5,6 +5,13 @@
 #include <cstdio>
 
 namespace toile {
+namespace {
+
+// Of |b'|: what the rounding of A' leaves reachable.
+template <class T>
+constexpr double rounding_floor = sizeof(T) == sizeof(float) ? 1e-5 : 1e-13;
+
+}  // namespace
 
 std::string_view to_string(Preconditioner preconditioner) {
   switch (preconditioner) {
@@ -134,6 +141,7 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
   PcgReport report;
   report.target = std::max(std::min(options.tolerance * scale, 0.02 * gravity), 0.1 * options.tolerance * gravity);
   if (gravity == 0) report.target = options.tolerance * scale;
+  report.target = std::max(report.target, rounding_floor<T> * scale);
 
   // dv_0 = z + S w_0
   for (std::size_t i = 0; i < n; ++i) {

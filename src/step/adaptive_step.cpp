@@ -21,11 +21,15 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
   const double tick_s = base_s / static_cast<double>(ticks_per_base);
 
   for (long now = 0; now < ticks;) {
+    if (options_.stop && options_.stop()) {
+      report.interrupted = true;
+      return report;
+    }
     integrator_.prepare(state, base_s);
     while (true) {
       const long step_ticks = ticks_per_base >> halvings_;
       const double h = base_s / static_cast<double>(1L << halvings_);
-      StepLimits limits{options_.stretch_limit, halvings_ < options_.passing_floor};
+      StepLimits limits{options_.stretch_limit, halvings_ >= options_.truncation_floor};
       if (halvings_ >= options_.stretch_floor) limits.stretch = std::numeric_limits<double>::infinity();
       report.last = integrator_.attempt(state, t_s + static_cast<double>(now) * tick_s, h, limits, candidate_);
       report.passes += report.last.passes;
@@ -35,6 +39,8 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
         std::swap(state, candidate_);
         now += step_ticks;
         ++report.steps;
+        report.corrected += report.last.filter.corrected;
+        report.truncated += report.last.filter.truncated;
         report.step_min_s = report.steps == 1 ? h : std::min(report.step_min_s, h);
         report.step_max_s = std::max(report.step_max_s, h);
         report.cg_max = std::max(report.cg_max, report.last.cg_iterations);

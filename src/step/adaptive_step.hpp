@@ -1,7 +1,7 @@
 // step/adaptive_step.hpp: how long a step may be, from what it does to the threads.                               [BW98 7]
 //
 //   accept   while no |w_u| or |w_v| changes by more than `stretch_limit` in the step and the solve converged
-//            and no pair of cloth in contact has changed sides
+//            and the safe filter could keep cloth apart from cloth
 //   reject   otherwise: h <- h / 2, the state is untouched and no element is evaluated again
 //   grow     after two accepted steps try 2 h, up to h_max; after a failed increase wait 2, 4, 8 ... 40 accepted steps
 //
@@ -10,6 +10,7 @@
 #pragma once
 #include "step/implicit_euler.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,16 +21,20 @@ struct AdaptiveOptions {
   double stretch_limit = 0.05;  // change of |w| per step
   int most_halvings = 10;       // frame / 1024: then the run has collapsed
   int stretch_floor = 11;       // from this many halvings on the stretch is no longer judged (sewing sets it lower)
-  int passing_floor =
-      6;  // likewise for pairs that change sides: what a shorter step cannot hold is the safe filter's business
+  std::function<bool()> stop;   // asked before every step; true ends the frame early
+  int truncation_floor =
+      4;  // from this many halvings on impacts that are left cut the motion short (step/safe_filter.hpp)
 };
 
 struct FrameReport {
   bool ok = true;
+  bool interrupted = false;  // by `stop`: the state is somewhere within the frame
   int steps = 0, rejected = 0;
   double step_min_s = 0, step_max_s = 0;
   int cg_iterations = 0, cg_max = 0;  // summed over steps; the largest of one step
   int passes = 0;
+  int corrected = 0,
+      truncated = 0;      // particles moved by the safe filter, and of them those in zones cut short; summed over steps
   StepReport last;        // of the last attempt: when !ok, why
   std::string diagnosis;  // when !ok: which triangles and particles, in words
 };

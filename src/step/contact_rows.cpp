@@ -14,7 +14,9 @@ namespace {
 constexpr double rest_share = 0.45;     // of the shortest rest edge: pairs that are neighbours at rest do not repel
 constexpr double stiffness_factor = 1;  // c
 constexpr double load_share = 0.1;      // of r: how far the load of the last step may press the spring
-constexpr double slowest_slip = 1e-3;   // m/s
+constexpr double most_growth =
+    10;  // a hit in a short step is a huge load for a moment, and would leave a stiffness that no solver likes
+constexpr double slowest_slip = 1e-3;  // m/s
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -38,6 +40,11 @@ ContactRows::ContactRows(const ClothModel& model, const BodySurface* body, std::
     }
   }
   for (std::size_t i = 0; i < reach_m_.size(); ++i) reach_m_[i] = std::min(reach_m_[i], rest_share * shortest[i]);
+  contact_m_ = reach_m_;
+}
+
+void ContactRows::set_thickness_scale(std::span<const double> scale) {
+  for (std::size_t i = 0; i < reach_m_.size(); ++i) contact_m_[i] = (scale.empty() ? 1 : scale[i]) * reach_m_[i];
 }
 
 Vec3 ContactRows::relative_velocity(const Pair& pair, const Vec3s& v, double h_s) const {
@@ -54,8 +61,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
   if (tree_.triangle_count() == 0) tree_ = TriangleTree(state.x, model_->mesh.triangles);
   // How far ahead pairs are watched does not shrink with a thinned r: how fast they close has nothing to do with it.
   double thickest = 0;
-  for (std::size_t i = 0; i < reach_m_.size(); ++i)
-    thickest = std::max(thickest, std::max(1.0, thickness_scale(i)) * reach_m_[i]);
+  for (std::size_t i = 0; i < reach_m_.size(); ++i) thickest = std::max({thickest, reach_m_[i], contact_m_[i]});
   const double r_max = std::max(options_.cloth_cloth ? thickest : 0, body_ ? body_r_m_ : 0);
   const double range = (1 + options_.look_ahead) * r_max;
 
@@ -68,7 +74,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
         if (contact.particle[k] < 0) continue;
         const std::size_t i = at(contact.particle[k]);
         full = std::min(full, reach_m_[i]);
-        r = std::min(r, thickness_scale(i) * reach_m_[i]);
+        r = std::min(r, contact_m_[i]);
         friction = std::max(friction, model_->friction[at(contact.particle[k])]);
       }
       if (r <= 0) continue;  // contact is switched off here
@@ -142,8 +148,8 @@ void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, doubl
     if (lived) {
       pair.lambda_N = memory->lambda_N;
       pair.slip_m_per_s = memory->slip_m_per_s;
-      spring.stiffness_N_per_m =
-          std::max({spring.stiffness_N_per_m, memory->stiffness, memory->lambda_N / (load_share * pair.r_m)});
+      const double load = std::min(memory->lambda_N / (load_share * pair.r_m), most_growth * spring.stiffness_N_per_m);
+      spring.stiffness_N_per_m = std::max({spring.stiffness_N_per_m, memory->stiffness, load});
     }
     spring.damping_N_s_per_m = options_.damping_s * spring.stiffness_N_per_m;
     spring.force_N = spring.stiffness_N_per_m * (pair.r_m - pair.gap_m);
@@ -200,27 +206,6 @@ void ContactRows::accept(const ClothState& end_state) {
                        pair.spring.stiffness_N_per_m * std::max(0.0, pair.r_m - pair.predicted_m),
                        velocity - n.dot(velocity) * n});
   }
-}
-
-int ContactRows::passed_through(const Vec3s& start, const Vec3s& end) const {
-  // Six times the volume of the tetrahedron of the four particles: its sign tells the sides of a vertex and a face, or of two edges.
-  const auto side = [](const Vec3s& x, const std::array<Index, 4>& p) {
-    return (x[at(p[1])] - x[at(p[0])]).cross(x[at(p[2])] - x[at(p[0])]).dot(x[at(p[3])] - x[at(p[0])]);
-  };
-  int count = 0;
-  for (const Pair& pair : pairs_) {
-    if (pair.key.body || (pair.key.kind != ContactKind::vertex_face && pair.key.kind != ContactKind::edge_edge))
-      continue;
-    const std::array<Index, 4>& p = pair.spring.particle;
-    if ((side(start, p) > 0) == (side(end, p) > 0)) continue;
-    if (pair.key.kind == ContactKind::vertex_face) {
-      if (closest_vertex_triangle(end[at(p[0])], end[at(p[1])], end[at(p[2])], end[at(p[3])]).feature == Feature::face)
-        ++count;
-    } else if (closest_edge_edge(end[at(p[0])], end[at(p[1])], end[at(p[2])], end[at(p[3])]).interior) {
-      ++count;
-    }
-  }
-  return count;
 }
 
 int ContactRows::active() const {

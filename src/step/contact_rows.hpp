@@ -48,11 +48,13 @@ class ContactRows {
 
   // Scales the distance at which layers of cloth meet, per particle (empty: the fabrics' own everywhere).  Four layers in a corner of a seam
   // are a centimetre thick: sewing thins them there to let the corner close.  0 switches the contact of layers off.
-  void set_thickness_scale(std::vector<double> scale) { thickness_scale_ = std::move(scale); }
+  void set_thickness_scale(std::span<const double> scale);
 
-  // Pairs of the last detect() that have changed sides between the state's positions and `end`: the step was too long for their normals.
-  // Not a proof (that is the safe filter's business): only pairs that were near are asked, and only where they end.
-  int passed_through(const Vec3s& start, const Vec3s& end) const;
+  // What the safe filter asks for: whose features touch, a hierarchy over the triangles (after detect), and the distance at which layers
+  // meet, per particle.
+  const ClothTopology& topology() const { return topology_; }
+  const TriangleTree& tree() const { return tree_; }
+  std::span<const double> contact_m() const { return contact_m_; }
 
   int active() const;
   std::size_t candidates() const { return pairs_.size(); }
@@ -79,16 +81,14 @@ class ContactRows {
     double stiffness, lambda_N;
     Vec3 slip_m_per_s;
   };
-  double thickness_scale(std::size_t particle) const {
-    return thickness_scale_.empty() ? 1 : thickness_scale_[particle];
-  }
   Vec3 relative_velocity(const Pair& pair, const Vec3s& v, double h_s) const;
 
   const ClothModel* model_;
   const BodySurface* body_;
   double body_r_m_, body_friction_;
   ContactRowOptions options_;
-  std::vector<double> reach_m_;  // [particle] thickness, at most 0.45 of the shortest rest edge around it
+  std::vector<double> reach_m_;    // [particle] thickness, at most 0.45 of the shortest rest edge around it
+  std::vector<double> contact_m_;  // [particle] the same, scaled
   ClothTopology topology_;
   TriangleTree tree_;
   ProximityWorkspace workspace_;
@@ -97,7 +97,6 @@ class ContactRows {
   std::vector<Pair> pairs_;     // sorted by key
   std::vector<Memory> memory_;  // sorted by key
   double h_s_ = 0;
-  std::vector<double> thickness_scale_;  // [particle]
 };
 
 }  // namespace toile

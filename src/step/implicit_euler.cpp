@@ -9,7 +9,7 @@
 namespace toile {
 namespace {
 
-constexpr double loose_passes = 10;  // times the tolerance  // times the tolerance
+constexpr double loose_passes = 10;  // times the tolerance
 
 }  // namespace
 
@@ -45,8 +45,8 @@ std::string StepReport::explain() const {
                     worst_triangle, stretch_change);
       break;
     case StepStatus::passed_through:
-      std::snprintf(text, sizeof text, "h = %.3g ms: %d pairs of cloth in contact pass through each other", 1e3 * h_s,
-                    passed_through);
+      std::snprintf(text, sizeof text, "h = %.3g ms: %d pairs of cloth would pass through each other", 1e3 * h_s,
+                    filter.left);
       break;
     case StepStatus::too_fast:
       std::snprintf(text, sizeof text, "h = %.3g ms: particle %d is faster than the limit", 1e3 * h_s, worst_particle);
@@ -194,14 +194,14 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     candidate.v[i] = state.v[i] + dv_[i];
     candidate.x[i] = state.x[i] + h_s * candidate.v[i] + y_[i];
   }
-  judge(state, limits, candidate, report);
+  judge(limits, candidate, report);
+  if (report && options_.rows.cloth_cloth) keep_apart(state, h_s, limits.truncate, candidate, report);
   h_last_s_ = report ? h_s : h_last_s_;
   if (report) dv_last_ = dv_;
   return report;
 }
 
-void ImplicitEuler::judge(const ClothState& state, const StepLimits& limits, const ClothState& candidate,
-                          StepReport& report) {
+void ImplicitEuler::judge(const StepLimits& limits, const ClothState& candidate, StepReport& report) {
   double fastest2 = options_.max_speed_m_per_s * options_.max_speed_m_per_s;
   for (std::size_t i = 0; i < candidate.x.size(); ++i) {
     const double speed2 = candidate.v[i].squaredNorm();
@@ -230,8 +230,24 @@ void ImplicitEuler::judge(const ClothState& state, const StepLimits& limits, con
     }
   }
   if (report.stretch_change > limits.stretch) report.status = StepStatus::stretched;
-  report.passed_through = rows_.passed_through(state.x, candidate.x);
-  if (report.passed_through > 0 && limits.passing && report) report.status = StepStatus::passed_through;
+}
+
+void ImplicitEuler::keep_apart(const ClothState& state, double h_s, bool truncate, ClothState& candidate,
+                               StepReport& report) {
+  const Timed timed(seconds_.cloth_cloth);
+  inverse_mass_.resize(state.x.size());
+  for (std::size_t i = 0; i < state.x.size(); ++i)
+    inverse_mass_[i] = constraints_.is_free(static_cast<Index>(i)) ? 1 / model_->mass_kg[i] : 0;
+  report.filter =
+      filter_(rows_.topology(), rows_.tree(), state.x, inverse_mass_, rows_.contact_m(), truncate, candidate.x);
+  if (report.filter.left > 0) {
+    report.status = StepStatus::passed_through;
+    return;
+  }
+  if (report.filter.corrected == 0) return;
+  for (std::size_t i = 0; i < state.x.size(); ++i) {
+    if (filter_.moved()[i]) candidate.v[i] = (candidate.x[i] - state.x[i] - y_[i]) / h_s;
+  }
 }
 
 void ImplicitEuler::accept(const ClothState& candidate) {

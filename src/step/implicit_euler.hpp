@@ -7,12 +7,13 @@
 //   data flow   state -> elements -> A, f          (once per state: a halved step needs no element again)
 //                     -> near pairs                 (once per state)
 //                     -> [ constraints, rows -> b -> modified PCG -> dv, e -> active set ] until consistent
-//                     -> candidate
+//                     -> candidate -> safe filter
 #pragma once
 #include "assembly/elements.hpp"
 #include "solver/modified_pcg.hpp"
 #include "step/body_constraints.hpp"
 #include "step/contact_rows.hpp"
+#include "step/safe_filter.hpp"
 
 #include <functional>
 #include <string>
@@ -39,7 +40,7 @@ struct StepOptions {
 // What a step must not do.
 struct StepLimits {
   double stretch = 0.05;  // largest accepted change of |w_u| or |w_v| away from rest
-  bool passing = true;    // refuse when contact pairs of cloth change sides
+  bool truncate = false;  // cut the motion short where cloth would pass through cloth, instead of refusing the step
 };
 
 // Time per phase, for reports; s.
@@ -54,7 +55,7 @@ struct StepReport {  // what happened, in numbers a log can plot
   StepStatus status = StepStatus::accepted;
   double h_s = 0;
   int passes = 0, cg_iterations = 0;
-  int passed_through = 0;      // contact pairs that changed sides
+  FilterReport filter;         // of the end of the step
   int touching = 0, rows = 0;  // body constraints and contact rows of the last pass
   double stretch_change = 0;   // max over triangles of | |w|' - |w| | away from rest
   Index worst_triangle = -1, worst_particle = -1;
@@ -97,7 +98,8 @@ class ImplicitEuler {
 
  private:
   void hold_pins(const ClothState& state, double t_s, double h_s);
-  void judge(const ClothState& state, const StepLimits& limits, const ClothState& candidate, StepReport& report);
+  void judge(const StepLimits& limits, const ClothState& candidate, StepReport& report);
+  void keep_apart(const ClothState& state, double h_s, bool truncate, ClothState& candidate, StepReport& report);
 
   const ClothModel* model_;
   const StepWorld* world_;
@@ -109,6 +111,8 @@ class ImplicitEuler {
   ParticleConstraints constraints_;
   BodyConstraints body_;
   ContactRows rows_;
+  SafeFilter filter_;
+  std::vector<double> inverse_mass_;  // [particle] 1/kg, 0 while it is held
   std::vector<LinearSpring> springs_;
   std::vector<ImplicitRow> implicit_rows_;
   Vec3s force_, b_, y_, y_linearised_, linearised_, displacement_, reference_, dv_, dv_last_, e_;

@@ -118,13 +118,28 @@ TEST(ModifiedPcg, ConstraintsAreExactAtEveryIterationCount) {
       Vec3s dv(p.b.size());
       for (Vec3& dv_i : dv) dv_i = random.vector(1);  // a bad guess must not break them either
       const PcgReport report = pcg.solve(p.system, p.b, p.reference, options, dv);
-      EXPECT_EQ(report.status, PcgStatus::iteration_limit);
+      if (limit < 50) {
+        EXPECT_EQ(report.status, PcgStatus::iteration_limit);
+      }
       for (const Index i : p.constraints.constrained()) {
         const Mat3 held = Mat3::Identity() - p.constraints.S(i);
         EXPECT_LT((held * dv[static_cast<std::size_t>(i)] - p.constraints.z(i)).norm(), 1e-15)
             << limit << " iterations, particle " << i;
       }
     }
+  }
+}
+
+TEST(ModifiedPcg, StopsWhereSinglePrecisionGetsNoFurther) {
+  for (const Preconditioner preconditioner : all) {
+    Problem<float> p;
+    ModifiedPcg<float> pcg(p.model.mesh);
+    const PcgOptions options{preconditioner, 1e-12, 5000};
+    pcg.prepare(p.system, options);
+    Vec3s dv(p.b.size(), Vec3::Zero());
+    const PcgReport report = pcg.solve(p.system, p.b, p.reference, options, dv);
+    EXPECT_TRUE(report) << report.explain();
+    EXPECT_LT(error_against_dense(p, dv), 1e-3) << to_string(preconditioner);
   }
 }
 

@@ -8,7 +8,8 @@ namespace {
 using test::ClothRun;
 using test::Sheet;
 
-constexpr double gravity = 9.81, offset = 2.5e-3;
+constexpr double gravity = 9.81;
+const double offset = BodyContactOptions{}.offset_m;
 
 // A sheet that lies on a slab tilted by `angle_deg` (downhill is -x), at the offset.
 ClothRun on_incline(double angle_deg, double friction, BodySurface& slab) {

@@ -260,52 +260,5 @@ TEST(ContactRows, AFineMeshIsThinnerThanItsEdgesSoThatNeighboursDoNotRepel) {
   EXPECT_FALSE(near.step(1.0 / 60, 1.0 / 60).empty());
 }
 
-TEST(ContactRows, CountsAVertexThatChangedSidesAndNotOneThatStayed) {
-  // A large triangle at y = 0 and a small one, standing on its tip 1 mm above the large one's middle.
-  Sheet sheet;
-  sheet.x = {{0, 0, 0}, {0.1, 0, 0}, {0, 0, -0.1}, {0.025, 1e-3, -0.025}, {0.035, 0.05, -0.025}, {0.015, 0.05, -0.025}};
-  sheet.mesh.particle_count = 6;
-  sheet.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
-  sheet.mesh.uv = {{Vec2(0, 0), Vec2(0.1, 0), Vec2(0, 0.1)}, {Vec2(0, 0), Vec2(0.01, 0.05), Vec2(-0.01, 0.05)}};
-  sheet.mesh.panel = {0, 0};
-  sheet.mesh.panel_names = {"cloth"};
-  Rows rows(sheet, Fabric{});
-  rows.rows.detect(rows.state, 1.0 / 60);
-  ASSERT_GT(rows.rows.candidates(), 0U);
-  const Vec3s start = rows.state.x;
-  EXPECT_EQ(rows.rows.passed_through(start, start), 0);
-  Vec3s end = start;
-  end[3] = Vec3(0.03, 2e-4, -0.03);  // along, still above
-  EXPECT_EQ(rows.rows.passed_through(start, end), 0);
-  end[3] = Vec3(0.025, -1e-3, -0.025);  // through the face
-  EXPECT_EQ(rows.rows.passed_through(start, end), 1);
-  end[3] = Vec3(0.025, -1e-3, 0.004);  // below its plane, but round the edge
-  EXPECT_EQ(rows.rows.passed_through(start, end), 0);
-  end = start;
-  for (Vec3& p : end) p.y() -= 0.02;  // both move alike
-  EXPECT_EQ(rows.rows.passed_through(start, end), 0);
-}
-
-TEST(ContactRows, CountsTwoEdgesThatPassedThroughEachOther) {
-  // Two upright triangles whose free edges cross 1 mm apart, the upper hanging down, the lower standing up.
-  Sheet sheet;
-  sheet.x = {{-0.02, 0, 0}, {0.02, 0, 0}, {0, -0.03, 0}, {0, 1e-3, -0.02}, {0, 1e-3, 0.02}, {0, 0.031, 0}};
-  sheet.mesh.particle_count = 6;
-  sheet.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
-  sheet.mesh.uv = {{Vec2(0, 0), Vec2(0.04, 0), Vec2(0.02, 0.03)}, {Vec2(0, 0), Vec2(0.04, 0), Vec2(0.02, 0.03)}};
-  sheet.mesh.panel = {0, 0};
-  sheet.mesh.panel_names = {"cloth"};
-  Rows rows(sheet, Fabric{});
-  rows.rows.detect(rows.state, 1.0 / 60);
-  ASSERT_GT(rows.rows.candidates(), 0U);
-  Vec3s end = rows.state.x;
-  for (const std::size_t i : {3U, 4U, 5U}) end[i].y() -= 5e-4;
-  EXPECT_EQ(rows.rows.passed_through(rows.state.x, end), 0);
-  for (const std::size_t i : {3U, 4U, 5U}) end[i].y() -= 1e-3;
-  EXPECT_EQ(rows.rows.passed_through(rows.state.x, end), 1);
-  for (const std::size_t i : {3U, 4U, 5U}) end[i].x() += 0.05;  // below, but beside
-  EXPECT_EQ(rows.rows.passed_through(rows.state.x, end), 0);
-}
-
 }  // namespace
 }  // namespace toile

@@ -1,0 +1,131 @@
+#include "step/safe_filter.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace toile {
+namespace {
+
+constexpr int most_rounds = 4, sweeps = 3;
+constexpr double target_share = 0.25, target_separations = 1.5;  // of r; of xi
+constexpr double cut_share = 0.9;                                // of the earliest impact
+constexpr int shrinking_growths = 3;                             // after these a zone's relative motion is stopped
+constexpr int most_growths = 50;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Index root(std::vector<Index>& parent, Index i) {
+  while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
+  return i;
+}
+
+}  // namespace
+
+FilterReport SafeFilter::operator()(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+                                    std::span<const double> inverse_mass, std::span<const double> contact_m,
+                                    bool truncate, std::span<Vec3> end) {
+  FilterReport report;
+  moved_.assign(start.size(), 0);
+  find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_);
+  report.impacts = report.left = static_cast<int>(impacts_.size());
+  while (!impacts_.empty() && report.rounds < most_rounds) {
+    ++report.rounds;
+    push_apart(inverse_mass, end);
+    find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_);
+  }
+  report.left = static_cast<int>(impacts_.size());
+  if (!impacts_.empty() && truncate) cut_short(cloth, tree, start, inverse_mass, contact_m, end, report);
+  report.corrected = static_cast<int>(std::count(moved_.begin(), moved_.end(), 1));
+  return report;
+}
+
+void SafeFilter::push_apart(std::span<const double> inverse_mass, std::span<Vec3> end) {
+  order_.resize(impacts_.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+    return impacts_[a].time != impacts_[b].time ? impacts_[a].time < impacts_[b].time : a < b;
+  });
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (const std::size_t i : order_) {
+      const Impact& impact = impacts_[i];
+      const double target = std::max(std::min(target_share * impact.contact_m, impact.start_gap_m),
+                                     target_separations * impact.separation_m);
+      double gap = 0, mobility = 0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        gap += impact.weight[k] * impact.normal.dot(end[at(impact.particle[k])]);
+        mobility += impact.weight[k] * impact.weight[k] * inverse_mass[at(impact.particle[k])];
+      }
+      if (gap >= target || mobility <= 0) continue;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t p = at(impact.particle[k]);
+        const double share = impact.weight[k] * inverse_mass[p] / mobility;
+        if (share == 0) continue;
+        end[p] += ((target - gap) * share) * impact.normal;
+        moved_[p] = 1;
+      }
+    }
+  }
+}
+
+void SafeFilter::cut_short(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+                           std::span<const double> inverse_mass, std::span<const double> contact_m, std::span<Vec3> end,
+                           FilterReport& report) {
+  const std::size_t n = start.size();
+  whole_.assign(end.begin(), end.end());
+  zone_.resize(n);
+  std::iota(zone_.begin(), zone_.end(), 0);
+  std::vector<double> share(n, 1), mass(n, 0);
+  std::vector<char> inside(n, 0), held(n, 0);
+  Vec3s mean(n, Vec3::Zero());
+  for (int growth = 0; !impacts_.empty() && growth < most_growths; ++growth) {
+    for (const Impact& impact : impacts_) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        inside[at(impact.particle[k])] = 1;
+        const Index a = root(zone_, impact.particle[0]), b = root(zone_, impact.particle[k]);
+        zone_[at(std::max(a, b))] = std::min(a, b);
+      }
+    }
+    // Times belong to the motion that is cut, which is the whole one, whatever the zones were when the impact was found.
+    seen_.insert(seen_.end(), impacts_.begin(), impacts_.end());
+    std::fill(share.begin(), share.end(), growth < shrinking_growths ? 1 : 0);
+    if (growth < shrinking_growths) {
+      for (const Impact& impact : seen_) {
+        double& s = share[at(root(zone_, impact.particle[0]))];
+        s = std::min(s, cut_share * std::min(1.0, impact_time(impact, start, whole_)));
+      }
+    }
+    // A zone follows its mean; where it holds particles that are held, theirs.
+    std::fill(mass.begin(), mass.end(), 0);
+    std::fill(held.begin(), held.end(), 0);
+    std::fill(mean.begin(), mean.end(), Vec3::Zero());
+    for (std::size_t i = 0; i < n; ++i)
+      if (inside[i] && inverse_mass[i] == 0) held[at(root(zone_, static_cast<Index>(i)))] = 1;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!inside[i]) continue;
+      const std::size_t z = at(root(zone_, static_cast<Index>(i)));
+      if (held[z] && inverse_mass[i] > 0) continue;
+      const double m = inverse_mass[i] > 0 ? 1 / inverse_mass[i] : 1;
+      mass[z] += m;
+      mean[z] += m * (whole_[i] - start[i]);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!inside[i]) continue;
+      const std::size_t z = at(root(zone_, static_cast<Index>(i)));
+      const Vec3 m = mean[z] / mass[z];
+      end[i] = start[i] + m + share[z] * (whole_[i] - start[i] - m);
+      moved_[i] = 1;
+    }
+    find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_);
+  }
+  seen_.clear();
+  report.truncated = static_cast<int>(std::count(inside.begin(), inside.end(), 1));
+  report.left = static_cast<int>(impacts_.size());
+  if (impacts_.empty()) return;
+  // Nothing moves: free by the state's own freedom.
+  std::copy(start.begin(), start.end(), end.begin());
+  std::fill(moved_.begin(), moved_.end(), static_cast<char>(1));
+  report.truncated = static_cast<int>(n);
+  report.left = 0;
+}
+
+}  // namespace toile

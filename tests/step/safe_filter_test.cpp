@@ -1,0 +1,231 @@
+// The safe filter: what it corrects, what it refuses, and that a step never ends with cloth through cloth.
+#include "step/safe_filter.hpp"
+
+#include "core/parallel.hpp"
+#include "support/crossings.hpp"
+#include "support/run_cloth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace toile {
+namespace {
+
+using test::ClothRun;
+using test::Random;
+using test::Sheet;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// Horizontal sheets one above the other, as one mesh.
+Sheet stack(double size_m, double edge_m, double gap_m, int layers) {
+  const Sheet one = test::equilateral_sheet(size_m, size_m, edge_m);
+  Sheet all;
+  for (int layer = 0; layer < layers; ++layer) {
+    const Index first = all.mesh.particle_count;
+    for (const Vec3& p : one.x) all.x.push_back(p + layer * Vec3(0.25 * edge_m, gap_m, 0.15 * edge_m));
+    for (std::size_t t = 0; t < one.mesh.triangles.size(); ++t) {
+      Triangle c = one.mesh.triangles[t];
+      for (Index& i : c) i += first;
+      all.mesh.triangles.push_back(c);
+      all.mesh.uv.push_back(one.mesh.uv[t]);
+      all.mesh.panel.push_back(layer);
+    }
+    all.mesh.particle_count += one.mesh.particle_count;
+    all.mesh.panel_names.push_back("layer " + std::to_string(layer));
+  }
+  return all;
+}
+
+struct Filter {
+  explicit Filter(const Sheet& sheet)
+      : mesh(sheet.mesh),
+        x(sheet.x),
+        topology(build_topology(mesh.particle_count, mesh.triangles)),
+        cloth(x.size(), mesh.triangles, topology),
+        tree(x, mesh.triangles),
+        inverse_mass(x.size(), 1e3),
+        contact_m(x.size(), 2.5e-3) {}
+  FilterReport operator()(Vec3s& end, bool truncate) {
+    return filter(cloth, tree, x, inverse_mass, contact_m, truncate, end);
+  }
+  std::size_t impacts(const Vec3s& end) {
+    std::vector<Impact> list;
+    ImpactWorkspace workspace;
+    find_impacts(cloth, tree, x, end, contact_m, workspace, list);
+    return list.size();
+  }
+  Vec3 mean_motion(const Vec3s& end) const {
+    Vec3 sum = Vec3::Zero();
+    double mass = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (inverse_mass[i] == 0) continue;
+      sum += (end[i] - x[i]) / inverse_mass[i];
+      mass += 1 / inverse_mass[i];
+    }
+    return sum / mass;
+  }
+  ClothMesh mesh;
+  Vec3s x;
+  Topology topology;
+  ClothTopology cloth;
+  TriangleTree tree;
+  std::vector<double> inverse_mass, contact_m;
+  SafeFilter filter;
+};
+
+TEST(SafeFilter, DoesNotTouchWhatDoesNotMeet) {
+  Filter filter(stack(0.1, 0.01, 4e-3, 2));
+  Random random(1);
+  Vec3s end = filter.x;
+  for (Vec3& p : end) p += random.vector(5e-4) + Vec3(0.3, 0.2, 0.1);
+  const Vec3s asked = end;
+  const FilterReport report = filter(end, true);
+  EXPECT_EQ(report.impacts, 0);
+  EXPECT_EQ(report.corrected, 0);
+  EXPECT_EQ(std::memcmp(end.data(), asked.data(), end.size() * sizeof(Vec3)), 0);
+}
+
+TEST(SafeFilter, ImpulsesKeepLayersApartAndTheMomentum) {
+  Filter filter(stack(0.1, 0.01, 4e-3, 2));
+  for (std::size_t i = 0; i < filter.x.size(); ++i) filter.inverse_mass[i] = i % 3 == 0 ? 500 : 1000;
+  Vec3s end = filter.x;
+  for (std::size_t i = end.size() / 2; i < end.size(); ++i) end[i] += Vec3(1e-3, -6e-3, 0);
+  const Vec3 before = filter.mean_motion(end);
+  const FilterReport report = filter(end, false);
+  EXPECT_GT(report.impacts, 50);
+  EXPECT_EQ(report.left, 0);
+  EXPECT_EQ(report.truncated, 0);
+  EXPECT_EQ(filter.impacts(end), 0U);
+  EXPECT_LT((filter.mean_motion(end) - before).norm(), 1e-12) << "an impulse is inner";
+  for (std::size_t i = 0; i < end.size(); ++i)
+    EXPECT_EQ(filter.filter.moved()[i] != 0,
+              i < end.size() / 2 ? end[i] != filter.x[i] : end[i] != filter.x[i] + Vec3(1e-3, -6e-3, 0));
+}
+
+TEST(SafeFilter, HeldParticlesAreWallsForImpulses) {
+  Filter filter(stack(0.1, 0.01, 4e-3, 2));
+  Vec3s end = filter.x;
+  for (std::size_t i = 0; i < end.size() / 2; ++i) filter.inverse_mass[i] = 0;
+  for (std::size_t i = end.size() / 2; i < end.size(); ++i) end[i].y() -= 6e-3;
+  const FilterReport report = filter(end, false);
+  EXPECT_EQ(report.left, 0);
+  for (std::size_t i = 0; i < end.size() / 2; ++i) EXPECT_EQ(end[i], filter.x[i]);
+  EXPECT_EQ(filter.impacts(end), 0U);
+}
+
+TEST(SafeFilter, WhatHeldParticlesDoToEachOtherIsLeftForAShorterStepAndThenCutShort) {
+  Filter filter(stack(0.06, 0.01, 4e-3, 2));
+  filter.inverse_mass.assign(filter.x.size(), 0);
+  Vec3s end = filter.x;
+  for (std::size_t i = end.size() / 2; i < end.size(); ++i) end[i].y() -= 6e-3;
+  Vec3s refused = end;
+  EXPECT_GT(filter(refused, false).left, 0);
+  EXPECT_EQ(std::memcmp(refused.data(), end.data(), end.size() * sizeof(Vec3)), 0) << "nobody could be moved";
+  const FilterReport report = filter(end, true);
+  EXPECT_EQ(report.left, 0);
+  EXPECT_GT(report.truncated, 0);
+  EXPECT_EQ(filter.impacts(end), 0U);
+}
+
+TEST(SafeFilter, CutZonesAreFreeAfterAnyMotion) {
+  int refused = 0, cut = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Random random(seed);
+    Filter filter(stack(0.06, 0.01, 3e-3, 4));
+    for (double& w : filter.inverse_mass) w = random(0, 1) < 0.1 ? 0 : random(200, 2000);
+    const double size = std::pow(10.0, random(-3, -1));
+    Vec3s end = filter.x;
+    for (Vec3& p : end) p += random.vector(size);
+    Vec3s asked = end;
+    if (filter(asked, false).left > 0) ++refused;
+    const FilterReport report = filter(end, true);
+    cut += report.truncated > 0 ? 1 : 0;
+    EXPECT_EQ(report.left, 0);
+    EXPECT_EQ(filter.impacts(end), 0U) << seed;
+    EXPECT_EQ(test::crossings_of(end, filter.mesh.triangles), 0) << seed;
+  }
+  EXPECT_GT(refused, 3) << "the motions are wild enough to need it";
+  EXPECT_EQ(cut, refused);
+}
+
+TEST(SafeFilter, AZoneThatIsCutKeepsItsMeanMotion) {
+  // Two sheets that fly together at 1 m per step and would pass through each other on the way: nobody is stopped in the world.
+  Filter filter(stack(0.06, 0.01, 3e-3, 4));
+  Vec3s end = filter.x;
+  Random random(9);
+  for (Vec3& p : end) p += Vec3(1, 0, 0) + random.vector(0.1);
+  const Vec3 before = filter.mean_motion(end);
+  const FilterReport report = filter(end, true);
+  ASSERT_GT(report.truncated, 0);
+  EXPECT_LT((filter.mean_motion(end) - before).norm(), 2e-3);
+}
+
+TEST(SafeFilter, GivesTheSameBitsOnAnyNumberOfThreads) {
+  const Sheet sheet = stack(0.3, 0.01, 3e-3, 3);
+  std::vector<Vec3s> ends;
+  for (const int threads : {1, 2, 5}) {
+    with_threads(threads, [&] {
+      Filter filter(sheet);
+      Random random(4);
+      Vec3s end = filter.x;
+      for (Vec3& p : end) p += random.vector(4e-3);
+      EXPECT_GT(filter(end, true).impacts, 100);
+      ends.push_back(end);
+    });
+  }
+  for (const Vec3s& end : ends) EXPECT_EQ(std::memcmp(end.data(), ends[0].data(), end.size() * sizeof(Vec3)), 0);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// In the step.
+
+// An upper sheet flies at a pinned lower one; returns the largest number of crossings of any frame.
+int crossings_of_a_hit(double speed_m_per_s, double frame_s, FrameReport& total) {
+  const Sheet sheet = stack(0.15, 0.015, 0.03, 2);
+  ClothRun run(sheet, Fabric{});
+  const Index half = run.model.particle_count() / 2;
+  for (Index i = 0; i < half; ++i) {
+    const Vec3& p = sheet.x[at(i)];
+    if (p.x() < 1e-6 || p.x() > 0.15 - 1e-6) run.pin(i);
+  }
+  for (Index i = half; i < 2 * half; ++i) run.state.v[at(i)] = Vec3(0, -speed_m_per_s, 0);
+  int worst = 0;
+  for (int f = 0; f < 12; ++f) {
+    const FrameReport report = run.frame(frame_s);
+    total.rejected += report.rejected;
+    total.corrected += report.corrected;
+    worst = std::max(worst, test::crossings_of(run.state.x, sheet.mesh.triangles));
+  }
+  EXPECT_GT(test::crossings_of(sheet.x, sheet.mesh.triangles), -1);
+  return worst;
+}
+
+TEST(SafeFilter, ASheetThatHitsAnotherNeverPassesItAtAnySpeed) {
+  // From 17 mm a step on, two sheets 3 cm apart have never seen each other before they would have passed.
+  for (const double speed : {0.5, 2.0, 10.0}) {
+    FrameReport total;
+    EXPECT_EQ(crossings_of_a_hit(speed, 1.0 / 30, total), 0) << speed << " m/s";
+    EXPECT_GT(total.rejected + total.corrected, 0) << speed << " m/s: it was the filter that held them";
+  }
+}
+
+TEST(SafeFilter, ACorrectedParticleHasTheVelocityOfItsMotion) {
+  // Frictionless rails: the upper sheet may only fall.  What stops it is the filter, and its speed goes with it.
+  const Sheet sheet = stack(0.1, 0.01, 0.02, 2);
+  ModelOptions weightless;
+  weightless.gravity_m_per_s2.setZero();
+  ClothRun run(sheet, Fabric{}, weightless);
+  const Index half = run.model.particle_count() / 2;
+  for (Index i = 0; i < half; ++i) run.pin(i);
+  for (Index i = half; i < 2 * half; ++i) run.state.v[at(i)] = Vec3(0, -5, 0);
+  run.run(10);
+  for (Index i = half; i < 2 * half; ++i) {
+    EXPECT_GT(run.state.x[at(i)].y(), 0) << "above the lower sheet";
+    EXPECT_GT(run.state.v[at(i)].y(), -0.05) << "and no longer falling";
+  }
+}
+
+}  // namespace
+}  // namespace toile
