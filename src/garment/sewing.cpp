@@ -8,12 +8,26 @@
 namespace toile {
 namespace {
 
-constexpr int most_escalations = 4;  // thin layers, friction off, then two doublings of the pull
+constexpr int most_escalations = 3;  // thin layers, then two doublings of the pull
 constexpr double thinning_per_frame = 0.95;
 constexpr double least_thickness = 0.1, thickness_growth = 1.1;  // per frame of the drape
 constexpr double coincident_m = 1e-7;  // below it the direction of a pair means nothing: its spring is isotropic
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// [particle] mass-weighted mean over the class that `merged` names, at the class's own particle.
+std::vector<Vec3> class_means(std::span<const Index> merged, std::span<const double> mass_kg, std::span<const Vec3> a) {
+  std::vector<Vec3> sum(a.size(), Vec3::Zero());
+  std::vector<double> mass(a.size(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sum[at(merged[i])] += mass_kg[i] * a[i];
+    mass[at(merged[i])] += mass_kg[i];
+  }
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (mass[i] > 0) sum[i] /= mass[i];
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -23,7 +37,14 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
   ModelOptions weightless;
   weightless.gravity_m_per_s2.setZero();
   weightless.drag_per_s = options.drag_per_s;
-  model_ = build_model(garment.mesh, fabrics, weightless);
+  weightless.paper_scaling = options.paper_scaling;
+  weightless.damping_jacobian = options.damping_jacobian;
+  std::vector<Fabric> stiff(fabrics.begin(), fabrics.end());
+  for (Fabric& fabric : stiff) {
+    fabric.bend_u_N_m *= options.bend_factor;
+    fabric.bend_v_N_m *= options.bend_factor;
+  }
+  model_ = build_model(garment.mesh, stiff, weightless);
   state_ = {garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
   for (const SeamPair& pair : garment.pairs) {
     start_distance_m_.push_back((garment.x[at(pair.b)] - garment.x[at(pair.a)]).norm());
@@ -37,23 +58,23 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
     append_springs(state, h_s, springs);
   };
   StepOptions sewing_step = step;
-  sewing_step.body.friction = std::min(step.body.friction, options.friction);
+  sewing_step.body.friction = 0;
   sewing_step.rows.look_ahead = 2;
   sewing_step.body.offset_m = std::max(step.body.offset_m, options.offset_m);
   AdaptiveOptions adaptive;
-  adaptive.step_max_s = 1 / options.fps;
+  adaptive.step_max_s = std::min(1 / options.fps, options.step_max_s);
+  adaptive.stop = options.stop;
   adaptive.stretch_floor = 3;  // the pull of a seam is not divergence
   stepper_.emplace(model_, world_, sewing_step, adaptive);
-  thickness_scale_.assign(garment.x.size(), options.thickness_scale);
-  stepper_->integrator().contact_rows().set_thickness_scale(thickness_scale_);
+  set_thickness_scale(std::vector<double>(garment.x.size(), options.thickness_scale));
   if (garment.pairs.empty()) status_ = SewingStatus::closed;
 }
 
 void Sewing::append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const {
-  const double shrunk = options_.closing_speed_m_per_s * (time_s_ + h_s);
+  const double open = std::max(0.0, 1 - options_.closing_speed_m_per_s * (time_s_ + h_s) / longest_m_);
   for (std::size_t k = 0; k < garment_->pairs.size(); ++k) {
     const SeamPair& pair = garment_->pairs[k];
-    const double wanted = std::max(0.0, start_distance_m_[k] - shrunk);
+    const double wanted = open * start_distance_m_[k];
     const Vec3 d = state.x[at(pair.b)] - state.x[at(pair.a)];
     const double distance = d.norm(), excess = distance - wanted;
     const double limit = pull_factor_ * options_.pull_N_per_m * pair.share_m, k_pull = limit / options_.give_m;
@@ -85,11 +106,17 @@ void Sewing::append_springs(const ClothState& state, double h_s, std::vector<Lin
   }
 }
 
+void Sewing::set_thickness_scale(std::vector<double> scale) {
+  thickness_scale_ = std::move(scale);
+  stepper_->integrator().contact_rows().set_thickness_scale(thickness_scale_);
+}
+
 FrameReport Sewing::frame() {
   FrameReport report;
   if (status_ != SewingStatus::sewing) return report;
   const double frame_s = 1 / options_.fps;
   report = stepper_->advance(state_, time_s_, frame_s);
+  if (report.interrupted) return report;
   time_s_ += frame_s;
   if (!report.ok) {
     status_ = SewingStatus::failed;
@@ -101,27 +128,49 @@ FrameReport Sewing::frame() {
 
 void Sewing::judge_progress() {
   const double gap = widest_gap_m();
-  const bool thick_corner = escalations_ > 0 && gap < options_.thick_corner_share * mean_edge_m_;
-  if (gap < options_.weld_gap_m || thick_corner) {
-    status_ = SewingStatus::closed;
-    return;
-  }
-  if (escalations_ > 0) thin_layers();
   if (gap < 0.95 * best_gap_m_) {  // still closing
     best_gap_m_ = gap;
     best_time_s_ = time_s_;
   }
   const bool reached = options_.closing_speed_m_per_s * time_s_ >= longest_m_;
-  if (!reached || time_s_ - best_time_s_ < options_.patience_s) return;
+  const bool stopped = reached && time_s_ - best_time_s_ >= options_.patience_s;
+  const bool near = gap < options_.weld_gap_m || (stopped && gap < options_.weld_share * mean_edge_m_);
+  if (near && close_seams()) {
+    status_ = SewingStatus::closed;
+    return;
+  }
+  if (escalations_ > 0) thin_layers();
+  if (!stopped) return;
   if (escalations_ == most_escalations) {
     status_ = SewingStatus::blocked;
     return;
   }
-  if (escalations_ == 1) stepper_->integrator().body_constraints().set_friction(0);
-  if (escalations_ > 1) pull_factor_ *= 2;
+  if (escalations_ > 0) pull_factor_ *= 2;
   ++escalations_;
   best_gap_m_ = gap;
   best_time_s_ = time_s_;
+}
+
+// Moves every class to where it will be welded, and the cloth around it out of the way; false, and nothing moved, where that is not
+// possible without passing cloth through cloth.
+bool Sewing::close_seams() {
+  const std::vector<Vec3> joined = class_means(garment_->merged, model_.mass_kg, state_.x);
+  std::vector<double> inverse_mass(state_.x.size());
+  for (std::size_t i = 0; i < inverse_mass.size(); ++i) inverse_mass[i] = 1 / model_.mass_kg[i];
+  Vec3s end = state_.x;
+  for (const SeamPair& pair : garment_->pairs) {
+    for (const Index i : {pair.a, pair.b}) {
+      end[at(i)] = joined[at(garment_->merged[at(i)])];
+      inverse_mass[at(i)] = 0;
+    }
+  }
+  ContactRows& rows = stepper_->integrator().contact_rows();
+  SafeFilter filter;
+  const FilterReport report =
+      filter(rows.topology(), rows.tree(), state_.x, inverse_mass, rows.contact_m(), false, end);
+  if (report.left > 0) return false;
+  state_.x = std::move(end);
+  return true;
 }
 
 void Sewing::thin_layers() {
@@ -133,7 +182,8 @@ void Sewing::thin_layers() {
   for (std::size_t i = 0; i < thickness_scale_.size(); ++i) {
     const bool beside = std::any_of(open.begin(), open.end(),
                                     [&](const Vec3& p) { return (state_.x[i] - p).norm() < options_.thin_radius_m; });
-    if (beside) thickness_scale_[i] = std::max(options_.thinnest, thinning_per_frame * thickness_scale_[i]);
+    if (beside && thickness_scale_[i] > 0)
+      thickness_scale_[i] = std::max(options_.thinnest, thinning_per_frame * thickness_scale_[i]);
   }
   stepper_->integrator().contact_rows().set_thickness_scale(thickness_scale_);
 }
@@ -180,32 +230,20 @@ std::vector<double> weld_thickness(const WeldedMesh& welded, const std::vector<d
   return joined;
 }
 
-void switch_off_near(std::span<const Vec3> points, double radius_m, const Vec3s& x, std::vector<double>& scale) {
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const bool near =
-        std::any_of(points.begin(), points.end(), [&](const Vec3& p) { return (x[i] - p).norm() < radius_m; });
-    if (near) scale[i] = 0;
-  }
-}
-
 void grow_thickness(std::vector<double>& scale) {
   for (double& s : scale) s = std::min(1.0, thickness_growth * std::max(s, least_thickness));
 }
 
 ClothState weld_state(const GarmentMesh& garment, const WeldedMesh& welded, const ClothModel& model,
                       const ClothState& state) {
+  const std::vector<Vec3> x = class_means(garment.merged, model.mass_kg, state.x);
+  const std::vector<Vec3> v = class_means(garment.merged, model.mass_kg, state.v);
   const std::size_t count = at(welded.mesh.particle_count);
-  ClothState joined{Vec3s(count, Vec3::Zero()), Vec3s(count, Vec3::Zero())};
-  std::vector<double> mass(count, 0);
+  ClothState joined{Vec3s(count), Vec3s(count)};
   for (std::size_t i = 0; i < garment.merged.size(); ++i) {
-    const std::size_t p = at(welded.particle_of[i]);
-    mass[p] += model.mass_kg[i];
-    joined.x[p] += model.mass_kg[i] * state.x[i];
-    joined.v[p] += model.mass_kg[i] * state.v[i];
-  }
-  for (std::size_t p = 0; p < count; ++p) {
-    joined.x[p] /= mass[p];
-    joined.v[p] /= mass[p];
+    const std::size_t p = at(welded.particle_of[i]), root = at(garment.merged[i]);
+    joined.x[p] = x[root];
+    joined.v[p] = v[root];
   }
   return joined;
 }

@@ -1,17 +1,21 @@
 // garment/sewing.hpp: from flat placed panels to one closed garment, with contact on.                docs/theory/sewing.md
 //
-//   seam pair   offset d between its two particles, wanted distance l(t), which shrinks from the start distance to 0 at 0.5 m/s
+//   seam pair   offset d between its two particles, wanted distance l(t) = |d(0)| (1 - t / T): all seams close together, the widest
+//               at 0.5 m/s
 //   pull        F = min( k (|d| - l)+, f_max ) along d,     f_max = 300 N per metre of seam,  k = f_max / 3 mm
 //   in A        secant stiffness F / (|d| - l) along d, the geometric F / |d| across it, damping 0.02 s x the secant
 //
-// Gravity is off while sewing (with it on, folds get caught).  If a seam still gapes when l = 0, the layers of cloth around the gap are
-// thinned: where four panels meet, their thickness alone holds a corner open by a centimetre.  The last part of an edge is left to the weld;
-// squeezing layers thinner than that pushes them through each other.  Then the body's friction goes to 0; then f_max doubles, at
-// most twice; then the garment is reported as blocked, by seam.
+// What keeps it calm: gravity is off (with it on, folds get caught), cloth bends a hundred times harder than it will (or the tips of panels roll
+// up and the corner of four panels never closes), the body is slippery (or a hem caught on the hips holds the shoulders open), and the safe
+// filter of the step never lets cloth pass through cloth.
+//
+// If a seam still gapes when l = 0, the layers of cloth around the gap are thinned; then f_max doubles, at most twice; then the garment is
+// reported as blocked, by seam.  The last millimetre is left to the weld, which waits while it would push cloth through cloth.
 #pragma once
 #include "garment/garment_mesh.hpp"
 #include "step/adaptive_step.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,20 +23,25 @@
 namespace toile {
 
 struct SewingOptions {
-  double closing_speed_m_per_s = 0.5;
+  double closing_speed_m_per_s = 0.5;  // of the widest pair
   double pull_N_per_m = 300;
-  double give_m = 3e-3;    // at this gap beyond l the pull is at its limit
-  double drag_per_s = 20;  // keeps loose panels from whipping and folding under the pull of their edges
+  double give_m = 3e-3;      // at this gap beyond l the pull is at its limit
+  double bend_factor = 100;  // of the fabrics' bending rigidity, until the weld
+  double drag_per_s = 20;    // keeps loose panels from whipping under the pull of their edges
   double damping_s = 0.02;
-  double friction = 0.3;   // of the body, at most
   double offset_m = 4e-3;  // contact distance from the body while sewing, at least
   double weld_gap_m = 1.5e-3;
-  double thick_corner_share = 0.2;  // of the mean edge: once layers had to be thinned, the weld closes this gap
-  double patience_s = 0.4;          // without progress, before friction goes, and before each doubling of the pull
-  double thickness_scale = 1.6;     // of the fabrics' contact distance, while sewing
-  double thinnest = 0.2;            // the same, within `thin_radius_m` of a seam that will not close
+  double weld_share =
+      0.25;  // of the mean edge: a gap this small is welded where a seam stops closing (a fitted shoulder under tension)
+  double patience_s = 0.2;       // without progress, before layers are thinned, and before each doubling of the pull
+  double thickness_scale = 1.6;  // of the fabrics' contact distance, while sewing
+  double thinnest = 0.2;         // the same, within `thin_radius_m` of a seam that will not close
   double thin_radius_m = 0.03;
   double fps = 60;
+  double step_max_s = 1.0 / 60;
+  bool paper_scaling = false;  // assembly/cloth_model.hpp
+  DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
+  std::function<bool()> stop;  // asked before every step
 };
 
 struct SeamGap {
@@ -58,7 +67,9 @@ class Sewing {
   double closed_share() const;  // 0 ... 1 of the way, for a progress bar
   const ClothState& state() const { return state_; }
   const ClothModel& model() const { return model_; }
+  // Of the fabrics' contact distance, per particle; 0 switches the contact of layers off there (cloth that crosses itself at the start).
   const std::vector<double>& thickness_scale() const { return thickness_scale_; }
+  void set_thickness_scale(std::vector<double> scale);
   // Seams by gap, widest first.
   std::vector<SeamGap> gaps() const;
   double widest_gap_m() const;
@@ -68,6 +79,7 @@ class Sewing {
  private:
   void append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const;
   void judge_progress();
+  bool close_seams();
   void thin_layers();
 
   const GarmentMesh* garment_;
@@ -90,9 +102,6 @@ ClothState weld_state(const GarmentMesh& garment, const WeldedMesh& welded, cons
 
 // The layers that sewing thinned, on the welded cloth: scale per particle, at most 1.
 std::vector<double> weld_thickness(const WeldedMesh& welded, const std::vector<double>& scale);
-// A fold that is caught in a closed corner is held there for good by the contact of its own layers: within `radius_m` of the given points
-// contact is switched off (0), so that bending opens the fold.
-void switch_off_near(std::span<const Vec3> points, double radius_m, const Vec3s& x, std::vector<double>& scale);
 // Layers come back to their fabrics' thickness, a frame of the drape at a time.
 void grow_thickness(std::vector<double>& scale);
 

@@ -37,6 +37,11 @@ void add_steps(JsonText& text, const PhaseReport& phase) {
   text.member("steps_rejected", phase.steps_rejected);
   text.member("step_min_ms", 1e3 * phase.step_min_s);
   text.member("step_max_ms", 1e3 * phase.step_max_s);
+  text.key("safe_filter");
+  text.begin_object();
+  text.member("corrected", phase.corrected);
+  text.member("truncated", phase.truncated);
+  text.end_object();
 }
 
 void add_cg(JsonText& text, const PhaseReport& phase) {

@@ -17,6 +17,8 @@ struct PhaseReport {  // of the sewing, or of everything after it
   double seconds = 0, eval = 0, cg = 0, cloth_cloth = 0, cloth_solid = 0;  // wall time, s
   long steps = 0, steps_rejected = 0, passes = 0, cg_iterations = 0;
   int cg_max = 0;
+  long corrected = 0,
+       truncated = 0;  // particles that the safe filter moved, summed over steps; of them in zones cut short
   double step_min_s = 0, step_max_s = 0;
   double simulated_s = 0;
 };

@@ -66,7 +66,7 @@ struct SceneBody {
   LengthUnit unit = LengthUnit::automatic;
   SceneCylinder cylinder;
   std::optional<double> friction;  // absent: the fabric's
-  double offset_m = 2.5e-3;
+  double offset_m = 2e-3;
 };
 
 struct Scene {

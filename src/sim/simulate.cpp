@@ -6,6 +6,7 @@
 #include "garment/sewing.hpp"
 #include "sim/run_writer.hpp"
 #include "sim/setup.hpp"
+#include "sim/tangles.hpp"
 #include "verify/crossings.hpp"
 
 #include <sys/resource.h>
@@ -51,6 +52,8 @@ void add(PhaseReport& phase, const FrameReport& frame) {
   phase.passes += frame.passes;
   phase.cg_iterations += frame.cg_iterations;
   phase.cg_max = std::max(phase.cg_max, frame.cg_max);
+  phase.corrected += frame.corrected;
+  phase.truncated += frame.truncated;
   if (frame.steps == 0) return;
   phase.step_min_s = phase.step_min_s == 0 ? frame.step_min_s : std::min(phase.step_min_s, frame.step_min_s);
   phase.step_max_s = std::max(phase.step_max_s, frame.step_max_s);
@@ -173,11 +176,27 @@ class Run {
     start_.x = garment_.x;
   }
 
+  // Panels that are drawn through each other.
+  void leave_tangles(Sewing& sewing) {
+    Tangles tangles;
+    tangles.find(garment_.mesh.triangles, garment_.x);
+    if (!tangles.any()) return;
+    bad_start("placed panels pass through each other");
+    std::vector<double> scale = sewing.thickness_scale();
+    tangles.switch_off(garment_.x, scale);
+    sewing.set_thickness_scale(std::move(scale));
+  }
+
   // False when the garment could not be closed.  Leaves the welded garment in mesh_ and start_.
   bool sew() {
     place();
     SewingOptions sewing_options;
+    sewing_options.step_max_s = scene_.step_max_s.value_or(1 / sewing_options.fps);
+    sewing_options.paper_scaling = scene_.paper_scaling;
+    sewing_options.damping_jacobian = scene_.damping_jacobian;
+    sewing_options.stop = options_.stop;
     Sewing sewing(garment_, fabrics_, body(), step_, sewing_options);
+    leave_tangles(sewing);
     writer_->begin_sewing(garment_.mesh, name_, garment_.x);
     const int every = std::max(1, static_cast<int>(std::lround(sewing_options.fps / sewing_film_fps)));
     Stopwatch watch;
@@ -188,6 +207,7 @@ class Run {
         const Timed timed(phase.seconds);
         frame = sewing.frame();
       }
+      if (frame.interrupted) break;
       add(phase, frame);
       if (phase.frames % every == 0 || sewing.status() != SewingStatus::sewing) writer_->sewing_frame(sewing.state().x);
       const double share = sewing.closed_share();
@@ -215,10 +235,6 @@ class Run {
     const WeldedMesh welded = weld(garment_);
     start_ = weld_state(garment_, welded, sewing.model(), sewing.state());
     thickness_scale_ = weld_thickness(welded, sewing.thickness_scale());
-    std::vector<Vec3> caught;
-    for (const Crossing& crossing : find_cloth_crossings(welded.mesh.triangles, start_.x))
-      caught.push_back(crossing.position);
-    switch_off_near(caught, SewingOptions{}.thin_radius_m, start_.x, thickness_scale_);
     mesh_ = welded.mesh;
     report_.vertices = mesh_.particle_count;
     return true;
@@ -267,12 +283,16 @@ class Run {
     world.pins = pins_;
     AdaptiveOptions adaptive;
     const double frame_s = 1 / scene_.fps;
+    adaptive.stop = options_.stop;
     adaptive.step_max_s = scene_.step_max_s.value_or(sewn ? 1.0 / 60 : frame_s);
     AdaptiveStep stepper(model, world, step_, adaptive);
     set_rest_stretch(model, 1);
 
     begin_audit();
     ClothState state = start_;
+    Tangles tangles;
+    tangles.find(mesh_.triangles, state.x);
+    if (thickness_scale_.empty()) thickness_scale_.assign(state.x.size(), 1);
     Vec3s written = as_written(state.x);
     writer_->begin_cloth(mesh_, name_, state.x, body_triangles_, body_x_);
     audit_->add(written, written_body_);
@@ -283,22 +303,27 @@ class Run {
     PhaseReport& phase = report_.drape;
     report_.ended = "time";
     for (int k = 1; k < frames; ++k) {
-      if (stopped()) {
-        end(reason::interrupted, "while draping, after frame " + std::to_string(k - 1));
-        break;
-      }
       const double t_s = (k - 1) * frame_s;
       if (sewn) {
         model.gravity_m_per_s2 = ramp(t_s) * scene_.gravity_m_per_s2;
         set_rest_stretch(model, ramp(t_s));
         stepper.integrator().body_constraints().set_friction(t_s < frictionless_s ? 0 : step_.body.friction);
-        stepper.integrator().contact_rows().set_thickness_scale(thickness_scale_);
         if (t_s >= weightless_s + ramp_s) grow_thickness(thickness_scale_);
       }
+      if (tangles.any()) {
+        tangles.find(mesh_.triangles, state.x);
+        grow_thickness(thickness_scale_);
+        tangles.switch_off(state.x, thickness_scale_);
+      }
+      stepper.integrator().contact_rows().set_thickness_scale(thickness_scale_);
       FrameReport frame;
       {
         const Timed timed(phase.seconds);
         frame = stepper.advance(state, t_s, frame_s);
+      }
+      if (frame.interrupted) {
+        end(reason::interrupted, "while draping, after frame " + std::to_string(k - 1));
+        break;
       }
       add(phase, frame);
       if (!frame.ok) {

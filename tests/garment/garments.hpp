@@ -68,24 +68,4 @@ inline Vec3 normal_of(const Vec3s& x, const Triangle& t) {
   return (x[at(t[1])] - x[at(t[0])]).cross(x[at(t[2])] - x[at(t[0])]);
 }
 
-// Edges of the mesh that pass through one of its triangles, by trying all of them against all: the plain definition.
-inline int crossings_of(const Vec3s& x, const std::vector<Triangle>& triangles) {
-  int count = 0;
-  for (const Triangle& edges : triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Index i = edges[k], j = edges[(k + 1) % 3];
-      const Vec3 &p = x[at(i)], &q = x[at(j)];
-      for (const Triangle& t : triangles) {
-        if (std::any_of(t.begin(), t.end(), [&](Index corner) { return corner == i || corner == j; })) continue;
-        const Vec3 &a = x[at(t[0])], &b = x[at(t[1])], &c = x[at(t[2])];
-        const Vec3 n = (b - a).cross(c - a), d = q - p;
-        if ((n.dot(p - a) > 0) == (n.dot(q - a) > 0)) continue;
-        const double u = d.dot((a - p).cross(b - p)), v = d.dot((b - p).cross(c - p)), w = d.dot((c - p).cross(a - p));
-        if ((u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0)) ++count;
-      }
-    }
-  }
-  return count;
-}
-
 }  // namespace toile::test

@@ -1,0 +1,27 @@
+// sim/tangles.hpp: places where cloth passes through cloth already when a run begins.
+//
+// The safe filter keeps every pair on the side where it is, which would hold a crossing for good.  Around each
+// crossing contact is therefore switched off, so that bending can open it; once it is gone the particles are guarded
+// like all others.
+#pragma once
+#include "core/types.hpp"
+
+#include <span>
+#include <vector>
+
+namespace toile {
+
+class Tangles {
+ public:
+  // Looks for crossings at x.  After a look that found none it does nothing, for good: the filter lets no new ones come.
+  void find(std::span<const Triangle> triangles, const Vec3s& x);
+  bool any() const { return !places_.empty(); }
+  // Sets the scale of the particles around them to 0 (ContactRows::set_thickness_scale).
+  void switch_off(const Vec3s& x, std::vector<double>& thickness_scale) const;
+
+ private:
+  std::vector<Vec3> places_;
+  bool over_ = false;
+};
+
+}  // namespace toile
