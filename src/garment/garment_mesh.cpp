@@ -1,5 +1,6 @@
 #include "garment/garment_mesh.hpp"
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "garment/triangulate.hpp"
 
@@ -224,7 +225,7 @@ MeshQuality mesh_quality(const ClothMesh& mesh) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2 e = uv[(k + 1) % 3] - uv[k], f = uv[(k + 2) % 3] - uv[k];
       smallest = std::min(smallest,
-                          std::atan2(std::abs(e.x() * f.y() - e.y() * f.x()), e.dot(f)) * 180 / 3.14159265358979323846);
+                          ieee_atan2(std::abs(e.x() * f.y() - e.y() * f.x()), e.dot(f)) * 180 / 3.14159265358979323846);
       sum += e.norm();
       quality.min_edge_m = std::min(quality.min_edge_m, e.norm());
       quality.max_edge_m = std::max(quality.max_edge_m, e.norm());

@@ -11,6 +11,7 @@
 // the result is turned back.
 #include "garment/pattern.hpp"
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -141,16 +142,16 @@ class BezierLength {
 // Half the opening angle of a circle's arc: at most a right angle for the small arc, the rest of pi for the large one.
 double half_opening(const Curve& c) {
   const double sine = std::min(1.0, 0.5 * (c.to - c.from).norm() / c.radius_m);  // not 1 + rounding
-  return c.large_arc ? std::numbers::pi - std::asin(sine) : std::asin(sine);
+  return c.large_arc ? std::numbers::pi - ieee_asin(sine) : ieee_asin(sine);
 }
 
 Vec2 arc_point(const Curve& c, double phi, double u) {
   const Vec2 chord = (c.to - c.from).normalized();
   // Counter-clockwise from `from` to `to` the arc bulges to the right of the chord.
   const double turn = (c.counter_clockwise ? -1 : 1) * (1 - u) * phi;
-  const double cosine = std::cos(turn), sine = std::sin(turn);
+  const double cosine = ieee_cos(turn), sine = ieee_sin(turn);
   const Vec2 direction{cosine * chord.x() - sine * chord.y(), sine * chord.x() + cosine * chord.y()};
-  return c.from + 2 * c.radius_m * std::sin(u * phi) * direction;
+  return c.from + 2 * c.radius_m * ieee_sin(u * phi) * direction;
 }
 
 // Cosine and sine of an angle in degrees; exact at multiples of 90, so that panels turned to the back stay flat in z.
@@ -161,7 +162,7 @@ std::array<double, 2> cosine_sine(double degrees) {
   if (reduced == -90) return {0, -1};
   if (std::abs(reduced) == 180) return {-1, 0};
   const double radians = reduced * std::numbers::pi / 180;
-  return {std::cos(radians), std::sin(radians)};
+  return {ieee_cos(radians), ieee_sin(radians)};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // garment/triangulate.cpp: from the outline to the finished mesh; see triangulate.hpp and docs/theory/meshing.md.
 #include "garment/triangulate.hpp"
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "garment/triangulate_improve.hpp"
 #include "garment/triangulate_outline.hpp"
@@ -111,7 +112,7 @@ PlanarQuality planar_quality(const PlanarMesh& mesh) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Index i = t[k], j = t[(k + 1) % 3];
       const Vec2 u = mesh.points[at(j)] - mesh.points[at(i)], v = mesh.points[at(t[(k + 2) % 3])] - mesh.points[at(i)];
-      angles.push_back(std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)) * (180 / std::numbers::pi));
+      angles.push_back(ieee_atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)) * (180 / std::numbers::pi));
       edges.push_back({std::min(i, j), std::max(i, j)});
     }
   }

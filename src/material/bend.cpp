@@ -1,5 +1,7 @@
 #include "material/bend.hpp"
 
+#include "core/elementary.hpp"
+
 #include <Eigen/Geometry>  // cross
 #include <algorithm>
 #include <cmath>
@@ -40,7 +42,7 @@ HingeFrame hinge_frame(const std::array<Vec3, 4>& x) {
 
 double angle(const HingeFrame& f) {
   if (!(f.L > 0)) return 0;
-  return std::atan2(f.N_A.cross(f.N_B).dot(f.e) / f.L, f.N_A.dot(f.N_B));
+  return ieee_atan2(f.N_A.cross(f.N_B).dot(f.e) / f.L, f.N_A.dot(f.N_B));
 }
 
 std::array<Vec3, 4> gradient(const HingeFrame& f, const std::array<Vec3, 4>& x) {

@@ -1,5 +1,7 @@
 #include "sim/cylinder.hpp"
 
+#include "core/elementary.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +25,7 @@ SolidMesh rounded_cylinder(double radius_m, double height_m, const Vec3& top) {
     for (Index i = 0; i < around; ++i) {
       // Rings are staggered by half a piece, so that triangles are nearly isosceles.
       const double angle = 2 * 3.14159265358979323846 * (i + 0.5 * (ring % 2)) / around;
-      solid.positions.push_back(top + Vec3(r * std::cos(angle), y, r * std::sin(angle)));
+      solid.positions.push_back(top + Vec3(r * ieee_cos(angle), y, r * ieee_sin(angle)));
     }
   }
   const Index north = around * rings, south = north + 1;

@@ -1,6 +1,7 @@
 // verify/statistics.cpp: stretch, shear and speed; see the header.
 #include "verify/statistics.hpp"
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "verify/surface.hpp"
 
@@ -54,7 +55,7 @@ StretchStatistics measure_stretch(const ClothMesh& mesh, std::span<const Vec3> x
     }
     all[t] = std::max(w_u.norm() / rest.x(), w_v.norm() / rest.y()) - 1;
     // The complement of the angle, from sine and cosine: accurate near 90 degrees, where acos of a quotient is not.
-    shear[t] = std::atan2(std::abs(w_u.dot(w_v)), w_u.cross(w_v).norm()) * 180 / std::numbers::pi;
+    shear[t] = ieee_atan2(std::abs(w_u.dot(w_v)), w_u.cross(w_v).norm()) * 180 / std::numbers::pi;
 
     const auto index = static_cast<Index>(t);
     if (result.worst_triangle < 0 || all[t] > result.max) result.max = all[t], result.worst_triangle = index;

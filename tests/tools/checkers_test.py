@@ -58,7 +58,7 @@ class Checkers(unittest.TestCase):
         self.assertIn(words, text)
 
     def test_a_sound_tree_passes(self):
-        for tool in ("check_layers.py", "check_docs.py", "run_docs_commands.py"):
+        for tool in ("check_layers.py", "check_elementary.py", "check_docs.py", "run_docs_commands.py"):
             self.accepts(tool)
 
     def test_layers(self):
@@ -68,6 +68,16 @@ class Checkers(unittest.TestCase):
         self.refuses(tool, {"src/material/a.cpp": '#include "mesh/mesh.hpp"\n'}, "does not link it")
         self.refuses(tool, {"src/material/a.cpp": '#include "util/a.hpp"\n'}, "unknown module 'util'")
         self.refuses(tool, {"src/util/a.cpp": "\n"}, "module 'util' is not in src/layers.txt")
+
+    def test_elementary(self):
+        tool = "check_elementary.py"
+        self.refuses(tool, {"src/core/a.cpp": "\ndouble y = std::sin(x);\n"}, "src/core/a.cpp:2: 'std::sin' differs")
+        self.refuses(tool, {"src/mesh/a.hpp": "double y = atan2f (x, z);\n"}, "'atan2f' differs")
+        self.refuses(tool, {"src/mesh/a.cpp": "y = 2*::pow(x, 3);\n"}, "'::pow' differs")
+        self.refuses(tool, {"src/mesh/a.cpp": "Eigen::AngleAxisd turn(1, axis);\n"}, "'AngleAxisd' differs")
+        self.refuses(tool, {"src/mesh/a.cpp": "y = x.array().exp();\n"}, "'.exp' differs")
+        self.accepts(tool, {"src/mesh/a.cpp": "y = ieee_sin(x) + std::sqrt(x) + arcsin(x);  // not std::sin(x)\n"})
+        self.accepts(tool, {"src/mesh/a.cpp": 'name("sin(x)"); double exp = 1;\n', "src/preview/a.cpp": "std::sin(x);\n"})
 
     def test_links(self):
         tool = "check_docs.py"
