@@ -25,8 +25,8 @@ BendRest hinge_rest(const ClothModel& model, std::span<const Fabric> fabrics, co
     const Vec2 along = edge_in_pattern(model.mesh, hinge.triangle[static_cast<std::size_t>(side)], hinge.particle[0],
                                        hinge.particle[1]);
     // The paper weighs by the edge's own direction; the fibres that bend run across it (docs/deviations.md#bend-direction).
-    const Vec2 direction = paper_scaling ? along : Vec2(-along.y(), along.x());
-    rigidity += 0.5 * directional_rigidity(direction, fabric.bend_u_N_m, fabric.bend_v_N_m);
+    rigidity += 0.5 * (paper_scaling ? paper_bend_stiffness(along, fabric.bend_u_N_m, fabric.bend_v_N_m)
+                                     : hinge_rigidity({-along.y(), along.x()}, fabric.bend_u_N_m, fabric.bend_v_N_m));
     tau += 0.5 * fabric.bend_damping_s;
     length += 0.5 * along.norm();
     area[side] = material_frame(model.mesh.uv[t]).area_m2;

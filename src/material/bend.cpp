@@ -120,11 +120,24 @@ double bend_weight(double edge_length_m, double area_a_m2, double area_b_m2) {
   return std::min(largest_weight, edge_length_m * edge_length_m / area);
 }
 
-double directional_rigidity(const Vec2& across, double bend_u_N_m, double bend_v_N_m) {
-  const double length = across.norm();
-  if (!(length > 0)) return 0.5 * (bend_u_N_m + bend_v_N_m);  // no direction: neither thread has the better claim
-  const Vec2 d = across / length;
-  return bend_u_N_m * d.x() * d.x() + bend_v_N_m * d.y() * d.y();
+double hinge_rigidity(const Vec2& across, double bend_u_N_m, double bend_v_N_m) {
+  const double stiffer = std::max(bend_u_N_m, bend_v_N_m);
+  if (bend_u_N_m == bend_v_N_m || !(stiffer > 0)) return bend_u_N_m;
+  const double least = stiffer / largest_bend_ratio;
+  const double root_u = std::sqrt(std::max(bend_u_N_m, least)), root_v = std::sqrt(std::max(bend_v_N_m, least));
+  const double length2 = across.squaredNorm();
+  if (!(length2 > 0)) return root_u * root_v;  // no direction: neither thread has the better claim
+  const double cos_2b = (across.x() * across.x() - across.y() * across.y()) / length2;
+  const double cos_6b = cos_2b * (4 * cos_2b * cos_2b - 3);
+  const double z = 1.5 * (root_u - root_v) / (root_u + root_v) * (cos_2b - 0.25 * cos_6b);  // |z| <= 0.74
+  return root_u * root_v * (1 + z) / (1 - z);
+}
+
+double paper_bend_stiffness(const Vec2& along, double k_u, double k_v) {
+  const double length = along.norm();
+  if (!(length > 0)) return 0.5 * (k_u + k_v);
+  const Vec2 d = along / length;
+  return k_u * d.x() * d.x() + k_v * d.y() * d.y();
 }
 
 }  // namespace toile

@@ -38,8 +38,15 @@ std::array<std::array<Mat3, 4>, 4> hinge_angle_hessian(const std::array<Vec3, 4>
 // kappa per unit of bending rigidity: L^2 / (A_1 + A_2) from the rest state, capped at 20 (slivers).
 double bend_weight(double edge_length_m, double area_a_m2, double area_b_m2);
 
-// Rigidity of a hinge whose bending direction in the pattern is `across` (need not be normalised): the fibres that
-// bend run across the edge.   D = (D_u du^2 + D_v dv^2)/(du^2 + dv^2); the mean of both for a zero vector.
-double directional_rigidity(const Vec2& across, double bend_u_N_m, double bend_v_N_m);
+// D of a hinge such that a near-equilateral sheet bends with D_u along the warp and D_v along the weft, however its
+// triangles lie.  b is the angle from the warp to `across` (across the edge: the fibres that bend; need not be normalised):
+//   D = sqrt(D_u D_v) (1 + z)/(1 - z),   z = 3/2 (sqrt D_u - sqrt D_v)/(sqrt D_u + sqrt D_v) (cos 2b - cos(6b)/4)
+// Derived in docs/theory/bend.md#warp-and-weft.  Above largest_bend_ratio the softer is raised, because z must stay below 1.
+// For a zero vector z = 0.
+inline constexpr double largest_bend_ratio = 12;
+double hinge_rigidity(const Vec2& across, double bend_u_N_m, double bend_v_N_m);
+
+// The weight of 1998, for `along` the edge itself: (k_u du^2 + k_v dv^2)/(du^2 + dv^2); the mean of both for a zero vector.
+double paper_bend_stiffness(const Vec2& along, double k_u, double k_v);
 
 }  // namespace toile

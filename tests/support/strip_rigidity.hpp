@@ -1,0 +1,72 @@
+// tests/support/strip_rigidity.hpp: how stiff a strip bends that is cut along the warp or the weft, by small deflections.
+//
+// Out of the plane a flat sheet's forces are linear: K = sum over hinges of kappa g g^T with g = dtheta/dz.  A strip held at
+// one end sags by w under a load; so does the same mesh with the same rigidity D both ways, by w_iso.  Realised: D w_iso / w.
+#pragma once
+#include "assembly/cloth_model.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <gtest/gtest.h>
+
+namespace toile::test {
+
+enum class StripAlong { u, v };
+
+// Mean deflection of the free end under a load per area; the strip begins at coordinate 0 and is held for `held_m`.
+inline double end_deflection(const ClothModel& model, StripAlong along, double length_m, double held_m) {
+  const auto n = static_cast<Eigen::Index>(model.particle_count());
+  std::vector<Vec2> uv(static_cast<std::size_t>(n));
+  for (std::size_t t = 0; t < model.mesh.triangles.size(); ++t) {
+    for (std::size_t c = 0; c < 3; ++c) uv[static_cast<std::size_t>(model.mesh.triangles[t][c])] = model.mesh.uv[t][c];
+  }
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t h = 0; h < model.bend.size(); ++h) {
+    std::array<Vec3, 4> x;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec2 p = uv[static_cast<std::size_t>(model.topology.hinges[h].particle[i])];
+      x[i] = Vec3(p.x(), 0, -p.y());
+    }
+    const std::array<Vec3, 4> g = hinge_angle_gradient(x);
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) {
+        K(model.topology.hinges[h].particle[i], model.topology.hinges[h].particle[j]) +=
+            model.bend[h].kappa_N_m * g[i].y() * g[j].y();
+      }
+    }
+  }
+  const auto coordinate = [&](Eigen::Index i) {
+    const Vec2& p = uv[static_cast<std::size_t>(i)];
+    return along == StripAlong::u ? p.x() : p.y();
+  };
+  Eigen::VectorXd load(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    load[i] = model.mass_kg[static_cast<std::size_t>(i)];
+    if (coordinate(i) > held_m) continue;
+    K.row(i).setZero();
+    K.col(i).setZero();
+    K(i, i) = 1;
+    load[i] = 0;
+  }
+  const Eigen::VectorXd w = K.ldlt().solve(load);
+  double sum = 0;
+  int count = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (coordinate(i) > length_m - 1e-9) sum += w[i], ++count;
+  }
+  EXPECT_GT(count, 1);
+  return sum / count;
+}
+
+// The rigidity along the strip, N m, of a cloth with D_u and D_v.
+inline double realised_rigidity(const ClothMesh& mesh, StripAlong along, double length_m, double held_m, double D_u,
+                                double D_v) {
+  Fabric fabric;
+  fabric.bend_u_N_m = D_u;
+  fabric.bend_v_N_m = D_v;
+  const double w = end_deflection(build_model(mesh, {&fabric, 1}), along, length_m, held_m);
+  fabric.bend_u_N_m = fabric.bend_v_N_m = 1e-5;
+  return 1e-5 * end_deflection(build_model(mesh, {&fabric, 1}), along, length_m, held_m) / w;
+}
+
+}  // namespace toile::test
