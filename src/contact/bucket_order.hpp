@@ -20,6 +20,10 @@ class BucketOrder {
     offsets_.assign(first_count + 2, 0);
     for (const auto& key : keys) ++offsets_[static_cast<std::size_t>(key.first) + 2];
     for (std::size_t f = 2; f < offsets_.size(); ++f) offsets_[f] += offsets_[f - 1];
+    if (keys.size() > packed_.capacity()) {  // resize() alone would grow to the last record by one key, time and again
+      packed_.reserve(2 * keys.size());
+      order_.reserve(2 * keys.size());
+    }
     packed_.resize(keys.size());
     for (std::size_t i = 0; i < keys.size(); ++i) {
       const auto at = static_cast<std::size_t>(offsets_[static_cast<std::size_t>(keys[i].first) + 1]++);

@@ -1,0 +1,118 @@
+// A step allocates nothing once its buffers have grown to the contacts at hand.  Counted at malloc, below operator new, because
+// Eigen's matrices call malloc themselves.  One thread: what TBB takes for its own tasks is not ours.
+#include "support/bodies.hpp"
+#include "support/run_cloth.hpp"
+
+#include "core/parallel.hpp"
+
+#include <cstdlib>
+#include <numeric>
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+namespace {
+bool counting = false;
+long allocations = 0;
+void count() {
+  if (counting) ++allocations;
+}
+}  // namespace
+
+// The C library's own names; what is defined here takes the place of malloc in the whole process.
+extern "C" {
+void* __libc_malloc(std::size_t) noexcept;
+void* __libc_calloc(std::size_t, std::size_t) noexcept;
+void* __libc_realloc(void*, std::size_t) noexcept;
+void* __libc_memalign(std::size_t, std::size_t) noexcept;
+
+void* malloc(std::size_t size) noexcept {
+  count();
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t number, std::size_t size) noexcept {
+  count();
+  return __libc_calloc(number, size);
+}
+void* realloc(void* old, std::size_t size) noexcept {
+  count();
+  return __libc_realloc(old, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  count();
+  return __libc_memalign(alignment, size);
+}
+}
+
+namespace toile {
+namespace {
+
+using test::ClothRun;
+using test::Sheet;
+
+// Allocations of each of `frames` frames.
+std::vector<long> allocations_of_frames(ClothRun& run, int frames) {
+  std::vector<long> counts;
+  counts.reserve(static_cast<std::size_t>(frames));
+  with_threads(1, [&] {
+    for (int f = 0; f < frames; ++f) {
+      allocations = 0;
+      counting = true;
+      run.frame();
+      counting = false;
+      counts.push_back(allocations);
+    }
+  });
+  return counts;
+}
+
+TEST(Allocation, IsSeenByThisTest) {
+  counting = true;
+  allocations = 0;
+  std::vector<double> some(100);
+  Eigen::VectorXd other(100);
+  counting = false;
+  EXPECT_EQ(allocations, 2) << some.size() + static_cast<std::size_t>(other.size());
+}
+
+long sum(const std::vector<long>& counts, std::size_t from) {
+  return std::accumulate(counts.begin() + static_cast<std::ptrdiff_t>(from), counts.end(), 0L);
+}
+
+TEST(Allocation, NoneAfterTheFirstStepOfASwingingSheet) {
+  ClothRun run(test::equilateral_sheet(0.4, 0.4, 0.02), Fabric{});
+  run.step.rows.cloth_cloth = false;
+  run.pin(0);
+  run.pin(20);
+  run.start();
+  EXPECT_EQ(sum(allocations_of_frames(run, 30), 1), 0);
+}
+
+TEST(Allocation, NoneAfterTheFirstStepOfASheetLyingOnABody) {
+  BodySurface slab = test::tilted_slab(1, 0.2, 0);
+  Sheet sheet = test::equilateral_sheet(0.2, 0.2, 0.02);
+  for (Vec3& p : sheet.x) p += Vec3(-0.1, 0.0025, 0.1);
+  ClothRun run(sheet, Fabric{});
+  run.world.body = &slab;
+  run.start();
+  const std::vector<long> counts = allocations_of_frames(run, 30);
+  EXPECT_GT(run.stepper->integrator().body_constraints().touching(), 50);
+  EXPECT_EQ(sum(counts, 1), 0);
+}
+
+// Contacts come and go for good while the sheet folds over the ball: buffers double, so that their growth ends.
+TEST(Allocation, OnlyForGrowthOfContactsOfASheetFoldingOverABall) {
+  BodySurface ball = test::sphere(Vec3(0, -0.1, 0), 0.1, 4);
+  Sheet sheet = test::equilateral_sheet(0.3, 0.3, 0.02);
+  for (Vec3& p : sheet.x) p += Vec3(-0.15, 0.004, 0.15);
+  ClothRun run(sheet, Fabric{});
+  run.world.body = &ball;
+  run.pin(136);  // the middle: it stays on the ball
+  run.start();
+  const std::vector<long> counts = allocations_of_frames(run, 60);
+  EXPECT_GT(run.stepper->integrator().body_constraints().touching(), 10);
+  EXPECT_LE(sum(counts, 1), 150);
+  EXPECT_LE(sum(counts, 40), 4);
+}
+
+}  // namespace
+}  // namespace toile
+#endif
