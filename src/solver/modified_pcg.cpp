@@ -143,6 +143,8 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
   if (gravity == 0) report.target = options.tolerance * scale;
   report.target = std::max(report.target, rounding_floor<T> * scale);
 
+  report.target *= options.loosen;
+
   // dv_0 = z + S w_0
   for (std::size_t i = 0; i < n; ++i) {
     const auto particle = static_cast<Index>(i);

@@ -24,6 +24,7 @@ struct PcgOptions {
   Preconditioner preconditioner = Preconditioner::block_ssor_coarse;
   double tolerance = 1e-3;
   int max_iterations = 1000;
+  double loosen = 1;  // times the target of the stop rule
 };
 
 enum class PcgStatus { converged, iteration_limit, not_positive_definite, not_finite };

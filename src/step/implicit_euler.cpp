@@ -9,7 +9,7 @@
 namespace toile {
 namespace {
 
-constexpr double loose_passes = 10;  // times the tolerance
+constexpr double loose_passes = 10;  // times the residual at which the last pass stops
 
 }  // namespace
 
@@ -129,8 +129,9 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     }
   }
   // Passes that only look for the active set are solved loosely; the one that is kept, to the tolerance asked for.
+  // The target as a whole is loosened: the tolerance alone would change nothing where the target is 2 % of gravity.
   PcgOptions pcg_options = options_.pcg;
-  pcg_options.tolerance *= loose_passes;
+  pcg_options.loosen = loose_passes;
   body_.begin(state, dv_, h_s);
   rows_.begin(state, dv_, h_s, base_h_s_, diagonal_);
 
@@ -180,12 +181,12 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     const ContactRows::Change change = rows_.update(state, dv_, y_, h_s, report.passes <= 4);
     report.rows = change.active;
     changed += body.normal + body.slipped + change.added + change.dropped;
-    const bool last = pcg_options.tolerance == options_.pcg.tolerance;
+    const bool last = pcg_options.loosen == options_.pcg.loosen;
     // A few particles that begin to slip, or rows that come and go, can wait for the next step; a missing contact cannot.
     const bool settled =
         body.normal == 0 && 20 * body.slipped <= body.touching && 20 * (change.added + change.dropped) <= change.active;
     if ((settled && last) || report.passes >= options_.max_passes) break;
-    if (settled || report.passes + 1 >= options_.max_passes) pcg_options.tolerance = options_.pcg.tolerance;
+    if (settled || report.passes + 1 >= options_.max_passes) pcg_options.loosen = options_.pcg.loosen;
   }
   report.touching = body_.touching();
   candidate.x.resize(n);
