@@ -106,9 +106,9 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "eb08d49efbd3b065");
-  EXPECT_EQ(folding(), "7bd1c4d53a7dde4d");
-  EXPECT_EQ(drop(1), "cc73a350f2cdd300");
+  EXPECT_EQ(hanging(), "3b00b3ed418a21e8");
+  EXPECT_EQ(folding(), "56faa94c19153aea");
+  EXPECT_EQ(drop(1), "85554260f053cabb");
 }
 
 }  // namespace
