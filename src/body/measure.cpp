@@ -95,4 +95,23 @@ double girth_at_m(std::span<const Vec3> positions, std::span<const Triangle> tri
   return girth;
 }
 
+double waist_height_m(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+  if (positions.empty()) return 0;
+  Vec3 low = positions[0], high = positions[0];
+  for (const Vec3& p : positions) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  Vec3 origin = 0.5 * (low + high);
+  double least = 0, height = 0;
+  for (int percent = 55; percent <= 70; ++percent) {
+    origin.y() = low.y() + 0.01 * percent * (high.y() - low.y());
+    const double girth = girth_at_m(positions, triangles, origin, Vec3::UnitY());
+    if (girth <= 0 || (least > 0 && girth >= least)) continue;
+    least = girth;
+    height = origin.y();
+  }
+  return height;
+}
+
 }  // namespace toile

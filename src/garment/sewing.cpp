@@ -33,7 +33,7 @@ std::vector<Vec3> class_means(std::span<const Index> merged, std::span<const dou
 
 Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, BodySurface* body, const StepOptions& step,
                const SewingOptions& options)
-    : garment_(&garment), options_(options) {
+    : garment_(&garment), options_(options), labels_(garment, options.label_heights) {
   ModelOptions weightless;
   weightless.gravity_m_per_s2.setZero();
   weightless.drag_per_s = options.drag_per_s;
@@ -72,6 +72,7 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
 
 void Sewing::append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const {
   const double open = std::max(0.0, 1 - options_.closing_speed_m_per_s * (time_s_ + h_s) / longest_m_);
+  if (open == 0) labels_.append(state, 1, springs);
   for (std::size_t k = 0; k < garment_->pairs.size(); ++k) {
     const SeamPair& pair = garment_->pairs[k];
     const double wanted = open * start_distance_m_[k];

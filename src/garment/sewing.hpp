@@ -12,7 +12,7 @@
 // If a seam still gapes when l = 0, the layers of cloth around the gap are thinned; then f_max doubles, at most twice; then the garment is
 // reported as blocked, by seam.  The last millimetre is left to the weld, which waits while it would push cloth through cloth.
 #pragma once
-#include "garment/garment_mesh.hpp"
+#include "garment/label_heights.hpp"
 #include "step/adaptive_step.hpp"
 
 #include <functional>
@@ -41,7 +41,8 @@ struct SewingOptions {
   double step_max_s = 1.0 / 60;
   bool paper_scaling = false;  // assembly/cloth_model.hpp
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
-  std::function<bool()> stop;  // asked before every step
+  std::vector<LabelHeight> label_heights;  // where labelled edges belong, once the seams are closed
+  std::function<bool()> stop;              // asked before every step
 };
 
 struct SeamGap {
@@ -88,6 +89,7 @@ class Sewing {
   StepWorld world_;
   ClothState state_;
   std::optional<AdaptiveStep> stepper_;
+  LabelSprings labels_;
   std::vector<double> start_distance_m_;  // [pair]
   double longest_m_ = 0, mean_edge_m_ = 0, pull_factor_ = 1, time_s_ = 0;
   double best_gap_m_ = 0, best_time_s_ = 0;

@@ -118,7 +118,8 @@ ScenePin read_pin(const Json& value) {
 }
 
 SceneCloth read_cloth(const Json& value, const std::string& file) {
-  value.allow_only({"name", "pattern", "grid", "resolution_cm", "fabric", "panels", "placement", "pins"});
+  value.allow_only(
+      {"name", "pattern", "grid", "resolution_cm", "fabric", "panels", "placement", "pins", "label_heights_m"});
   SceneCloth cloth;
   cloth.name = value.string_or("name", "");
   const Json *pattern = value.find("pattern"), *grid = value.find("grid");
@@ -156,6 +157,10 @@ SceneCloth read_cloth(const Json& value, const std::string& file) {
     placement->allow_only({"translation_m", "rotation_deg"});
     if (const Json* t = placement->find("translation_m")) cloth.translation_m = vector_of(*t);
     if (const Json* r = placement->find("rotation_deg")) cloth.rotation_deg = vector_of(*r);
+  }
+  if (const Json* heights = value.find("label_heights_m")) {
+    for (const auto& [label, height] : heights->object())
+      cloth.label_heights.push_back({label, number_in(height, -10, 10)});
   }
   if (const Json* pins = value.find("pins")) {
     for (const Json& pin : pins->array()) cloth.pins.push_back(read_pin(pin));

@@ -7,6 +7,7 @@
 // ignored; a scene that runs has been obeyed in every word.
 #pragma once
 #include "body/collision_body.hpp"
+#include "garment/label_heights.hpp"
 #include "io/json.hpp"
 #include "material/fabric.hpp"
 #include "material/membrane.hpp"
@@ -52,6 +53,7 @@ struct SceneCloth {
   Vec3 translation_m{0, 0, 0};
   Vec3 rotation_deg{0, 0, 0};  // R = Rz Ry Rx, as in patterns
   std::vector<ScenePin> pins;
+  std::vector<LabelHeight> label_heights;  // of edges with a label; the waist is measured when it is not given
 };
 
 struct SceneCylinder {  // an upright solid whose rims are rounded: sim/cylinder.hpp

@@ -1,5 +1,6 @@
 #include "sim/setup.hpp"
 
+#include "body/measure.hpp"
 #include "core/error.hpp"
 #include "garment/triangulate.hpp"
 #include "io/file.hpp"
@@ -13,6 +14,8 @@
 
 namespace toile {
 namespace {
+
+constexpr std::string_view waist_label = "lower_interface";
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -163,6 +166,32 @@ std::vector<Vec2> rest_stretch_of(const SceneCloth& cloth, const ClothMesh& mesh
   return b;
 }
 
+std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment,
+                                          std::span<const Vec3> body_x, std::span<const Triangle> body_triangles,
+                                          std::vector<std::string>& warnings) {
+  std::vector<LabelHeight> heights = cloth.label_heights;
+  for (const LabelHeight& height : heights) {
+    if (std::none_of(garment.labels.begin(), garment.labels.end(),
+                     [&](const LabelledEdge& edge) { return edge.label == height.label; }))
+      throw InputError(cloth.pattern, "label_heights_m", "a label that an edge of the pattern carries",
+                       '"' + printable(height.label) + '"');
+  }
+  std::vector<std::string> free;
+  for (const LabelledEdge& edge : garment.labels) {
+    const auto named = [&](const LabelHeight& height) { return height.label == edge.label; };
+    if (std::any_of(heights.begin(), heights.end(), named)) continue;
+    const double waist = edge.label == waist_label && !body_x.empty() ? waist_height_m(body_x, body_triangles) : 0;
+    if (waist > 0) {
+      heights.push_back({edge.label, waist});
+    } else if (std::find(free.begin(), free.end(), edge.label) == free.end()) {
+      free.push_back(edge.label);
+    }
+  }
+  for (const std::string& label : free)
+    warnings.push_back("edges labelled \"" + printable(label) + "\" are not held: their height is not known");
+  return heights;
+}
+
 std::vector<Pin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) {
   std::vector<Pin> pins;
   for (const ScenePin& given : cloth.pins) {
@@ -203,6 +232,10 @@ void add_to_hash(const Scene& scene, Hash& hash) {
     }
     add(hash, cloth.translation_m);
     add(hash, cloth.rotation_deg);
+    for (const LabelHeight& height : cloth.label_heights) {
+      add(hash, std::string_view(height.label));
+      add(hash, height.height_m);
+    }
     for (const ScenePin& pin : cloth.pins) {
       add(hash, pin.near_m);
       for (const ScenePin::Key& key : pin.path) {

@@ -32,6 +32,11 @@ GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& 
 std::vector<Fabric> fabrics_of(const Scene& scene, const ClothMesh& mesh);
 // (b_u, b_v) per panel.
 std::vector<Vec2> rest_stretch_of(const SceneCloth& cloth, const ClothMesh& mesh);
+// Where labelled edges are held: as the cloth says, and the waist ("lower_interface") where the body is narrowest if it says nothing.
+// Labels that stay without a height are named in a warning.  Throws InputError for a height of a label that no edge carries.
+std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment,
+                                          std::span<const Vec3> body_x, std::span<const Triangle> body_triangles,
+                                          std::vector<std::string>& warnings);
 // Throws InputError when two pins hold one particle.
 std::vector<Pin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x);
 

@@ -23,6 +23,7 @@ namespace {
 constexpr double weightless_s = 0.2, ramp_s = 0.3;    // after the weld
 constexpr double at_rest_mm_per_s = 2, rest_s = 0.5;  // when a drape may stop
 constexpr double sewing_film_fps = 30;
+constexpr double labels_held_s = 0.5, labels_fade_s = 0.5;  // after the weld
 constexpr double frictionless_s = 1;  // after the weld: the garment slips into place before friction holds it
 
 template <class... Values>
@@ -194,6 +195,8 @@ class Run {
     sewing_options.step_max_s = scene_.step_max_s.value_or(1 / sewing_options.fps);
     sewing_options.paper_scaling = scene_.paper_scaling;
     sewing_options.damping_jacobian = scene_.damping_jacobian;
+    sewing_options.label_heights =
+        label_heights_of(scene_.cloth.front(), garment_, body_x_, body_triangles_, report_.warnings);
     sewing_options.stop = options_.stop;
     Sewing sewing(garment_, fabrics_, body(), step_, sewing_options);
     leave_tangles(sewing);
@@ -235,6 +238,7 @@ class Run {
     const WeldedMesh welded = weld(garment_);
     start_ = weld_state(garment_, welded, sewing.model(), sewing.state());
     thickness_scale_ = weld_thickness(welded, sewing.thickness_scale());
+    labels_ = LabelSprings(garment_, sewing_options.label_heights).welded(welded.particle_of);
     mesh_ = welded.mesh;
     report_.vertices = mesh_.particle_count;
     return true;
@@ -285,6 +289,12 @@ class Run {
     const double frame_s = 1 / scene_.fps;
     adaptive.stop = options_.stop;
     adaptive.step_max_s = scene_.step_max_s.value_or(sewn ? 1.0 / 60 : frame_s);
+    double label_strength = 0;
+    if (!labels_.empty()) {
+      world.springs = [&](const ClothState& at, double, std::vector<LinearSpring>& springs) {
+        labels_.append(at, label_strength, springs);
+      };
+    }
     AdaptiveStep stepper(model, world, step_, adaptive);
     set_rest_stretch(model, 1);
 
@@ -305,6 +315,7 @@ class Run {
     for (int k = 1; k < frames; ++k) {
       const double t_s = (k - 1) * frame_s;
       if (sewn) {
+        label_strength = std::clamp(1 - (t_s - labels_held_s) / labels_fade_s, 0.0, 1.0);
         model.gravity_m_per_s2 = ramp(t_s) * scene_.gravity_m_per_s2;
         set_rest_stretch(model, ramp(t_s));
         stepper.integrator().body_constraints().set_friction(t_s < frictionless_s ? 0 : step_.body.friction);
@@ -388,6 +399,7 @@ class Run {
   ClothMesh mesh_;
   std::string name_;
   std::vector<double> thickness_scale_;  // [welded particle]
+  LabelSprings labels_;                  // on the welded cloth
   ClothState start_, final_;
   std::vector<Fabric> fabrics_;
   std::vector<Vec2> b_of_panel_;

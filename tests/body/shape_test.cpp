@@ -137,6 +137,30 @@ TEST(Polygonise, RemeshingNeverPinchesAThinRod) {
   }
 }
 
+TEST(TapeMeasure, TheWaistIsTheNarrowestPartOfTheTrunk) {
+  // Three stacked frusta of height 1, narrowest at 0.62.
+  std::vector<Vec3> x;
+  std::vector<Triangle> triangles;
+  constexpr Index sides = 32;
+  const std::array<std::array<double, 2>, 4> rings{{{0, 0.2}, {0.62, 0.1}, {0.9, 0.2}, {1, 0.05}}};
+  for (const auto& [height, radius] : rings)
+    for (Index k = 0; k < sides; ++k)
+      x.emplace_back(radius * std::cos(2 * M_PI * k / sides), height, -radius * std::sin(2 * M_PI * k / sides));
+  for (Index r = 0; r + 1 < 4; ++r) {
+    for (Index k = 0; k < sides; ++k) {
+      const Index a = r * sides + k, b = r * sides + (k + 1) % sides;
+      triangles.push_back({a, b, b + sides});
+      triangles.push_back({a, b + sides, a + sides});
+    }
+  }
+  for (Index k = 1; k + 1 < sides; ++k) {
+    triangles.push_back({0, k + 1, k});
+    triangles.push_back({3 * sides, 3 * sides + k, 3 * sides + k + 1});
+  }
+  EXPECT_NEAR(waist_height_m(x, triangles), 0.62, 1e-9);
+  EXPECT_EQ(waist_height_m({}, {}), 0);
+}
+
 TEST(TapeMeasure, GirthOfABallIsItsCircumference) {
   const ScalarField ball = [](const Vec3& p) { return p.norm() - 0.5; };
   const HalfSurface whole = meshed(ball, 0.8, 0.025, 0.03, 6);

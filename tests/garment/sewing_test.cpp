@@ -189,6 +189,48 @@ TEST(Sewing, ATubeTooSmallForTheBodyIsBlockedAndItsSeamsAreStretched) {
   EXPECT_EQ(std::memcmp(before.data(), run.sewing->state().x.data(), before.size() * sizeof(Vec3)), 0);
 }
 
+TEST(Sewing, ALabelledEdgeIsDrawnToItsHeightOnceTheSeamsAreClosed) {
+  Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
+  for (Panel& panel : pattern.panels) panel.edges[0].label = "lower_interface";
+  SewingOptions options;
+  const GarmentMesh garment = mesh_garment(pattern, 0.02);
+  ASSERT_EQ(garment.labels.size(), 2U);
+  const auto height = [&](const Vec3s& x) {
+    double sum = 0, count = 0;
+    for (const LabelledEdge& edge : garment.labels) {
+      for (const Index i : edge.particles) {
+        sum += x[at(i)].y();
+        ++count;
+      }
+    }
+    return sum / count;
+  };
+  const double wanted = height(garment.x) + 0.03;
+  options.label_heights = {{"lower_interface", wanted}, {"unknown", 7}};
+  SewingRun held(pattern, 0.02, nullptr, options), free(pattern, 0.02);
+  held.run(200);
+  free.run(200);
+  ASSERT_EQ(held.sewing->status(), SewingStatus::closed);
+  EXPECT_NEAR(height(free.sewing->state().x), height(garment.x), 2e-3);
+  EXPECT_GT(height(held.sewing->state().x), height(garment.x) + 1e-3) << "on its way";
+
+  // Springs of their own weight: at the height they rest, above it they push down, never harder than their limit.
+  const LabelSprings springs(garment, options.label_heights);
+  ClothState state{garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
+  for (const double above : {-0.5, -0.01, 0.0, 0.01, 0.5}) {
+    for (Vec3& p : state.x) p.y() = wanted + above;
+    std::vector<LinearSpring> rows;
+    springs.append(state, 0.5, rows);
+    double force = 0;
+    for (const LinearSpring& row : rows) {
+      force += row.force_N * row.direction.y();
+      EXPECT_LE(row.stiffness_N_per_m * std::fabs(above), std::fabs(row.force_N) + 1e-12) << "a step cannot overshoot";
+    }
+    const double limit = 0.5 * 20 * 0.24;  // two edges of 12 cm
+    EXPECT_NEAR(force, std::clamp(-above / 0.02, -1.0, 1.0) * limit, 1e-9) << above;
+  }
+}
+
 TEST(Sewing, AGarmentWithoutSeamsIsClosedAtOnce) {
   Pattern pattern = test::tube_pattern(0.1, 0.1, 0.1);
   pattern.stitches.clear();

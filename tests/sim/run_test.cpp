@@ -232,6 +232,27 @@ TEST(Run, TheTShirtIsSewnWithoutACrossingWhereFourPanelsMeet) {
   }
 }
 
+TEST(Setup, LabelHeightsComeFromTheSceneAndTheWaistFromTheBody) {
+  GarmentMesh garment;
+  garment.labels = {{"lower_interface", {0}}, {"right_collar", {1}}, {"right_collar", {2}}};
+  const SolidMesh solid = rounded_cylinder(0.2, 1.8, Vec3(0, 1.8, 0));
+  SceneCloth cloth;
+  std::vector<std::string> warnings;
+  auto heights = label_heights_of(cloth, garment, solid.positions, solid.triangles, warnings);
+  ASSERT_EQ(heights.size(), 1U);
+  EXPECT_GT(heights[0].height_m, 0.9);
+  EXPECT_LT(heights[0].height_m, 1.3);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("right_collar"), std::string::npos);
+  warnings.clear();
+  cloth.label_heights = {{"lower_interface", 1.1}, {"right_collar", 1.5}};
+  heights = label_heights_of(cloth, garment, solid.positions, solid.triangles, warnings);
+  EXPECT_EQ(heights.size(), 2U);
+  EXPECT_TRUE(warnings.empty());
+  cloth.label_heights = {{"waist", 1.1}};
+  EXPECT_THROW(label_heights_of(cloth, garment, solid.positions, solid.triangles, warnings), InputError);
+}
+
 TEST(Tangles, AreLeftAloneUntilTheyAreGone) {
   // A triangle that stands through another, and a third far away.
   const std::vector<Triangle> triangles{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
