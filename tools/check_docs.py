@@ -135,11 +135,26 @@ class Checker:
                 for name, anchor in document_name.findall(docs_reference.sub("", line)):
                     self.check_named_document(path, number, name, anchor)
 
+    def check_reason_codes(self):
+        """Every code in a `namespace reason` has a row in docs/reason-codes.md under what it means and under what to do."""
+        page = self.root / "docs/reason-codes.md"
+        rows = re.findall(r"^\| `(\w+)` \|", page.read_text(), re.MULTILINE) if page.is_file() else []
+        for path in self.sources:
+            if path.suffix not in {".hpp", ".cpp"} or self.root / "src" not in path.parents:
+                continue
+            text = path.read_text()
+            for block in re.finditer(r"namespace reason \{(.*?)\n\}", text, re.DOTALL):
+                for code in re.finditer(r'"(\w+)"', block.group(1)):
+                    if rows.count(code.group(1)) < 2:
+                        number = text.count("\n", 0, block.start(1) + code.start()) + 1
+                        self.complain(path, number, f"'{code.group(1)}': docs/reason-codes.md must say what it means and what to do")
+
     def run(self):
         for path in self.documents:
             self.check_document(path)
         for path in self.sources:
             self.check_source(path)
+        self.check_reason_codes()
         return self.offences
 
 

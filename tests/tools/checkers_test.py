@@ -92,6 +92,14 @@ class Checkers(unittest.TestCase):
         self.refuses(tool, {"src/core/a.cpp": "// docs/units.md#mass.\n"}, "docs/units.md#mass")
         self.accepts(tool, {"docs/a.md": "```\n[x](gone.md)\n```\n\n    [y](gone.md)\n\n<https://example.org/gone.md>\n"})
 
+    def test_reason_codes(self):
+        tool = "check_docs.py"
+        source = {"src/core/a.hpp": '#pragma once\nnamespace reason {\nconstexpr std::string_view lost = "lost_cloth";\n}  // x\n'}
+        page = "| `lost_cloth` | gone |\n\n| `other` | x |\n"
+        self.refuses(tool, source, "src/core/a.hpp:3: 'lost_cloth'")
+        self.refuses(tool, {**source, "docs/reason-codes.md": page}, "what to do")
+        self.accepts(tool, {**source, "docs/reason-codes.md": page + "\n| `lost_cloth` | look for it |\n"})
+
     def test_commands(self):
         tool = "run_docs_commands.py"
         text = self.accepts(tool)
