@@ -52,6 +52,11 @@ class BlockMatrix {
   const Block<T>& off_diagonal(Slot slot) const { return off_diagonal_[static_cast<std::size_t>(slot)]; }
   Mat3& grounded(Index row) { return grounded_[static_cast<std::size_t>(row)]; }
   const Mat3& grounded(Index row) const { return grounded_[static_cast<std::size_t>(row)]; }
+  // G_i in the precision of the blocks, valid after update_diagonal().
+  Block<T> grounded_block(Index row) const {
+    const Lane<T>* columns = &grounded_columns_[static_cast<std::size_t>(row) * 3];
+    return {columns[0], columns[1], columns[2]};
+  }
   // A_ii, valid after update_diagonal().
   const Mat3& diagonal(Index row) const { return diagonal_[static_cast<std::size_t>(row)]; }
   void update_diagonal();

@@ -51,6 +51,34 @@ double dot(const L& a, const L& b) {  // products and sum in double: a CG scalar
          static_cast<double>(a[2]) * static_cast<double>(b[2]);
 }
 
+// Sum of many dot products, with products and sum in double as in dot().
+template <class T>
+class DotSum;
+template <>
+class DotSum<float> {
+ public:
+  void add(const Lane<float>& a, const Lane<float>& b) {
+    low_ += low(a) * low(b);
+    high_ += high(a) * high(b);
+  }
+  double value() const { return low_[0] + low_[1] + high_[0]; }
+
+ private:
+  using Two [[gnu::vector_size(16)]] = double;
+  static Two low(const Lane<float>& a) { return __builtin_convertvector(__builtin_shufflevector(a, a, 0, 1), Two); }
+  static Two high(const Lane<float>& a) { return __builtin_convertvector(__builtin_shufflevector(a, a, 2, 3), Two); }
+  Two low_{0, 0}, high_{0, 0};
+};
+template <>
+class DotSum<double> {
+ public:
+  void add(const DoubleLane& a, const DoubleLane& b) { sum_ += dot(a, b); }
+  double value() const { return sum_; }
+
+ private:
+  double sum_ = 0;
+};
+
 // A 3x3 block, column by column.
 template <class T>
 struct Block {
@@ -61,6 +89,9 @@ struct Block {
     Mat3 m;
     m << to_vec3(c0), to_vec3(c1), to_vec3(c2);
     return m;
+  }
+  Block transpose() const {
+    return {Lane<T>{c0[0], c1[0], c2[0], 0}, Lane<T>{c0[1], c1[1], c2[1], 0}, Lane<T>{c0[2], c1[2], c2[2], 0}};
   }
   Lane<T> times(const Lane<T>& x) const { return c0 * x[0] + c1 * x[1] + c2 * x[2]; }
   Lane<T> transpose_times(const Lane<T>& x) const { return column_dots(c0 * x, c1 * x, c2 * x); }

@@ -36,7 +36,8 @@ void bisect(std::vector<Index>& members, std::size_t begin, std::size_t end, std
 
 }  // namespace
 
-CoarseSpace::CoarseSpace(const ClothMesh& mesh) {
+template <class T>
+CoarseSpace<T>::CoarseSpace(const ClothMesh& mesh) {
   const auto particles = static_cast<std::size_t>(mesh.particle_count);
   aggregate_.assign(particles, -1);
   basis_.assign(particles, Vec3(1, 0, 0));
@@ -84,63 +85,194 @@ CoarseSpace::CoarseSpace(const ClothMesh& mesh) {
   transpose_.resize(n * n);
   rhs_.resize(n);
   dead_.resize(n);
+  y_.resize(n);
 }
 
-void CoarseSpace::add_block(Index i, Index j, const Mat3& block) {
+// Which aggregates the row of a particle reaches.
+template <class T>
+void CoarseSpace<T>::find_entries(const BlockPattern& pattern) {
+  pattern_ = &pattern;
+  const auto n = static_cast<std::size_t>(pattern.rows());
+  std::vector<std::vector<Index>> reached(n);
+  const auto reach = [&](Index i, Index aggregate) {
+    auto& of_i = reached[static_cast<std::size_t>(i)];
+    const auto found = std::find(of_i.begin(), of_i.end(), aggregate);
+    if (found == of_i.end()) of_i.push_back(aggregate);
+  };
+  for (Index i = 0; i < pattern.rows(); ++i) reach(i, aggregate_[static_cast<std::size_t>(i)]);
+  for (Index i = 0; i < pattern.rows(); ++i) {
+    for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s) {
+      reach(i, aggregate_[static_cast<std::size_t>(pattern.column(s))]);
+      reach(pattern.column(s), aggregate_[static_cast<std::size_t>(i)]);
+    }
+  }
+  entry_begin_.assign(1, 0);
+  entry_aggregate_.clear();
+  for (const auto& of_i : reached) {
+    entry_aggregate_.insert(entry_aggregate_.end(), of_i.begin(), of_i.end());
+    entry_begin_.push_back(static_cast<std::int32_t>(entry_aggregate_.size()));
+  }
+  const auto entry = [&](Index i, Index aggregate) {
+    std::int32_t e = entry_begin_[static_cast<std::size_t>(i)];
+    while (entry_aggregate_[static_cast<std::size_t>(e)] != aggregate) ++e;
+    return e;
+  };
+  slot_entry_.clear();
+  for (Index i = 0; i < pattern.rows(); ++i) {
+    for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s) {
+      const Index j = pattern.column(s);
+      slot_entry_.push_back(
+          {entry(i, aggregate_[static_cast<std::size_t>(j)]), entry(j, aggregate_[static_cast<std::size_t>(i)])});
+    }
+  }
+  AZ_.resize(entry_aggregate_.size());
+  Zy_.resize(n);
+}
+
+namespace {
+
+template <class T>
+void add_columns(std::array<Lane<T>, 9>& sum, const Block<T>& B, const std::array<T, 3>& q) {
+  for (std::size_t l = 0; l < 3; ++l) {
+    sum[3 * l] += B.c0 * q[l];
+    sum[3 * l + 1] += B.c1 * q[l];
+    sum[3 * l + 2] += B.c2 * q[l];
+  }
+}
+
+template <class T>
+Block<T> product(const Block<T>& A, const Block<T>& B) {
+  return {A.times(B.c0), A.times(B.c1), A.times(B.c2)};
+}
+
+}  // namespace
+
+// Written with differences as the product is (assembly/block_matrix.hpp): (A Z)_i = G_i Z_i + sum_j L_ij (Z_j - Z_i).
+template <class T>
+void CoarseSpace<T>::multiply_basis(const LinearSystem<T>& system) {
+  const BlockPattern& pattern = system.A().pattern();
+  const ParticleConstraints& constraints = system.constraints();
+  const Lane<T> zero = to_lane<T>(Vec3::Zero());
+  Columns none;
+  none.fill(zero);
+  std::fill(AZ_.begin(), AZ_.end(), none);
+  const auto q_of = [&](Index i) {
+    const Vec3& q = basis_[static_cast<std::size_t>(i)];
+    return std::array<T, 3>{static_cast<T>(q[0]), static_cast<T>(q[1]), static_cast<T>(q[2])};
+  };
+  const auto minus = [](const std::array<T, 3>& q) { return std::array<T, 3>{-q[0], -q[1], -q[2]}; };
+  for (Index i = 0; i < pattern.rows(); ++i) {
+    const std::array<T, 3> q_i = q_of(i);
+    const bool i_free = constraints.is_free(i);
+    const Block<T> S_i = Block<T>::from(constraints.S(i));
+    const auto own_i = static_cast<std::size_t>(entry_begin_[static_cast<std::size_t>(i)]);
+    const Block<T> G = system.A().grounded_block(i);
+    add_columns(AZ_[own_i], i_free ? G : product(G, S_i), q_i);
+    for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s) {
+      const Index j = pattern.column(s);
+      const Block<T>& L = system.A().off_diagonal(s);
+      const Block<T> U = L.transpose();
+      const std::array<T, 3> q_j = q_of(j);
+      const auto own_j = static_cast<std::size_t>(entry_begin_[static_cast<std::size_t>(j)]);
+      const auto [e_i, e_j] = slot_entry_[static_cast<std::size_t>(s)];
+      const auto other_i = static_cast<std::size_t>(e_i), other_j = static_cast<std::size_t>(e_j);
+      if (i_free && constraints.is_free(j)) {
+        if (other_i == own_i) {
+          const std::array<T, 3> d{0, q_j[1] - q_i[1], q_j[2] - q_i[2]};
+          add_columns(AZ_[own_i], L, d);
+          add_columns(AZ_[own_j], U, minus(d));
+        } else {
+          add_columns(AZ_[own_i], L, minus(q_i));
+          add_columns(AZ_[other_i], L, q_j);
+          add_columns(AZ_[own_j], U, minus(q_j));
+          add_columns(AZ_[other_j], U, q_i);
+        }
+      } else {
+        const Block<T> S_j = Block<T>::from(constraints.S(j));
+        const Block<T> LS_i = product(L, S_i), LS_j = product(L, S_j), US_i = product(U, S_i), US_j = product(U, S_j);
+        add_columns(AZ_[own_i], LS_i, minus(q_i));
+        add_columns(AZ_[other_i], LS_j, q_j);
+        add_columns(AZ_[own_j], US_j, minus(q_j));
+        add_columns(AZ_[other_j], US_i, q_i);
+      }
+    }
+  }
+  for (const Index i : constraints.constrained()) {
+    const Block<T> S_i = Block<T>::from(constraints.S(i));
+    for (auto e = entry_begin_[static_cast<std::size_t>(i)]; e < entry_begin_[static_cast<std::size_t>(i) + 1]; ++e) {
+      for (Lane<T>& column : AZ_[static_cast<std::size_t>(e)]) column = S_i.times(column);
+    }
+  }
+}
+
+// The upper triangle of E = Z^T (A Z) + rows.
+template <class T>
+void CoarseSpace<T>::sum_coarse_matrix(const LinearSystem<T>& system) {
   const auto n = static_cast<std::size_t>(dimension());
-  const Vec3 &p = basis_[static_cast<std::size_t>(i)], &q = basis_[static_cast<std::size_t>(j)];
-  const auto a = static_cast<std::size_t>(aggregate_[static_cast<std::size_t>(i)]) * 9,
-             b = static_cast<std::size_t>(aggregate_[static_cast<std::size_t>(j)]) * 9;
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t r = 0; r < 3; ++r) {
-      double* row = &E_[(a + 3 * k + r) * n + b];
-      const double p_k = p[static_cast<Eigen::Index>(k)];
-      const double m0 = p_k * block(static_cast<Eigen::Index>(r), 0), m1 = p_k * block(static_cast<Eigen::Index>(r), 1),
-                   m2 = p_k * block(static_cast<Eigen::Index>(r), 2);
+  std::fill(E_.begin(), E_.end(), 0.0);
+  for (std::size_t i = 0; i < aggregate_.size(); ++i) {
+    const Index a = aggregate_[i];
+    const double q[3] = {basis_[i][0], basis_[i][1], basis_[i][2]};
+    for (auto e = static_cast<std::size_t>(entry_begin_[i]); e < static_cast<std::size_t>(entry_begin_[i + 1]); ++e) {
+      const Index b = entry_aggregate_[e];
+      if (b > a) continue;
+      for (std::size_t m = 0; m < 9; ++m) {
+        double* row = &E_[(static_cast<std::size_t>(b) * 9 + m) * n + static_cast<std::size_t>(a) * 9];
+        const Lane<T>& column = AZ_[e][m];
+        const double c[3] = {static_cast<double>(column[0]), static_cast<double>(column[1]),
+                             static_cast<double>(column[2])};
+        for (std::size_t k = 0; k < 3; ++k) {
+          for (std::size_t r = 0; r < 3; ++r) row[3 * k + r] += q[k] * c[r];
+        }
+      }
+    }
+  }
+  const ParticleConstraints& constraints = system.constraints();
+  for (const ImplicitRow& row : system.rows()) {
+    // Z^T g, nine numbers for each of at most four aggregates.
+    std::array<Index, 4> aggregates{};
+    std::array<std::array<double, 9>, 4> Zg{};
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (row.particle[k] < 0) continue;
+      const auto i = static_cast<std::size_t>(row.particle[k]);
+      std::size_t at = 0;
+      while (at < count && aggregates[at] != aggregate_[i]) ++at;
+      if (at == count) aggregates[count++] = aggregate_[i];
+      const Vec3 g =
+          row.weight[k] *
+          (constraints.is_free(row.particle[k]) ? row.direction : Vec3(constraints.S(row.particle[k]) * row.direction));
       for (std::size_t l = 0; l < 3; ++l) {
-        const double q_l = q[static_cast<Eigen::Index>(l)];
-        row[3 * l] += m0 * q_l;
-        row[3 * l + 1] += m1 * q_l;
-        row[3 * l + 2] += m2 * q_l;
+        for (std::size_t c = 0; c < 3; ++c)
+          Zg[at][3 * l + c] += basis_[i][static_cast<Eigen::Index>(l)] * g[static_cast<Eigen::Index>(c)];
+      }
+    }
+    for (std::size_t p = 0; p < count; ++p) {
+      for (std::size_t q = 0; q < count; ++q) {
+        if (aggregates[p] > aggregates[q]) continue;
+        for (std::size_t m = 0; m < 9; ++m) {
+          double* to =
+              &E_[(static_cast<std::size_t>(aggregates[p]) * 9 + m) * n + static_cast<std::size_t>(aggregates[q]) * 9];
+          const double factor = row.a * Zg[p][m];
+          for (std::size_t k = 0; k < 9; ++k) to[k] += factor * Zg[q][k];
+        }
       }
     }
   }
 }
 
 template <class T>
-void CoarseSpace::factorise(const LinearSystem<T>& system) {
-  std::fill(E_.begin(), E_.end(), 0.0);
+void CoarseSpace<T>::factorise(const LinearSystem<T>& system) {
   const BlockPattern& pattern = system.A().pattern();
-  const ParticleConstraints& constraints = system.constraints();
-  const auto filtered = [&](Index i, Index j, const Mat3& block) -> Mat3 {
-    if (constraints.is_free(i) && constraints.is_free(j)) return block;
-    return constraints.S(i) * block * constraints.S(j);
-  };
-  for (Index i = 0; i < pattern.rows(); ++i) {
-    add_block(i, i, filtered(i, i, system.A().diagonal(i)));
-    for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s) {
-      const Index j = pattern.column(s);
-      const Mat3 block = filtered(i, j, system.A().off_diagonal(s).to_mat3());
-      add_block(i, j, block);
-      add_block(j, i, block.transpose());
-    }
-  }
-  for (const ImplicitRow& row : system.rows()) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (row.particle[k] < 0) continue;
-      const Vec3 g_k = constraints.S(row.particle[k]) * row.direction;
-      for (std::size_t l = 0; l < 4; ++l) {
-        if (row.particle[l] < 0) continue;
-        const Vec3 g_l = constraints.S(row.particle[l]) * row.direction;
-        add_block(row.particle[k], row.particle[l], (row.a * row.weight[k] * row.weight[l]) * g_k * g_l.transpose());
-      }
-    }
-  }
+  if (pattern_ != &pattern) find_entries(pattern);
+  multiply_basis(system);
+  sum_coarse_matrix(system);
   cholesky();
 }
 
 // E = U^T U in place, row by row; a pivot that is nothing beside its aggregate (all of it held) is struck out.
-void CoarseSpace::cholesky() {
+template <class T>
+void CoarseSpace<T>::cholesky() {
   const auto n = static_cast<std::size_t>(dimension());
   double largest = 0;
   for (std::size_t k = 0; k < n; ++k) largest = std::max(largest, E_[k * n + k]);
@@ -167,18 +299,10 @@ void CoarseSpace::cholesky() {
   }
 }
 
+// rhs <- E^-1 rhs
 template <class T>
-void CoarseSpace::add_correction(const LinearSystem<T>& system, std::span<const Lane<T>> r, std::span<Lane<T>> z) {
+void CoarseSpace<T>::solve() {
   const auto n = static_cast<std::size_t>(dimension());
-  std::fill(rhs_.begin(), rhs_.end(), 0.0);
-  for (std::size_t p = 0; p < r.size(); ++p) {  // r is in the range of S, so S^T r = r
-    double* y = &rhs_[static_cast<std::size_t>(aggregate_[p]) * 9];
-    const Vec3& q = basis_[p];
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t c = 0; c < 3; ++c)
-        y[3 * k + c] += q[static_cast<Eigen::Index>(k)] * static_cast<double>(r[p][c]);
-    }
-  }
   for (std::size_t k = 0; k < n; ++k) {  // U^T y = rhs
     const double* row = &E_[k * n];
     if (dead_[k]) {
@@ -194,22 +318,67 @@ void CoarseSpace::add_correction(const LinearSystem<T>& system, std::span<const 
     const double x = rhs_[k] /= column[k];
     for (std::size_t j = 0; j < k; ++j) rhs_[j] -= column[j] * x;
   }
+}
+
+template <class T>
+void CoarseSpace<T>::deflate(const LinearSystem<T>& system, std::span<const Lane<T>> r, std::span<Lane<T>> t,
+                             std::span<Lane<T>> At) {
+  const auto n = static_cast<std::size_t>(dimension());
+  std::fill(rhs_.begin(), rhs_.end(), 0.0);
+  for (std::size_t p = 0; p < r.size(); ++p) {  // in the range of S, so S^T may be left out
+    double* y = &rhs_[static_cast<std::size_t>(aggregate_[p]) * 9];
+    const Lane<T> d = r[p] - At[p];
+    const double q[3] = {basis_[p][0], basis_[p][1], basis_[p][2]};
+    const double c[3] = {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t m = 0; m < 3; ++m) y[3 * k + m] += q[k] * c[m];
+    }
+  }
+  solve();
+  for (std::size_t k = 0; k < n; ++k) {
+    const T y = static_cast<T>(rhs_[k]);
+    y_[k] = Lane<T>{y, y, y, 0};
+  }
   const ParticleConstraints& constraints = system.constraints();
+  const bool rows = !system.rows().empty();
   for (std::size_t p = 0; p < r.size(); ++p) {
-    const double* y = &rhs_[static_cast<std::size_t>(aggregate_[p]) * 9];
-    const Vec3& q = basis_[p];
-    Vec3 correction;
-    for (int c = 0; c < 3; ++c) correction[c] = q[0] * y[c] + q[1] * y[3 + c] + q[2] * y[6 + c];
-    if (!constraints.is_free(static_cast<Index>(p))) correction = constraints.S(static_cast<Index>(p)) * correction;
-    z[p] += to_lane<T>(correction);
+    // S_p (a + u' b + v' c)
+    const Lane<T>* y = &y_[static_cast<std::size_t>(aggregate_[p]) * 9];
+    const T u = static_cast<T>(basis_[p][1]), v = static_cast<T>(basis_[p][2]);
+    Lane<T> Zy{y[0][0] + u * y[3][0] + v * y[6][0], y[1][0] + u * y[4][0] + v * y[7][0],
+               y[2][0] + u * y[5][0] + v * y[8][0], 0};
+    if (!constraints.is_free(static_cast<Index>(p)))
+      Zy = to_lane<T>(constraints.S(static_cast<Index>(p)) * to_vec3(Zy));
+    t[p] += Zy;
+    if (rows) Zy_[p] = Zy;
+    Lane<T> sum = At[p];
+    for (auto e = static_cast<std::size_t>(entry_begin_[p]); e < static_cast<std::size_t>(entry_begin_[p + 1]); ++e) {
+      const Columns& column = AZ_[e];
+      const Lane<T>* y_e = &y_[static_cast<std::size_t>(entry_aggregate_[e]) * 9];
+      for (std::size_t m = 0; m < 9; ++m) sum += column[m] * y_e[m];
+    }
+    At[p] = sum;
+  }
+  if (!rows) return;
+  system.add_rows(Zy_, At);
+  system.filter(At);
+}
+
+template <class T>
+void CoarseSpace<T>::correct(const LinearSystem<T>& system, std::span<const Vec3> r, std::span<Vec3> dv) {
+  std::fill(rhs_.begin(), rhs_.end(), 0.0);
+  for (std::size_t p = 0; p < r.size(); ++p) {
+    Eigen::Map<Mat3> y(&rhs_[static_cast<std::size_t>(aggregate_[p]) * 9]);
+    y += r[p] * basis_[p].transpose();
+  }
+  solve();
+  for (std::size_t p = 0; p < r.size(); ++p) {
+    const Eigen::Map<const Mat3> y(&rhs_[static_cast<std::size_t>(aggregate_[p]) * 9]);
+    dv[p] += system.constraints().S(static_cast<Index>(p)) * (y * basis_[p]);
   }
 }
 
-template void CoarseSpace::factorise(const LinearSystem<float>&);
-template void CoarseSpace::factorise(const LinearSystem<double>&);
-template void CoarseSpace::add_correction(const LinearSystem<float>&, std::span<const Lane<float>>,
-                                          std::span<Lane<float>>);
-template void CoarseSpace::add_correction(const LinearSystem<double>&, std::span<const Lane<double>>,
-                                          std::span<Lane<double>>);
+template class CoarseSpace<float>;
+template class CoarseSpace<double>;
 
 }  // namespace toile

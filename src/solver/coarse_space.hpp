@@ -3,7 +3,11 @@
 // The cloth is cut into aggregates of neighbouring particles.  On each, the correction may be any affine function of the
 // pattern coordinates, 9 numbers:   z_i = S_i (a + u' b + v' c),   u', v' relative to the aggregate and scaled to [-1, 1].
 //
-//   additive form:   M^-1 r = SSOR(r) + Z E^-1 Z^T r,      E = Z^T A' Z   (contact rows included)
+//   E = Z^T A' Z          Q = Z E^-1 Z^T                       (contact rows included)
+//   deflated form (A-DEF2):   s = t + Q (r - A' t),   t = SSOR(r)
+//
+// so that no residual is left in the coarse modes, whatever t did to them.  A' s comes for free: A' t is known from the
+// sweeps, and A' Z, of which E is made anyway, is kept.
 //
 // Without it a loosely solved step leaves the low modes at their old velocity: an artificial brake that makes draping cloth
 // look viscous (docs/theory/solver.md#coarse-space has the measurement).        [Nicolaides 1987; Tang et al. 2009]
@@ -15,6 +19,7 @@
 
 namespace toile {
 
+template <class T>
 class CoarseSpace {
  public:
   // Cuts each panel by recursive bisection of its particles' pattern coordinates.  A particle of two panels belongs to the first.
@@ -23,22 +28,40 @@ class CoarseSpace {
   int aggregates() const { return aggregate_count_; }
   int dimension() const { return 9 * aggregate_count_; }
 
-  template <class T>
+  // A' Z and the factor of E.  Call when A, the rows or the constraints have changed.
   void factorise(const LinearSystem<T>& system);
-  // z += Z E^-1 Z^T r
-  template <class T>
-  void add_correction(const LinearSystem<T>& system, std::span<const Lane<T>> r, std::span<Lane<T>> z);
+  // t += Q (r - At),  At += A' Q (r - At), in that sense at once; r and At must lie in the range of S.
+  void deflate(const LinearSystem<T>& system, std::span<const Lane<T>> r, std::span<Lane<T>> t, std::span<Lane<T>> At);
+  // dv += Q r in double; r must lie in the range of S.
+  void correct(const LinearSystem<T>& system, std::span<const Vec3> r, std::span<Vec3> dv);
 
  private:
-  void add_block(Index i, Index j, const Mat3& block);
+  void find_entries(const BlockPattern& pattern);
+  void multiply_basis(const LinearSystem<T>& system);  // A' Z without the rows
+  void sum_coarse_matrix(const LinearSystem<T>& system);
   void cholesky();
+  void solve();
+
+  // A' Z is sparse: particle i has an entry, nine columns, for its own aggregate and for each of its neighbours'.
+  using Columns = std::array<Lane<T>, 9>;  // [3 l + c]: basis function l, direction c
+
   int aggregate_count_ = 0;
-  std::vector<Index> aggregate_;   // [particle]
-  std::vector<Vec3> basis_;        // [particle] (1, u', v')
-  std::vector<double> E_;          // row-major; upper triangle, then its factor U with E = U^T U
-  std::vector<double> transpose_;  // U^T
+  std::vector<Index> aggregate_;  // [particle]
+  std::vector<Vec3> basis_;       // [particle] (1, u', v')
+  const BlockPattern* pattern_ = nullptr;
+  std::vector<std::int32_t> entry_begin_;                // [particle] the first entry is that of its own aggregate
+  std::vector<Index> entry_aggregate_;                   // [entry]
+  std::vector<std::array<std::int32_t, 2>> slot_entry_;  // [slot (i, j)] entry of i for j's aggregate, of j for i's
+  std::vector<Columns> AZ_;                              // [entry]
+  std::vector<double> E_;                                // row-major; upper triangle, then its factor U with E = U^T U
+  std::vector<double> transpose_;                        // U^T
   std::vector<double> rhs_;
   std::vector<std::uint8_t> dead_;  // directions in which nothing may move
+  std::vector<Lane<T>> y_;          // [coarse direction] E^-1 Z^T (r - At), each in all lanes
+  std::vector<Lane<T>> Zy_;         // [particle]
 };
+
+extern template class CoarseSpace<float>;
+extern template class CoarseSpace<double>;
 
 }  // namespace toile

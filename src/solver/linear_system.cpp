@@ -45,6 +45,12 @@ void LinearSystem<T>::update(std::span<const ImplicitRow> rows, const ParticleCo
 template <class T>
 void LinearSystem<T>::multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const {
   A_->multiply(x, y);
+  add_rows(x, y);
+  filter(y);
+}
+
+template <class T>
+void LinearSystem<T>::add_rows(std::span<const Lane<T>> x, std::span<Lane<T>> y) const {
   for (const Row& row : fast_rows_) {
     T sum = 0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -57,6 +63,29 @@ void LinearSystem<T>::multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y)
       if (row.particle[k] >= 0) y[static_cast<std::size_t>(row.particle[k])] += row.direction * (row.weight[k] * sum);
     }
   }
+}
+
+template <class T>
+void LinearSystem<T>::add_rows_off_diagonal(std::span<const Lane<T>> x, std::span<Lane<T>> y) const {
+  for (const Row& row : fast_rows_) {
+    if (row.particle[1] < 0 && row.particle[2] < 0 && row.particle[3] < 0) continue;  // all of it is on the diagonal
+    T sum = 0;
+    std::array<T, 4> own{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (row.particle[k] < 0) continue;
+      const Lane<T> product = x[static_cast<std::size_t>(row.particle[k])] * row.direction;
+      own[k] = row.weight[k] * (product[0] + product[1] + product[2]);
+      sum += own[k];
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (row.particle[k] < 0) continue;
+      y[static_cast<std::size_t>(row.particle[k])] += row.direction * (row.a * row.weight[k] * (sum - own[k]));
+    }
+  }
+}
+
+template <class T>
+void LinearSystem<T>::filter(std::span<Lane<T>> y) const {
   const auto constrained = constraints_->constrained();
   for (std::size_t c = 0; c < constrained.size(); ++c) {
     Lane<T>& y_i = y[static_cast<std::size_t>(constrained[c])];

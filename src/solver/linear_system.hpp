@@ -30,6 +30,10 @@ class LinearSystem {
 
   // y = A' x for x in the range of S.
   void multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
+  // The pieces of it.  R = sum a g g^T;  y += R x,   y += (R - block diagonal of R) x,   y <- S y
+  void add_rows(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
+  void add_rows_off_diagonal(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
+  void filter(std::span<Lane<T>> y) const;
   // y = (A + sum a g g^T) x, unfiltered, in double.
   void multiply_unfiltered(std::span<const Vec3> x, std::span<Vec3> y) const;
 

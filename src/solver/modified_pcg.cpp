@@ -50,11 +50,11 @@ std::string PcgReport::explain() const {
 }
 
 template <class T>
-void ModifiedPcg<T>::prepare(const LinearSystem<T>& system, const PcgOptions& options, bool refresh_coarse) {
+void ModifiedPcg<T>::prepare(const LinearSystem<T>& system, const PcgOptions& options) {
   const auto n = static_cast<std::size_t>(system.size());
-  for (auto* vector : {&r_, &c_, &q_, &s_, &w_}) vector->resize(n);
+  for (auto* vector : {&r_, &c_, &q_, &s_, &As_, &w_}) vector->resize(n);
   for (auto* vector : {&start_, &work_, &work2_}) vector->resize(n);
-  if (options.preconditioner == Preconditioner::block_ssor_coarse && refresh_coarse) coarse_.factorise(system);
+  if (options.preconditioner == Preconditioner::block_ssor_coarse) coarse_.factorise(system);
   if (options.preconditioner == Preconditioner::diagonal) {
     inverse_diagonal_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -64,7 +64,7 @@ void ModifiedPcg<T>::prepare(const LinearSystem<T>& system, const PcgOptions& op
   }
 }
 
-// s <- M^-1 r, in the range of S.
+// s <- M^-1 r in the range of S, and As <- A' s.
 template <class T>
 void ModifiedPcg<T>::precondition(const LinearSystem<T>& system, Preconditioner kind) {
   const std::size_t n = r_.size();
@@ -74,41 +74,67 @@ void ModifiedPcg<T>::precondition(const LinearSystem<T>& system, Preconditioner 
       Lane<T>& s_i = s_[static_cast<std::size_t>(i)];
       s_i = to_lane<T>(system.constraints().S(i) * to_vec3(s_i));
     }
+    system.multiply(s_, As_);
     return;
   }
   if (kind == Preconditioner::block_jacobi) {
     for (std::size_t i = 0; i < n; ++i) s_[i] = system.filtered_inverse_block(static_cast<Index>(i)).times(r_[i]);
+    system.multiply(s_, As_);
     return;
   }
-  // (D + L) D^-1 (D + U) s = r with A' = L + D + U; the contact rows enter through D only.  q_ is free here.
+  sweep(system);
+  if (kind == Preconditioner::block_ssor_coarse) coarse_.deflate(system, r_, s_, As_);
+}
+
+// (D + L) D^-1 (D + U) s = r with A' = L + D + U + (rows off the diagonal): the rows enter the sweeps through D only.
+//   forward    y = (D + L)^-1 r        h = r - L y = D y
+//   backward   D s + U s = h,          so that A' s = h + L s + rows: L s is pushed while the row of U is at hand, and no
+//              product with A' is made at all                                                            [Eisenstat 1981]
+template <class T>
+void ModifiedPcg<T>::sweep(const LinearSystem<T>& system) {
   const BlockPattern& pattern = system.A().pattern();
-  std::copy(r_.begin(), r_.end(), q_.begin());
+  const std::size_t n = r_.size();
+  std::copy(r_.begin(), r_.end(), As_.begin());
   for (std::size_t i = 0; i < n; ++i) {
     const auto row = static_cast<Index>(i);
-    const Lane<T> y = system.filtered_inverse_block(row).times(q_[i]);
+    const Lane<T> y = system.filtered_inverse_block(row).times(As_[i]);
     s_[i] = y;
-    for (Slot slot = pattern.first_slot(row); slot < pattern.end_slot(row); ++slot) {
-      q_[static_cast<std::size_t>(pattern.column(slot))] -= system.A().off_diagonal(slot).transpose_times(y);
-    }
+    for (Slot slot = pattern.first_slot(row), end = pattern.end_slot(row); slot < end; ++slot)
+      As_[static_cast<std::size_t>(pattern.column(slot))] -= system.A().off_diagonal(slot).transpose_times(y);
   }
   for (std::size_t i = n; i-- > 0;) {
     const auto row = static_cast<Index>(i);
     Lane<T> sum{0, 0, 0, 0};
-    for (Slot slot = pattern.first_slot(row); slot < pattern.end_slot(row); ++slot) {
+    const Slot begin = pattern.first_slot(row), end = pattern.end_slot(row);
+    for (Slot slot = begin; slot < end; ++slot)
       sum += system.A().off_diagonal(slot).times(s_[static_cast<std::size_t>(pattern.column(slot))]);
-    }
-    s_[i] -= system.filtered_inverse_block(row).times(sum);
+    const Lane<T> s = s_[i] - system.filtered_inverse_block(row).times(sum);
+    s_[i] = s;
+    for (Slot slot = begin; slot < end; ++slot)
+      As_[static_cast<std::size_t>(pattern.column(slot))] += system.A().off_diagonal(slot).transpose_times(s);
   }
-  if (kind == Preconditioner::block_ssor_coarse)
-    coarse_.add_correction(system, std::span<const Lane<T>>(r_), std::span<Lane<T>>(s_));
+  system.add_rows_off_diagonal(s_, As_);
+  system.filter(As_);
+}
+
+// w += Q r,  r -= A' Q r: the residual of the coarse modes goes.
+template <class T>
+void ModifiedPcg<T>::correct_coarse_modes(const LinearSystem<T>& system) {
+  std::fill(s_.begin(), s_.end(), Lane<T>{0, 0, 0, 0});
+  std::fill(As_.begin(), As_.end(), Lane<T>{0, 0, 0, 0});
+  coarse_.deflate(system, r_, s_, As_);
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    w_[i] += s_[i];
+    r_[i] -= As_[i];
+  }
 }
 
 template <class T>
 double ModifiedPcg<T>::residual_norm2(const LinearSystem<T>& system) const {
-  double sum = 0;
+  DotSum<T> sum;
   for (std::size_t i = 0; i < r_.size(); ++i)
-    sum += dot(r_[i], system.filtered_inverse_block(static_cast<Index>(i)).times(r_[i]));
-  return sum;
+    sum.add(r_[i], system.filtered_inverse_block(static_cast<Index>(i)).times(r_[i]));
+  return sum.value();
 }
 
 // r = S (b - A (start + w)), with the product in double.
@@ -155,6 +181,13 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
   double residual2 = residual_norm2(system);
   report.initial_residual = std::sqrt(residual2);
 
+  const bool deflated =
+      options.preconditioner == Preconditioner::block_ssor_coarse && report.initial_residual > report.target;
+  if (deflated) {
+    correct_coarse_modes(system);  // deflation begins without residual in the coarse modes
+    residual2 = residual_norm2(system);
+  }
+
   double delta = 0;
   while (true) {
     report.residual = std::sqrt(residual2);
@@ -168,43 +201,56 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
       break;
     }
     precondition(system, options.preconditioner);
-    double delta_new = 0;
-    for (std::size_t i = 0; i < n; ++i) delta_new += dot(r_[i], s_[i]);
+    DotSum<T> rs;
+    for (std::size_t i = 0; i < n; ++i) rs.add(r_[i], s_[i]);
+    const double delta_new = rs.value();
+    DotSum<T> cq;
     if (report.iterations == 0) {
       std::copy(s_.begin(), s_.end(), c_.begin());
+      std::copy(As_.begin(), As_.end(), q_.begin());
+      for (std::size_t i = 0; i < n; ++i) cq.add(c_[i], q_[i]);
     } else {
       const T beta = static_cast<T>(delta_new / delta);
-      for (std::size_t i = 0; i < n; ++i) c_[i] = s_[i] + c_[i] * beta;
+      for (std::size_t i = 0; i < n; ++i) {
+        c_[i] = s_[i] + c_[i] * beta;
+        q_[i] = As_[i] + q_[i] * beta;
+        cq.add(c_[i], q_[i]);
+      }
     }
     delta = delta_new;
-    system.multiply(c_, q_);
-    double curvature = 0;
-    for (std::size_t i = 0; i < n; ++i) curvature += dot(c_[i], q_[i]);
+    const double curvature = cq.value();
     report.curvature = curvature;
     if (!(curvature > 0)) {
       report.status = std::isfinite(curvature) ? PcgStatus::not_positive_definite : PcgStatus::not_finite;
       break;
     }
     const T alpha = static_cast<T>(delta / curvature);
+    DotSum<T> rr;
     for (std::size_t i = 0; i < n; ++i) {
       w_[i] += c_[i] * alpha;
-      r_[i] -= q_[i] * alpha;
+      const Lane<T> r = r_[i] - q_[i] * alpha;
+      r_[i] = r;
+      rr.add(r, system.filtered_inverse_block(static_cast<Index>(i)).times(r));
     }
+    residual2 = rr.value();
     ++report.iterations;
-    if (report.iterations % 50 == 0) true_residual(system, b, start_);  // rounding of the recurrence is thrown away
-    residual2 = residual_norm2(system);
-  }
-  if (options.preconditioner == Preconditioner::block_ssor_coarse && report.iterations > 0 && report) {
-    // What truncation left in the coarse modes goes: translations among them, so that momentum is kept at any tolerance.
-    true_residual(system, b, start_);
-    std::fill(s_.begin(), s_.end(), Lane<T>{0, 0, 0, 0});
-    coarse_.add_correction(system, std::span<const Lane<T>>(r_), std::span<Lane<T>>(s_));
-    for (std::size_t i = 0; i < n; ++i) w_[i] += s_[i];
+    if (report.iterations % 50 == 0) {  // rounding of the recurrence is thrown away
+      true_residual(system, b, start_);
+      residual2 = residual_norm2(system);
+    }
   }
   for (std::size_t i = 0; i < n; ++i) {
     const auto particle = static_cast<Index>(i);
     const Vec3 w = to_vec3(w_[i]);
     dv[i] = start_[i] + (constraints.is_free(particle) ? w : Vec3(constraints.S(particle) * w));
+  }
+  if (deflated && report) {
+    // What truncation left in the coarse modes goes, all in double: translations are among them, so that momentum is kept at
+    // any tolerance.
+    system.multiply_unfiltered(dv, work2_);
+    for (std::size_t i = 0; i < n; ++i) work2_[i] = b[i] - work2_[i];
+    constraints.filter(work2_);
+    coarse_.correct(system, work2_, dv);
   }
   return report;
 }

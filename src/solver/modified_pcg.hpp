@@ -43,9 +43,8 @@ class ModifiedPcg {
  public:
   explicit ModifiedPcg(const ClothMesh& mesh) : coarse_(mesh) {}
 
-  // Call when the system's A, rows or constraints have changed.  `refresh_coarse` = false keeps the factor of the coarse space: still
-  // symmetric positive definite, and good while only a few rows or constraints differ.
-  void prepare(const LinearSystem<T>& system, const PcgOptions& options, bool refresh_coarse = true);
+  // Call when the system's A, rows or constraints have changed.
+  void prepare(const LinearSystem<T>& system, const PcgOptions& options);
 
   // dv: in, a guess; out, the solution.  `reference` is h m g.  Sizes equal the system's.
   [[nodiscard]] PcgReport solve(const LinearSystem<T>& system, std::span<const Vec3> b, std::span<const Vec3> reference,
@@ -53,12 +52,15 @@ class ModifiedPcg {
 
  private:
   void precondition(const LinearSystem<T>& system, Preconditioner kind);
+  void sweep(const LinearSystem<T>& system);
+  void correct_coarse_modes(const LinearSystem<T>& system);
   double residual_norm2(const LinearSystem<T>& system) const;
   void true_residual(const LinearSystem<T>& system, std::span<const Vec3> b, std::span<const Vec3> start);
 
-  CoarseSpace coarse_;
-  std::vector<Lane<T>> r_, c_, q_, s_, w_;  // residual, direction, A' c, M^-1 r, correction to the guess
-  std::vector<Lane<T>> inverse_diagonal_;   // of the diagonal preconditioner
+  CoarseSpace<T> coarse_;
+  std::vector<Lane<T>> r_, c_, q_;         // residual, direction, A' c
+  std::vector<Lane<T>> s_, As_, w_;        // M^-1 r, A' s, correction to the guess
+  std::vector<Lane<T>> inverse_diagonal_;  // of the diagonal preconditioner
   Vec3s start_, work_, work2_;
 };
 

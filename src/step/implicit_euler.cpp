@@ -135,7 +135,6 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   body_.begin(state, dv_, h_s);
   rows_.begin(state, dv_, h_s, base_h_s_, diagonal_);
 
-  int changed = 0;  // contacts, since the coarse space was factorised
   for (report.passes = 1;; ++report.passes) {
     {
       const Timed timed(seconds_.eval);
@@ -163,10 +162,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     }
     const Timed timed(seconds_.cg);
     system_.update(implicit_rows_, constraints_);
-    // The coarse factor of an almost unchanged system is as good a preconditioner, and free.
-    const bool refresh = report.passes == 1 || 20 * changed > body_.touching() + rows_.active();
-    pcg_.prepare(system_, pcg_options, refresh);
-    if (refresh) changed = 0;
+    pcg_.prepare(system_, pcg_options);
     report.pcg = pcg_.solve(system_, b_, reference_, pcg_options, dv_);
     report.cg_iterations += report.pcg.iterations;
     if (!report.pcg) {
@@ -180,7 +176,6 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     const BodyConstraints::Change body = body_.update(state, dv_, e_, h_s, first_passes);
     const ContactRows::Change change = rows_.update(state, dv_, y_, h_s, report.passes <= 4);
     report.rows = change.active;
-    changed += body.normal + body.slipped + change.added + change.dropped;
     const bool last = pcg_options.loosen == options_.pcg.loosen;
     // A few particles that begin to slip, or rows that come and go, can wait for the next step; a missing contact cannot.
     const bool settled =

@@ -106,9 +106,9 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "3b00b3ed418a21e8");
-  EXPECT_EQ(folding(), "56faa94c19153aea");
-  EXPECT_EQ(drop(1), "85554260f053cabb");
+  EXPECT_EQ(hanging(), "06cd67aa6deb5e59");
+  EXPECT_EQ(folding(), "62fc52afe1cdde3e");
+  EXPECT_EQ(drop(1), "3b0e9c5037ff9f9e");
 }
 
 }  // namespace

@@ -57,8 +57,8 @@ TEST(FreeMotion, LinearMomentumOfACrumpledFlyingSheetIsKept) {
   };
   const Vec3 before = momentum();
   run.run(60);
-  // What the solver leaves undone, sixty times over: 6e-7 to 5e-6 for eight other crumplings.
-  EXPECT_LT((momentum() - before).norm(), 1e-5 * before.norm());
+  // What is left is rounding: a row of A and the column that answers it are the same floats, summed in another order.
+  EXPECT_LT((momentum() - before).norm(), 1e-6 * before.norm());
 }
 
 TEST(FreeMotion, EnergyNeverRisesWithoutInput) {
