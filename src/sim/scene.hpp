@@ -68,7 +68,7 @@ struct SceneBody {
   LengthUnit unit = LengthUnit::automatic;
   SceneCylinder cylinder;
   std::optional<double> friction;  // absent: the fabric's
-  double offset_m = 2e-3;
+  std::optional<double> offset_m;  // absent: by the cloth's edges, sim/setup.hpp
 };
 
 struct Scene {

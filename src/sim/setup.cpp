@@ -208,12 +208,16 @@ std::vector<Pin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) {
   return pins;
 }
 
+double default_offset_m(double edge_m) { return std::clamp(0.2 * edge_m, 1.5e-3, 2.5e-3); }
+
 StepOptions step_options(const Scene& scene, const Fabric& fabric) {
   StepOptions step;
   if (scene.preconditioner) step.pcg.preconditioner = *scene.preconditioner;
   step.pcg.tolerance = scene.tolerance;
   step.rows.cloth_cloth = scene.self_contact;
-  step.body.offset_m = scene.body.offset_m;
+  const SceneCloth& cloth = scene.cloth.front();
+  step.body.offset_m =
+      scene.body.offset_m.value_or(default_offset_m(cloth.grid ? cloth.grid->edge_m : cloth.resolution_m));
   step.body.friction = scene.body.friction.value_or(fabric.friction);
   return step;
 }

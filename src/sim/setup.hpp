@@ -40,6 +40,8 @@ std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const Garment
 // Throws InputError when two pins hold one particle.
 std::vector<Pin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x);
 
+// How far above the body cloth of this edge length rests when nobody says: edges cut corners of the body, by e^2 / 8R.
+double default_offset_m(double edge_m);
 StepOptions step_options(const Scene& scene, const Fabric& fabric);
 
 // Every number of the scene that changes the result; not its name, output or number of threads.

@@ -71,7 +71,7 @@ TEST(Scene, ReadsEveryKeyInItsUnit) {
   EXPECT_EQ(cloth.pins.at(1).path.at(1).x_m, Vec3(1, 1.5, 0));
   EXPECT_EQ(scene.body.cylinder.radius_m, 0.3);
   EXPECT_EQ(scene.body.friction.value(), 0.1);
-  EXPECT_DOUBLE_EQ(scene.body.offset_m, 3e-3);
+  EXPECT_DOUBLE_EQ(scene.body.offset_m.value(), 3e-3);
   EXPECT_EQ(scene.fps, 25);
   EXPECT_DOUBLE_EQ(scene.step_max_s.value(), 0.01);
   EXPECT_TRUE(scene.until_still);
