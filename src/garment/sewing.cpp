@@ -41,8 +41,8 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
   weightless.damping_jacobian = options.damping_jacobian;
   std::vector<Fabric> stiff(fabrics.begin(), fabrics.end());
   for (Fabric& fabric : stiff) {
-    fabric.bend_u_N_m *= options.bend_factor;
-    fabric.bend_v_N_m *= options.bend_factor;
+    fabric.bend_u_N_m = std::max(fabric.bend_u_N_m, options.bend_N_m);
+    fabric.bend_v_N_m = std::max(fabric.bend_v_N_m, options.bend_N_m);
   }
   model_ = build_model(garment.mesh, stiff, weightless);
   state_ = {garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
@@ -169,7 +169,11 @@ bool Sewing::close_seams() {
   SafeFilter filter;
   const FilterReport report =
       filter(rows.topology(), rows.tree(), state_.x, inverse_mass, rows.contact_m(), false, end);
-  if (report.left > 0) return false;
+  weld_obstacle_.reset();
+  if (report.left > 0) {
+    weld_obstacle_ = state_.x[at(filter.left().front().particle[0])];
+    return false;
+  }
   state_.x = std::move(end);
   return true;
 }

@@ -5,7 +5,7 @@
 //   pull        F = min( k (|d| - l)+, f_max ) along d,     f_max = 300 N per metre of seam,  k = f_max / 3 mm
 //   in A        secant stiffness F / (|d| - l) along d, the geometric F / |d| across it, damping 0.02 s x the secant
 //
-// What keeps it calm: gravity is off (with it on, folds get caught), cloth bends a hundred times harder than it will (or the tips of panels roll
+// What keeps it calm: gravity is off (with it on, folds get caught), cloth is as stiff as leather until the weld (or the tips of panels roll
 // up and the corner of four panels never closes), the body is slippery (or a hem caught on the hips holds the shoulders open), and the safe
 // filter of the step never lets cloth pass through cloth.
 //
@@ -25,9 +25,9 @@ namespace toile {
 struct SewingOptions {
   double closing_speed_m_per_s = 0.5;  // of the widest pair
   double pull_N_per_m = 300;
-  double give_m = 3e-3;      // at this gap beyond l the pull is at its limit
-  double bend_factor = 100;  // of the fabrics' bending rigidity, until the weld
-  double drag_per_s = 20;    // keeps loose panels from whipping under the pull of their edges
+  double give_m = 3e-3;    // at this gap beyond l the pull is at its limit
+  double bend_N_m = 1e-3;  // bending rigidity until the weld, at least: a hundred times cotton's
+  double drag_per_s = 20;  // keeps loose panels from whipping under the pull of their edges
   double damping_s = 0.02;
   double offset_m = 4e-3;  // contact distance from the body while sewing, at least
   double weld_gap_m = 1.5e-3;
@@ -74,6 +74,8 @@ class Sewing {
   // Seams by gap, widest first.
   std::vector<SeamGap> gaps() const;
   double widest_gap_m() const;
+  // Where the last attempt to weld would have pushed cloth through cloth.
+  std::optional<Vec3> weld_obstacle() const { return weld_obstacle_; }
   const ImplicitEuler& integrator() const { return stepper_->integrator(); }
   PhaseSeconds seconds() const { return stepper_->integrator().seconds(); }
 
@@ -81,6 +83,7 @@ class Sewing {
   void append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const;
   void judge_progress();
   bool close_seams();
+  std::optional<Vec3> weld_obstacle_;
   void thin_layers();
 
   const GarmentMesh* garment_;

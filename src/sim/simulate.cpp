@@ -84,6 +84,12 @@ std::string explain(const Sewing& sewing, const GarmentMesh& garment, double wel
                   gap.where.z()) +
             why;
   }
+  if (open == 0 && sewing.weld_obstacle()) {
+    const Vec3& p = *sewing.weld_obstacle();
+    text =
+        words("every seam is closed to %.1f mm, but the weld would push cloth through cloth near (%.2f, %.2f, %.2f) m",
+              1e3 * sewing.widest_gap_m(), p.x(), p.y(), p.z());
+  }
   if (open > most) text += "; and " + std::to_string(open - most) + " more seams";
   return text;
 }

@@ -36,6 +36,8 @@ class SafeFilter {
                           std::span<const double> inverse_mass, std::span<const double> contact_m, bool truncate,
                           std::span<Vec3> end);
 
+  // Of the last call without `truncate`: the impacts that are left.
+  std::span<const Impact> left() const { return impacts_; }
   // [particle] of the last call: moved.
   std::span<const char> moved() const { return moved_; }
 
