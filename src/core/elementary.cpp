@@ -1,7 +1,7 @@
 #include "core/elementary.hpp"
 
 #include <array>
-#include <cmath>  // sqrt, abs, copysign, round, isnan, isinf: exact, the same everywhere
+#include <cmath>  // sqrt, abs, copysign, round, lround, isnan, isinf: exact, the same everywhere
 #include <limits>
 #include <utility>
 
@@ -39,7 +39,7 @@ constexpr std::array<Pair, arc_steps + 1> arc_of_step = {{{0, 0},  // atan(k/8)
 // atan(r) by its Taylor series: the first term left out, r^14/15 of the whole, is below 2^-59.
 double arc(Pair base, double sign, double rise, double run) {
   const double t = run > 0 ? rise / run : 0;  // 0/0: the axis that the signs name
-  const int step = static_cast<int>(t * arc_steps + 0.5);
+  const auto step = static_cast<int>(std::lround(t * arc_steps));
   double r = t;
   if (step > 0) {
     // Into the middle of the range, so that nothing overflows or loses digits; the two are within 16 of each other.

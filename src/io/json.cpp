@@ -327,7 +327,7 @@ Json Json::parse(std::string_view text, std::string_view file) {
     counter.advance(text.data() + nul);
     throw InputError(place_in(file, counter.line(), counter.column()), "", "JSON", "a NUL byte");
   }
-  if (text.empty()) text = std::string_view("", 0);  // a null pointer is no iterator
+  if (text.empty()) text = "";  // a null pointer is no iterator
   return JsonBuilder(text, file).build();
 }
 

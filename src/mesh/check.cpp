@@ -156,7 +156,7 @@ void check_closed(std::string_view where, std::span<const Vec3> positions, std::
 
   // Divergence theorem: one tetrahedron per triangle, from a point near the surface so that a body far from the origin
   // does not lose its volume to cancellation.
-  const Vec3 origin = positions[static_cast<std::size_t>(triangles[0][0])];
+  const Vec3& origin = positions[static_cast<std::size_t>(triangles[0][0])];
   double volume = 0;
   double area = 0;
   for (const Triangle& triangle : triangles) {
