@@ -225,6 +225,33 @@ TEST(Elements, StiffnessTimesADisplacementAgreesWithTheMatrix) {
   }
 }
 
+TEST(Elements, TheForceOfDampingIsMinusDTimesTheVelocity) {
+  const Cloth cloth = crumpled_cloth(0.006, 16);
+  Elements elements(cloth.model);
+  elements.evaluate(cloth.model, cloth.state);
+  BlockMatrix<double> A(elements.pattern());
+  const double h = 0.02;
+  // A = h D + h^2 K, so (4 A(h) - A(2h))/(2h) = D.
+  elements.assemble(h, A);
+  const Eigen::MatrixXd once = A.to_dense();
+  elements.assemble(2 * h, A);
+  const Eigen::MatrixXd D = (4 * once - A.to_dense()) / (2 * h);
+  Vec3s moving(cloth.state.x.size()), still(moving.size());
+  elements.forces(moving);
+  ClothState state = cloth.state;
+  for (Vec3& v : state.v) v.setZero();
+  elements.evaluate(cloth.model, state);
+  elements.forces(still);
+  Eigen::VectorXd v(D.rows());
+  for (std::size_t i = 0; i < moving.size(); ++i) v.segment<3>(3 * static_cast<Eigen::Index>(i)) = cloth.state.v[i];
+  const Eigen::VectorXd expected = -D * v;
+  EXPECT_GT(expected.norm(), 0);
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const Vec3 force = moving[i] - still[i];
+    EXPECT_LT((force - expected.segment<3>(3 * static_cast<Eigen::Index>(i))).norm(), 1e-9 * expected.norm()) << i;
+  }
+}
+
 TEST(BlockMatrix, KeepsATranslationExactInFloat) {
   const Cloth cloth = crumpled_cloth(0.006, 16);
   Elements elements(cloth.model);
