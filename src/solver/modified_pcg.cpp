@@ -166,9 +166,9 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
   const double scale = std::sqrt(norm2(work2_)), gravity = std::sqrt(norm2(reference));
   PcgReport report;
   report.target = std::max(std::min(options.tolerance * scale, 0.02 * gravity), 0.1 * options.tolerance * gravity);
-  if (gravity == 0) report.target = options.tolerance * scale;
+  // Gravity that acts along held directions only, but for rounding (all of the cloth flat on the ground), says nothing.
+  if (gravity <= 1e-9 * scale) report.target = options.tolerance * scale;
   report.target = std::max(report.target, rounding_floor<T> * scale);
-
   report.target *= options.loosen;
 
   // dv_0 = z + S w_0

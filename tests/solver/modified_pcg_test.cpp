@@ -226,5 +226,14 @@ TEST(ModifiedPcg, AFullyHeldClothIsSolvedByItsConstraintsAlone) {
   for (const Vec3& dv_i : dv) EXPECT_EQ(dv_i, Vec3(0.5, 0, -1));
 }
 
+TEST(LinearSystem, ItsDiagonalBlocksAreThoseOfTheDenseMatrixRowsIncluded) {
+  const Problem<double> problem;
+  const Eigen::MatrixXd dense = problem.system.to_dense();
+  for (Index i = 0; i < problem.A.rows(); ++i) {
+    const Mat3 block = dense.block<3, 3>(3 * static_cast<Eigen::Index>(i), 3 * static_cast<Eigen::Index>(i));
+    EXPECT_LT((problem.system.diagonal(i) - block).norm(), 1e-12 * block.norm()) << i;
+  }
+}
+
 }  // namespace
 }  // namespace toile

@@ -108,5 +108,76 @@ TEST(BodyContact, PositionAlterationMovesWithoutGivingVelocity) {
   EXPECT_LT(run.fastest(), 1e-3);
 }
 
+TEST(BodyContact, AnAlterationPushesTheClothBesideItWithinTheStep) {
+  // A sheet that stands on its edge, unstrained and weightless, 0.3 mm too deep: without K y in b the row above would not move.
+  BodySurface slab = test::tilted_slab(1, 0.2, 0);
+  Sheet sheet = test::equilateral_sheet(0.1, 0.1, 0.02);
+  for (Vec3& p : sheet.x) p = Vec3(p.x() - 0.05, offset - 0.3e-3 - p.z(), 0);
+  ModelOptions options;
+  options.gravity_m_per_s2.setZero();
+  ClothRun run(sheet, Fabric{}, options);
+  run.world.body = &slab;
+  run.start();
+  run.frame();
+  int above = 0;
+  for (std::size_t i = 0; i < sheet.x.size(); ++i) {
+    const double height = sheet.x[i].y() - offset;
+    if (height < 0.01 || height > 0.03) continue;
+    EXPECT_GT(run.state.x[i].y() - sheet.x[i].y(), 0.05e-3);
+    ++above;
+  }
+  EXPECT_GT(above, 4);
+}
+
+TEST(Incline, ASheetThatStuckSlidesWhenTheSlopeGrows) {
+  BodySurface slab = test::tilted_slab(3, 0.2, 0);
+  ClothRun run = on_incline(0, 0.3, slab);
+  const auto slope = [&](double degrees) {  // gravity turns instead of the slab
+    const double angle = degrees * 3.14159265358979323846 / 180;
+    run.model.gravity_m_per_s2 = gravity * Vec3(-std::sin(angle), -std::cos(angle), 0);
+  };
+  slope(10);
+  run.run(30);
+  EXPECT_LT(run.fastest(), 1e-4);
+  slope(25);
+  run.run(15);
+  const double angle = 25 * 3.14159265358979323846 / 180, slide = gravity * (std::sin(angle) - 0.3 * std::cos(angle));
+  EXPECT_NEAR(mean(run.state.v).x() / (-slide * 0.5), 1, 0.1);
+}
+
+// The slab moves by `speed` during every step of 1/60 s.
+void run_on_moving_slab(ClothRun& run, BodySurface& slab, const Vec3& speed, int steps) {
+  for (int k = 0; k < steps; ++k) {
+    const std::vector<Vec3> start(slab.next_positions().begin(), slab.next_positions().end());
+    std::vector<Vec3> end = start;
+    for (Vec3& p : end) p += speed / 60;
+    slab.set_motion(start, end, 0.01);
+    const FrameReport report = run.frame(1.0 / 60);
+    ASSERT_EQ(report.steps, 1);
+  }
+}
+
+TEST(BodyContact, AConveyorTakesTheSheetAlongByFriction) {
+  BodySurface slab = test::tilted_slab(3, 0.2, 0);
+  ClothRun run = on_incline(0, 0.3, slab);
+  run_on_moving_slab(run, slab, Vec3(0.5, 0, 0), 6);
+  EXPECT_NEAR(mean(run.state.v).x() / (0.3 * gravity * 0.1), 1, 0.1);  // it slips, and friction pulls it on
+  run_on_moving_slab(run, slab, Vec3(0.5, 0, 0), 20);
+  for (const Vec3& v : run.state.v) EXPECT_LT((v - Vec3(0.5, 0, 0)).norm(), 1e-3);  // and now it lies still on the belt
+}
+
+TEST(BodyContact, ALiftCarriesTheSheetUp) {
+  for (const double friction : {0.0, 0.3}) {
+    BodySurface slab = test::tilted_slab(3, 0.2, 0);
+    ClothRun run = on_incline(0, friction, slab);
+    run.run(10);
+    run_on_moving_slab(run, slab, Vec3(0, 0.3, 0), 10);
+    for (std::size_t i = 0; i < run.state.x.size(); ++i) {
+      EXPECT_NEAR(run.state.v[i].y(), 0.3, 1e-3);
+      EXPECT_NEAR(run.state.x[i].y(), 0.05 + offset, 0.05 * offset);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace toile

@@ -1,6 +1,7 @@
 // Layers of cloth in contact: the gap, the momentum, the stiffness, and who passed through whom.
 #include "step/contact_rows.hpp"
 
+#include "support/bodies.hpp"
 #include "support/run_cloth.hpp"
 
 #include <gtest/gtest.h>
@@ -258,6 +259,71 @@ TEST(ContactRows, AFineMeshIsThinnerThanItsEdgesSoThatNeighboursDoNotRepel) {
   Rows apart(two_sheets(0.03, 2e-3, 1.5e-3), Fabric{}), near(two_sheets(0.03, 2e-3, 0.6e-3), Fabric{});
   EXPECT_TRUE(apart.step(1.0 / 60, 1.0 / 60).empty());
   EXPECT_FALSE(near.step(1.0 / 60, 1.0 / 60).empty());
+}
+
+TEST(ContactRows, ARowThatOpensIsDroppedInsteadOfPulling) {
+  Rows rows(two_sheets(0.12, 0.02, 1.5e-3), frictionless());
+  ASSERT_GT(rows.step(1.0 / 60, 1.0 / 60).size(), 20U);
+  const Vec3s zero(rows.state.x.size(), Vec3::Zero());
+  Vec3s apart = zero;
+  for (std::size_t i = apart.size() / 2; i < apart.size(); ++i) apart[i].y() = 1;  // m/s
+  rows.rows.detect(rows.state, 1.0 / 60);
+  rows.rows.begin(rows.state, zero, 1.0 / 60, 1.0 / 60, rows.diagonal);
+  EXPECT_GT(rows.rows.active(), 20);
+  const ContactRows::Change change = rows.rows.update(rows.state, apart, zero, 1.0 / 60, true);
+  EXPECT_GT(change.dropped, 20);
+  EXPECT_EQ(change.active, 0);
+  std::vector<LinearSpring> springs;
+  rows.rows.append_springs(rows.state, 1.0 / 60, springs);
+  EXPECT_TRUE(springs.empty());
+}
+
+TEST(ContactRows, FrictionActsAlongBothTangentsOfEveryLoadedRow) {
+  Rows rows(two_sheets(0.12, 0.02, 1.5e-3), Fabric{});
+  rows.step(1.0 / 60, 1.0 / 60);  // friction takes its size from the load of the step before
+  const auto springs = rows.step(1.0 / 60, 1.0 / 60);
+  ASSERT_GT(springs.size(), 60U);
+  ASSERT_EQ(springs.size() % 3, 0U);
+  for (std::size_t k = 0; k < springs.size(); k += 3) {
+    const LinearSpring &push = springs[k], &s = springs[k + 1], &t = springs[k + 2];
+    EXPECT_GT(push.stiffness_N_per_m, 0);
+    EXPECT_NEAR(s.direction.dot(push.direction), 0, 1e-12);
+    EXPECT_NEAR(t.direction.dot(push.direction), 0, 1e-12);
+    EXPECT_NEAR(s.direction.dot(t.direction), 0, 1e-12);
+    for (const LinearSpring* drag : {&s, &t}) {
+      EXPECT_EQ(drag->particle, push.particle);
+      EXPECT_EQ(drag->stiffness_N_per_m, 0);
+      EXPECT_EQ(drag->force_N, 0);
+      EXPECT_GT(drag->damping_N_s_per_m, 0);
+    }
+  }
+}
+
+TEST(ContactRows, ARowOfTheBodyKnowsHowFarTheBodyMoves) {
+  // The upper tip of an octahedron, half a millimetre below a face of the sheet, rises by 2 mm.
+  Sheet sheet = test::equilateral_sheet(0.12, 0.12, 0.02);
+  const Triangle& face = sheet.mesh.triangles[sheet.mesh.triangles.size() / 2];
+  const Vec3 middle = (sheet.x[at(face[0])] + sheet.x[at(face[1])] + sheet.x[at(face[2])]) / 3;
+  BodySurface body = test::sphere(middle - Vec3(0, 0.03 + 0.5e-3, 0), 0.03, 0);
+  const std::vector<Vec3> start(body.positions().begin(), body.positions().end());
+  std::vector<Vec3> end = start;
+  for (Vec3& p : end) p.y() += 2e-3;
+  body.set_motion(start, end, 0.01);
+  const Fabric fabric;
+  const ClothModel model = build_model(sheet.mesh, {&fabric, 1}, weightless());
+  ContactRows rows(model, &body, {}, 2.5e-3, 0, {});
+  const ClothState state{sheet.x, Vec3s(sheet.x.size(), Vec3::Zero())};
+  std::vector<Mat3> diagonal;
+  for (const double mass : model.mass_kg) diagonal.push_back(mass * Mat3::Identity());
+  rows.detect(state, 1.0 / 60);
+  rows.begin(state, state.v, 1.0 / 60, 1.0 / 60, diagonal);
+  std::vector<LinearSpring> springs;
+  rows.append_springs(state, 1.0 / 60, springs);
+  ASSERT_FALSE(springs.empty());
+  for (const LinearSpring& spring : springs) {
+    EXPECT_NEAR(spring.direction.y(), 1, 1e-9);
+    EXPECT_NEAR(spring.body_displacement_m, 2e-3, 1e-12);
+  }
 }
 
 }  // namespace

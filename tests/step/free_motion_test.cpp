@@ -88,5 +88,18 @@ TEST(FreeMotion, EnergyNeverRisesWithoutInput) {
   EXPECT_LT(last, 0.5 * first);
 }
 
+TEST(FreeMotion, DragBrakesARigidMotionAsBackwardEulerDoes) {
+  ModelOptions options;
+  options.gravity_m_per_s2.setZero();
+  options.drag_per_s = 2;
+  ClothRun run(test::equilateral_sheet(0.1, 0.1, 0.02), Fabric{}, options);
+  for (Vec3& v : run.state.v) v = Vec3(0.3, -0.2, 0.1);
+  const FrameReport report = run.frame();
+  const double slower = 1 / (1 + 2 * report.last.h_s);  // M (1 + h d) dv = -h d M v, in each of the frame's steps
+  for (const Vec3& v : run.state.v) {
+    EXPECT_LT((v - std::pow(slower, report.steps) * Vec3(0.3, -0.2, 0.1)).norm(), 1e-4);
+  }
+}
+
 }  // namespace
 }  // namespace toile
