@@ -58,6 +58,8 @@ std::string as_json(const VerifyReport& audit, const Verdict& verdict) {
   json.begin_object();
   json.member("min", audit.gap.min_mm);
   json.member("p50", audit.gap.p50_mm);
+  json.member("hover_p50", audit.gap.hover_p50_mm);
+  json.member("hover_p90", audit.gap.hover_p90_mm);
   json.end_object();
   json.key("still");
   json.begin_object();
@@ -87,8 +89,10 @@ std::string as_text(const std::string& directory, const VerifyReport& audit, con
                 audit.still_mm_per_s_p99);
   out += text.data();
   if (audit.has_body) {
-    std::snprintf(text.data(), text.size(), "  gap to the body: least %.2f mm, median %.2f mm\n", audit.gap.min_mm,
-                  audit.gap.p50_mm);
+    std::snprintf(
+        text.data(), text.size(),
+        "  gap to the body: least %.2f mm, median %.2f mm; where it lies on it, median %.2f mm, p90 %.2f mm\n",
+        audit.gap.min_mm, audit.gap.p50_mm, audit.gap.hover_p50_mm, audit.gap.hover_p90_mm);
     out += text.data();
   }
   return out;

@@ -106,6 +106,10 @@ void add_measurements(JsonText& text, const Report& report) {
   report.audit.has_body ? text.value(report.audit.gap.min_mm) : text.null();
   text.key("p50");
   report.audit.has_body ? text.value(report.audit.gap.p50_mm) : text.null();
+  text.key("hover_p50");
+  report.audit.has_body ? text.value(report.audit.gap.hover_p50_mm) : text.null();
+  text.key("hover_p90");
+  report.audit.has_body ? text.value(report.audit.gap.hover_p90_mm) : text.null();
   text.end_object();
   text.key("still");
   text.begin_object();

@@ -132,6 +132,13 @@ GapStatistics measure_gap(std::span<const Vec3> x, std::span<const Triangle> bod
   const auto nearest = std::min_element(gap_mm.begin(), gap_mm.end());
   result.min_mm = *nearest;
   result.nearest_vertex = static_cast<Index>(nearest - gap_mm.begin());
+  std::vector<double> hover_mm;
+  for (const double gap : gap_mm) {
+    if (gap >= 0 && gap <= hover_reach_mm) hover_mm.push_back(gap);
+  }
+  result.hovering = static_cast<Index>(hover_mm.size());
+  result.hover_p50_mm = nearest_rank(hover_mm, 50);
+  result.hover_p90_mm = nearest_rank(hover_mm, 90);
   result.p50_mm = nearest_rank(gap_mm, 50);
   return result;
 }

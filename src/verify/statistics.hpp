@@ -37,7 +37,14 @@ StretchStatistics measure_stretch(const ClothMesh& mesh, std::span<const Vec3> x
 struct GapStatistics {
   double min_mm = 0, p50_mm = 0;
   Index nearest_vertex = -1;  // of min: the nearest, or the deepest inside
+  // How high the cloth that lies on the body hovers over it: of the vertices outside within hover_reach_mm.
+  Index hovering = 0;  // how many these are
+  double hover_p50_mm = 0, hover_p90_mm = 0;
 };
+
+// Twice the offset at which cloth rests on a body (2.5 mm): farther away it does not lie on the body.  What bridges a hollow nearer
+// than this counts as well, so the p90 is an upper bound for what touches.
+constexpr double hover_reach_mm = 5;
 
 // Over all vertices `x`, signed.  A vertex is inside when the surface winds around it (either way: non-zero rule).
 // Holes of the surface (an open neck or wrist) are closed for this question by fans around their middle.  A flat

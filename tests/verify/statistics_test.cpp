@@ -210,6 +210,16 @@ TEST(Gap, IsTheLeastOverAllTriangles) {
   }
 }
 
+TEST(Gap, HoversOnlyWhereTheClothLiesOnTheBodyFromOutside) {
+  const Mesh body = box({-1, -1, -1}, {1, 1, 1});
+  Vec3s x = {{0, 1.0055, 0}, {0.2, 0.999, 0}, {0, 2, 0}};  // beyond the reach, inside, far away
+  for (int k = 1; k <= 10; ++k) x.push_back({0.01 * k, 1 + 0.00045 * k, 0.3});
+  const auto gap = measure_gap(x, body.triangles, body.x);
+  EXPECT_EQ(gap.hovering, 10);
+  EXPECT_NEAR(gap.hover_p50_mm, 5 * 0.45, 1e-9);
+  EXPECT_NEAR(gap.hover_p90_mm, 9 * 0.45, 1e-9);
+}
+
 TEST(Gap, GivesTheMedianAndTheDeepestVertex) {
   const Mesh body = box({-1, -1, -1}, {1, 1, 1});
   const Vec3s x = {{0, 1.1, 0}, {0, 1.3, 0}, {0, 0.9, 0}, {0, 1.2, 0}};
@@ -217,6 +227,7 @@ TEST(Gap, GivesTheMedianAndTheDeepestVertex) {
   EXPECT_NEAR(gap.min_mm, -100, 1e-9);
   EXPECT_EQ(gap.nearest_vertex, 2);
   EXPECT_NEAR(gap.p50_mm, 100, 1e-9);
+  EXPECT_EQ(gap.hovering, 0);
   EXPECT_EQ(measure_gap({}, body.triangles, body.x).nearest_vertex, -1);
   EXPECT_THROW(measure_gap(x, std::vector<Triangle>{{0, 1, 8}}, body.x), InputError);
 }
