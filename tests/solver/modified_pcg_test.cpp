@@ -190,6 +190,72 @@ TEST(ModifiedPcg, BetterPreconditionersNeedFewerIterations) {
   EXPECT_LT(iterations[3], iterations[2]);
 }
 
+// The iteration never multiplies by A' where it sweeps: what it believes of its residual must be what it left.
+TEST(ModifiedPcg, TheResidualItStopsAtIsTheTrueOne) {
+  const test::Sheet sheet = test::equilateral_sheet(0.8, 0.8, 0.02);
+  for (const bool with_rows : {true, false})
+    for (const Preconditioner preconditioner : all) {
+      Problem<float> p(sheet, 1.0 / 60, 0.001);
+      for (Index i = 100; i < 400; i += 3) p.constraints.hold_along(i, Vec3(0, 0.6, 0.8), 0.1);
+      if (!with_rows) p.rows.clear();
+      p.system.update(p.rows, p.constraints);
+      ModifiedPcg<float> pcg(p.model.mesh);
+      const PcgOptions options{preconditioner, 1e-4, 5000};
+      pcg.prepare(p.system, options);
+      Vec3s dv(p.b.size(), Vec3::Zero()), r(p.b.size());
+      const PcgReport report = pcg.solve(p.system, p.b, p.reference, options, dv);
+      ASSERT_TRUE(report) << report.explain();
+      ASSERT_GT(report.iterations, 10);
+      p.system.multiply_unfiltered(dv, r);
+      double sum = 0;
+      for (std::size_t i = 0; i < r.size(); ++i) {
+        r[i] -= p.b[i];
+        sum += r[i].dot(p.system.filtered_inverse(static_cast<Index>(i)) * r[i]);
+      }
+      EXPECT_LT(std::sqrt(sum), 1.02 * report.target) << to_string(preconditioner) << (with_rows ? ", rows" : "");
+    }
+}
+
+// Also where the coarse modes of several aggregates, rows and constraints meet.
+TEST(ModifiedPcg, DeflationLeavesNoResidualInATranslationOfTheWholeSheet) {
+  Problem<float> p(test::equilateral_sheet(0.8, 0.8, 0.02), 1.0 / 60, 0.001);
+  p.constraints.clear();
+  p.constraints.hold_along(9, Vec3(0, 1, 0), -0.5);
+  p.system.update(p.rows, p.constraints);
+  ModifiedPcg<float> pcg(p.model.mesh);
+  const PcgOptions options{Preconditioner::block_ssor_coarse, 0.05, 5000};
+  pcg.prepare(p.system, options);
+  Vec3s dv(p.b.size(), Vec3::Zero()), r(p.b.size());
+  ASSERT_TRUE(pcg.solve(p.system, p.b, p.reference, options, dv));
+  p.system.multiply_unfiltered(dv, r);
+  Vec3 sum = Vec3::Zero();
+  double size = 0;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    r[i] = p.constraints.S(static_cast<Index>(i)) * (p.b[i] - r[i]);
+    sum += r[i];
+    size += r[i].norm();
+  }
+  // The iteration is in float, the last correction in double.
+  EXPECT_LT(sum.norm(), 1e-9 * size);
+}
+
+TEST(ModifiedPcg, LoosenMultipliesTheTargetWhateverTermOfTheStopRuleDecides) {
+  for (const double tolerance : {1e-4, 0.5}) {  // decided by |b'|, and by 2 % of gravity
+    Problem<float> p;
+    ModifiedPcg<float> pcg(p.model.mesh);
+    PcgOptions options;
+    options.tolerance = tolerance;
+    pcg.prepare(p.system, options);
+    Vec3s dv(p.b.size(), Vec3::Zero());
+    const double target = pcg.solve(p.system, p.b, p.reference, options, dv).target;
+    options.loosen = 10;
+    dv.assign(dv.size(), Vec3::Zero());
+    const PcgReport report = pcg.solve(p.system, p.b, p.reference, options, dv);
+    EXPECT_DOUBLE_EQ(report.target, 10 * target);
+    EXPECT_LE(report.residual, report.target);
+  }
+}
+
 TEST(ModifiedPcg, SaysWhenTheMatrixIsNotPositiveDefinite) {
   Problem<double> p;
   p.rows.push_back({{70, 71, -1, -1}, {1, -1, 0, 0}, Vec3(0, 1, 0), -50, 0});
