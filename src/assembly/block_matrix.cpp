@@ -92,13 +92,14 @@ void BlockMatrix<T>::multiply(std::span<const Vec3> x, std::span<Vec3> y) const 
 
 template <class T>
 Eigen::MatrixXd BlockMatrix<T>::to_dense() const {
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3 * rows(), 3 * rows());
+  const auto at = [](Index i) { return 3 * static_cast<Eigen::Index>(i); };
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(at(rows()), at(rows()));
   for (Index i = 0; i < rows(); ++i) {
-    dense.block<3, 3>(3 * i, 3 * i) = diagonal(i);
+    dense.block<3, 3>(at(i), at(i)) = diagonal(i);
     for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s) {
       const Index j = pattern_->column(s);
-      dense.block<3, 3>(3 * i, 3 * j) = off_diagonal(s).to_mat3();
-      dense.block<3, 3>(3 * j, 3 * i) = off_diagonal(s).to_mat3().transpose();
+      dense.block<3, 3>(at(i), at(j)) = off_diagonal(s).to_mat3();
+      dense.block<3, 3>(at(j), at(i)) = off_diagonal(s).to_mat3().transpose();
     }
   }
   return dense;

@@ -85,7 +85,7 @@ void Elements::add_incidence(const ClothModel& model) {
 }
 
 void Elements::evaluate(const ClothModel& model, const ClothState& state) {
-  const auto& [x, v] = state;
+  const Vec3s &x = state.x, &v = state.v;
   parallel_for(triangles_.size(), grain, [&](std::size_t t) {
     std::array<Vec3, 3> corner_x, corner_v;
     for (std::size_t c = 0; c < 3; ++c) {
