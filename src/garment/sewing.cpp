@@ -142,7 +142,7 @@ void Sewing::judge_progress() {
   }
   if (escalations_ > 0) thin_layers();
   if (!stopped) return;
-  if (escalations_ == most_escalations) {
+  if (escalations_ == most_escalations || gaps().front().stretch > options_.too_small) {
     status_ = SewingStatus::blocked;
     return;
   }

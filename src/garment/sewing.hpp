@@ -10,7 +10,7 @@
 // filter of the step never lets cloth pass through cloth.
 //
 // If a seam still gapes when l = 0, the layers of cloth around the gap are thinned; then f_max doubles, at most twice; then the garment is
-// reported as blocked, by seam.  The last millimetre is left to the weld, which waits while it would push cloth through cloth.
+// reported as blocked, by seam.  Cloth that is stretched by a fifth beside the gap ends it at once: the garment is too small.  The last millimetre is left to the weld, which waits while it would push cloth through cloth.
 #pragma once
 #include "garment/label_heights.hpp"
 #include "step/adaptive_step.hpp"
@@ -34,6 +34,7 @@ struct SewingOptions {
   double weld_share =
       0.25;  // of the mean edge: a gap this small is welded where a seam stops closing (a fitted shoulder under tension)
   double patience_s = 0.2;       // without progress, before layers are thinned, and before each doubling of the pull
+  double too_small = 0.2;        // stretch beside an open seam at which pulling harder is given up
   double thickness_scale = 1.6;  // of the fabrics' contact distance, while sewing
   double thinnest = 0.2;         // the same, within `thin_radius_m` of a seam that will not close
   double thin_radius_m = 0.03;
