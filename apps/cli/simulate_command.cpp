@@ -86,6 +86,7 @@ Scene dress_scene(const CommandLine& line) {
   if (scene.name.empty()) scene.name = "garment";
   scene.cloth.push_back(std::move(cloth));
   scene.until_still = true;
+  scene.seconds = 10;  // a limit: most garments are still after three or four
   if (line.body == "mannequin") {
     scene.body.kind = SceneBody::Kind::mannequin;
     if (!line.body_unit.empty()) throw Error(ExitCode::usage, "--body-unit: the mannequin is in metres");
