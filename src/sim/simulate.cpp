@@ -183,7 +183,7 @@ class Run {
     start_.x = garment_.x;
   }
 
-  // Panels that are drawn through each other.
+  // Panels that are drawn through each other.  Left alone for the whole sewing: the drape looks again.
   void leave_tangles(Sewing& sewing) {
     Tangles tangles;
     tangles.find(garment_.mesh.triangles, garment_.x);
@@ -325,13 +325,10 @@ class Run {
         model.gravity_m_per_s2 = ramp(t_s) * scene_.gravity_m_per_s2;
         set_rest_stretch(model, ramp(t_s));
         stepper.integrator().body_constraints().set_friction(t_s < frictionless_s ? 0 : step_.body.friction);
-        if (t_s >= weightless_s + ramp_s) grow_thickness(thickness_scale_);
       }
-      if (tangles.any()) {
-        tangles.find(mesh_.triangles, state.x);
-        grow_thickness(thickness_scale_);
-        tangles.switch_off(state.x, thickness_scale_);
-      }
+      if (!sewn || t_s >= weightless_s + ramp_s) grow_thickness(thickness_scale_);
+      if (tangles.any()) tangles.find(mesh_.triangles, state.x);
+      tangles.switch_off(state.x, thickness_scale_);  // also where sewing had left it so
       stepper.integrator().contact_rows().set_thickness_scale(thickness_scale_);
       FrameReport frame;
       {

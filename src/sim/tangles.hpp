@@ -2,7 +2,8 @@
 //
 // The safe filter keeps every pair on the side where it is, which would hold a crossing for good.  Around each
 // crossing contact is therefore switched off, so that bending can open it; once it is gone the particles are guarded
-// like all others.
+// like all others, thinly at first.  (Sewing does not look again: what it leaves off, the first frame of the drape gives
+// back.)
 #pragma once
 #include "core/types.hpp"
 
@@ -16,11 +17,13 @@ class Tangles {
   // Looks for crossings at x.  After a look that found none it does nothing, for good: the filter lets no new ones come.
   void find(std::span<const Triangle> triangles, const Vec3s& x);
   bool any() const { return !places_.empty(); }
-  // Sets the scale of the particles around them to 0 (ContactRows::set_thickness_scale).
+  // Sets the scale of the particles around them to 0 (ContactRows::set_thickness_scale), and gives those that were 0 and
+  // have no crossing beside them any more a tenth.
   void switch_off(const Vec3s& x, std::vector<double>& thickness_scale) const;
 
  private:
   std::vector<Vec3> places_;
+  std::vector<char> crossing_;  // [particle] of an edge or a triangle that crosses: it may be long
   bool over_ = false;
 };
 

@@ -280,8 +280,21 @@ TEST(Tangles, AreLeftAloneUntilTheyAreGone) {
   for (const std::size_t i : {3U, 4U, 5U}) apart[i].y() += 0.1;
   tangles.find(triangles, apart);
   EXPECT_FALSE(tangles.any());
+  tangles.switch_off(apart, scale);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_GT(scale[i], 0) << "guarded from the very frame in which they came free";
+  EXPECT_EQ(scale[8], 0.7);
   tangles.find(triangles, x);
   EXPECT_FALSE(tangles.any()) << "once free it is guarded, and not looked at again";
+}
+
+TEST(Tangles, EveryParticleOfACrossingIsLeftAloneHoweverLongItsEdges) {
+  const std::vector<Triangle> triangles{{0, 1, 2}, {3, 4, 5}};
+  const Vec3s x{{-0.3, 0, 0.3}, {0.3, 0, 0.3}, {0, 0, -0.6}, {0, -0.3, 0}, {0, 0.3, 0.15}, {0, 0.3, -0.15}};
+  Tangles tangles;
+  tangles.find(triangles, x);
+  std::vector<double> scale(6, 1);
+  tangles.switch_off(x, scale);
+  EXPECT_EQ(scale, std::vector<double>(6, 0));
 }
 
 TEST(Run, ASeamThatCannotCloseIsReportedByName) {
