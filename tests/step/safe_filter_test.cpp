@@ -2,6 +2,7 @@
 #include "step/safe_filter.hpp"
 
 #include "core/parallel.hpp"
+#include "support/bodies.hpp"
 #include "support/crossings.hpp"
 #include "support/run_cloth.hpp"
 
@@ -162,6 +163,53 @@ TEST(SafeFilter, AZoneThatIsCutKeepsItsMeanMotion) {
   EXPECT_LT((filter.mean_motion(end) - before).norm(), 2e-3);
 }
 
+TEST(SafeFilter, WhatWasNearIsNotPushedFartherApart) {
+  // The tip of a triangle, nearer than r/4 to a held one, is moved through it.
+  Sheet sheet;
+  sheet.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  sheet.mesh.particle_count = 6;
+  sheet.x = {{0, 0, 0.1}, {0.1, 0, -0.1}, {-0.1, 0, -0.1}, {0, 3e-4, 0}, {0.01, 0.05, 0}, {-0.01, 0.05, 0}};
+  Filter filter(sheet);
+  for (std::size_t i = 0; i < 3; ++i) filter.inverse_mass[i] = 0;
+  Vec3s end = filter.x;
+  end[3].y() = -1e-3;
+  EXPECT_EQ(filter(end, false).left, 0);
+  EXPECT_NEAR(end[3].y(), 3e-4, 1e-9);
+  filter.x[3].y() = 4e-3;
+  end = filter.x;
+  end[3].y() = -1e-3;
+  EXPECT_EQ(filter(end, false).left, 0);
+  EXPECT_NEAR(end[3].y(), 0.25 * 2.5e-3, 1e-9);
+}
+
+TEST(SafeFilter, AZoneWithHeldParticlesFollowsThem) {
+  Filter filter(stack(0.06, 0.01, 3e-3, 4));
+  const Vec3 travel(0.02, 0.01, 0);
+  Random random(9);
+  Vec3s end = filter.x;
+  const std::size_t held = end.size() / 4;
+  for (std::size_t i = 0; i < end.size(); ++i) {
+    if (i < held) filter.inverse_mass[i] = 0;
+    end[i] += i < held ? travel : random.vector(0.1);
+  }
+  ASSERT_GT(filter(end, true).truncated, 0);
+  for (std::size_t i = 0; i < held; ++i) EXPECT_LT((end[i] - filter.x[i] - travel).norm(), 1e-12) << i;
+}
+
+TEST(SafeFilter, RemembersNothingOfTheLastStep) {
+  const Sheet sheet = stack(0.06, 0.01, 3e-3, 4);
+  Filter used(sheet), fresh(sheet);
+  Random random(9);
+  Vec3s first = used.x, second = used.x;
+  for (Vec3& p : first) p += random.vector(0.1);
+  for (Vec3& p : second) p += random.vector(0.05);
+  Vec3s expected = second;
+  ASSERT_GT(fresh(expected, true).truncated, 0);
+  ASSERT_GT(used(first, true).truncated, 0);
+  used(second, true);
+  EXPECT_EQ(std::memcmp(second.data(), expected.data(), second.size() * sizeof(Vec3)), 0);
+}
+
 TEST(SafeFilter, GivesTheSameBitsOnAnyNumberOfThreads) {
   const Sheet sheet = stack(0.3, 0.01, 3e-3, 3);
   std::vector<Vec3s> ends;
@@ -211,6 +259,25 @@ TEST(SafeFilter, ASheetThatHitsAnotherNeverPassesItAtAnySpeed) {
   }
 }
 
+TEST(SafeFilter, TheVelocityAfterAStepIsThatOfTheMotion) {
+  const Sheet sheet = stack(0.1, 0.01, 0.02, 2);
+  ModelOptions weightless;
+  weightless.gravity_m_per_s2.setZero();
+  ClothRun run(sheet, Fabric{}, weightless);
+  const Index half = run.model.particle_count() / 2;
+  for (Index i = half; i < 2 * half; ++i) run.state.v[at(i)] = Vec3(0, -5, 0);
+  run.start();
+  ImplicitEuler& euler = run.stepper->integrator();
+  const double h = 1.0 / 120;
+  euler.prepare(run.state, h);
+  ClothState candidate;
+  const StepReport report = euler.attempt(run.state, 0, h, {1e9, false}, candidate);
+  ASSERT_TRUE(report) << report.explain();
+  ASSERT_GT(report.filter.corrected, half);
+  for (std::size_t i = 0; i < candidate.x.size(); ++i)
+    EXPECT_LT((h * candidate.v[i] - (candidate.x[i] - run.state.x[i])).norm(), 1e-12) << i;
+}
+
 TEST(SafeFilter, ACorrectedParticleHasTheVelocityOfItsMotion) {
   // Frictionless rails: the upper sheet may only fall.  What stops it is the filter, and its speed goes with it.
   const Sheet sheet = stack(0.1, 0.01, 0.02, 2);
@@ -224,6 +291,37 @@ TEST(SafeFilter, ACorrectedParticleHasTheVelocityOfItsMotion) {
   for (Index i = half; i < 2 * half; ++i) {
     EXPECT_GT(run.state.x[at(i)].y(), 0) << "above the lower sheet";
     EXPECT_GT(run.state.v[at(i)].y(), -0.05) << "and no longer falling";
+  }
+}
+
+TEST(SafeFilter, AnAlterationThatIsCutShortThrowsNobodyBack) {
+  // The lower sheet lies too near a slab and would be lifted; the upper one is led down through it.  Both are held, so that only
+  // cutting short helps, and no particle may leave with more speed than it moved.
+  BodySurface slab = test::tilted_slab(1, 0.2, 0);
+  Sheet sheet = stack(0.06, 0.01, 4e-3, 2);
+  for (Vec3& p : sheet.x) p += Vec3(0, 2e-3, 0);
+  ClothRun run(sheet, Fabric{});
+  run.world.body = &slab;
+  const double h = 1e-3;
+  const Index half = run.model.particle_count() / 2;
+  for (Index i = half; i < 2 * half; ++i) {
+    Pin pin;
+    pin.particle = i;
+    pin.path = [p = sheet.x[at(i)], h](double t_s) { return Vec3(p - (t_s / h) * Vec3(0, 6e-3, 0)); };
+    run.world.pins.push_back(pin);
+  }
+  run.start();
+  ImplicitEuler& euler = run.stepper->integrator();
+  euler.prepare(run.state, h);
+  ClothState candidate;
+  EXPECT_EQ(euler.attempt(run.state, 0, h, {1e9, false}, candidate).status, StepStatus::passed_through);
+  const StepReport report = euler.attempt(run.state, 0, h, {1e9, true}, candidate);
+  ASSERT_TRUE(report) << report.explain();
+  ASSERT_GT(report.touching, half / 2);
+  ASSERT_GT(report.filter.truncated, half);
+  for (std::size_t i = 0; i < candidate.x.size(); ++i) {
+    const Vec3 moved = candidate.x[i] - run.state.x[i];
+    EXPECT_LT(h * candidate.v[i].norm(), moved.norm() + 1e-9) << i;
   }
 }
 
