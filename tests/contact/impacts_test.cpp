@@ -166,5 +166,43 @@ TEST(Impacts, AreTheSameListOnAnyNumberOfThreads) {
   }
 }
 
+TEST(Impacts, LayersNearerThanTheSeparationAreGuardedByHalfTheirGap) {
+  Query query(two_layers(1e-4));  // xi would be 0.25 mm
+  Vec3s end = query.mesh.x;
+  const auto move = [&](double up_m) {
+    for (std::size_t i = end.size() / 2; i < end.size(); ++i) end[i].y() = query.mesh.x[i].y() + up_m;
+  };
+  move(1e-4);
+  EXPECT_TRUE(query(end).empty()) << "they move apart";
+  move(-3e-5);
+  EXPECT_TRUE(query(end).empty()) << "seven tenths of the gap are left";
+  move(-1.3e-4);
+  const std::vector<Impact> impacts = query(end);
+  ASSERT_FALSE(impacts.empty());
+  for (const Impact& impact : impacts) EXPECT_NEAR(impact.separation_m, 0.5 * impact.start_gap_m, 1e-15);
+}
+
+TEST(Impacts, FlatLayersThatEndNearerThanTheSeparationMeetThoughTheirWaysDoNot) {
+  Query query(two_layers(4e-3));
+  Vec3s end = query.mesh.x;
+  for (std::size_t i = end.size() / 2; i < end.size(); ++i) end[i].y() = 2e-4;  // xi is 0.25 mm
+  EXPECT_FALSE(query(end).empty());
+}
+
+TEST(Impacts, AWorkspaceOfAnotherClothIsAsGoodAsANewOne) {
+  Mesh more = two_layers(4e-3);
+  add_sheet(more, 5, 5, 0.01, Vec3(0.001, 8e-3, 0));
+  Query small(two_layers(4e-3)), large(more);
+  const auto turned_over = [](const Query& query) {
+    Vec3s end = query.mesh.x;
+    for (Vec3& p : end) p.y() *= -1;
+    return end;
+  };
+  const Names expected = names_of(large(turned_over(large)));
+  small(turned_over(small));
+  large.workspace = small.workspace;
+  EXPECT_EQ(names_of(large(turned_over(large))), expected);
+}
+
 }  // namespace
 }  // namespace toile

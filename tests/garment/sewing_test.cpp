@@ -75,7 +75,7 @@ double widest(const GarmentMesh& garment, const Vec3s& x) {
 void expect_closed_without_crossings(const SewingRun& run) {
   const Sewing& sewing = *run.sewing;
   ASSERT_EQ(sewing.status(), SewingStatus::closed);
-  EXPECT_LT(widest(run.garment, sewing.state().x), SewingOptions{}.weld_gap_m) << "a simple tube needs no thick corner";
+  EXPECT_LT(widest(run.garment, sewing.state().x), 1e-12) << "every class has been moved to where it will be welded";
   EXPECT_NEAR(sewing.widest_gap_m(), widest(run.garment, sewing.state().x), 1e-15);
   const WeldedMesh welded = weld(run.garment);
   const ClothState joined = weld_state(run.garment, welded, sewing.model(), sewing.state());
@@ -256,6 +256,97 @@ TEST(Sewing, GivesTheSameBitsOnAnyNumberOfThreads) {
       EXPECT_EQ(std::memcmp(reference.data(), x.data(), x.size() * sizeof(Vec3)), 0) << threads;
     }
   }
+}
+
+// The right sides are 10 cm apart, the left ones 22.
+Pattern skew_tube() {
+  Pattern pattern = test::tube_pattern(0.3, 0.12, 0.1);
+  pattern.panels[1] = test::back_rectangle(0.1, 0.12, Vec3(0.1, 0, -0.05));
+  return pattern;
+}
+
+TEST(Sewing, AllPairsCloseInProportion) {
+  SewingOptions options;
+  options.patience_s = 0;  // nothing escalates before the wanted distance is zero, however impatient
+  SewingRun run(skew_tube(), 0.02, nullptr, options);
+  const double start = widest(run.garment, run.garment.x);
+  EXPECT_NEAR(start, std::sqrt(0.05), 1e-6);
+  run.run(13);  // about half the time
+  const double gone = options.closing_speed_m_per_s * run.sewing->time_s() / start;
+  EXPECT_NEAR(gone, 0.5, 0.03);
+  for (const SeamPair& pair : run.garment.pairs) {
+    const auto distance = [&](const Vec3s& x) { return (x[at(pair.a)] - x[at(pair.b)]).norm(); };
+    EXPECT_NEAR(distance(run.sewing->state().x), (1 - gone) * distance(run.garment.x), 0.02);
+  }
+  for (const double scale : run.sewing->thickness_scale()) EXPECT_EQ(scale, options.thickness_scale);
+}
+
+TEST(Sewing, AWideGapIsNotWeldedBeforeItHasStoppedClosing) {
+  SewingOptions options;
+  options.weld_share = 3;  // 6 cm
+  SewingRun run(test::tube_pattern(0.12, 0.12, 0.1), 0.02, nullptr, options);
+  run.run(200);
+  ASSERT_EQ(run.sewing->status(), SewingStatus::closed);
+  EXPECT_GE(run.sewing->time_s(), 0.1 / options.closing_speed_m_per_s);
+}
+
+TEST(Sewing, LabelledEdgesAreFreeUntilTheSeamsAreClosed) {
+  Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
+  for (Panel& panel : pattern.panels) panel.edges[0].label = "hem";
+  SewingOptions options;
+  options.label_heights = {{"hem", 1.0}};
+  SewingRun held(pattern, 0.02, nullptr, options), free(pattern, 0.02);
+  for (SewingRun* run : {&held, &free}) run->run(10);  // of 12 frames
+  ASSERT_EQ(held.sewing->status(), SewingStatus::sewing);
+  const Vec3s &x = held.sewing->state().x, &y = free.sewing->state().x;
+  EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(Vec3)), 0);
+}
+
+TEST(Sewing, LabelSpringsFollowTheirParticlesIntoTheWeld) {
+  Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
+  pattern.panels[1].edges[0].label = "hem";
+  const GarmentMesh garment = mesh_garment(pattern, 0.02);
+  const WeldedMesh welded = weld(garment);
+  const std::vector<LabelHeight> heights{{"hem", 1.0}};
+  const LabelSprings panels(garment, heights), whole = panels.welded(welded.particle_of);
+  std::vector<LinearSpring> before, after;
+  panels.append({garment.x, Vec3s(garment.x.size(), Vec3::Zero())}, 1, before);
+  whole.append({Vec3s(at(welded.mesh.particle_count), Vec3::Zero()), {}}, 1, after);
+  ASSERT_EQ(before.size(), garment.labels.at(0).particles.size());
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t k = 0; k < before.size(); ++k)
+    EXPECT_EQ(after[k].particle[0], welded.particle_of[at(before[k].particle[0])]);
+}
+
+TEST(Sewing, ASheetBetweenTheSeamsStopsTheWeldAndIsNotPassed) {
+  Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
+  pattern.panels.push_back(test::front_rectangle(0.3, 0.2, Vec3::Zero()));
+  pattern.panels.back().name = "between";
+  SewingOptions options;
+  options.patience_s = 0.05;
+  options.weld_share = 2;  // what is near enough is tried
+  SewingRun run(pattern, 0.02, nullptr, options);
+  run.run(200);
+  EXPECT_EQ(run.sewing->status(), SewingStatus::blocked);
+  ASSERT_TRUE(run.sewing->weld_obstacle());
+  EXPECT_EQ(test::crossings_of(run.sewing->state().x, run.garment.mesh.triangles), 0);
+  double thinnest = 9, thickest = 0;  // beside the open seams and nowhere else
+  for (const double scale : run.sewing->thickness_scale()) {
+    thinnest = std::min(thinnest, scale);
+    thickest = std::max(thickest, scale);
+  }
+  EXPECT_LT(thinnest, 1.2 * options.thickness_scale * std::pow(0.95, 9));
+  EXPECT_EQ(thickest, options.thickness_scale);
+}
+
+TEST(Sewing, ThinnedLayersComeBackToTheFabricsThicknessAndNoFurther) {
+  std::vector<double> scale{0, 0.05, 0.5, 0.95, 1};
+  grow_thickness(scale);
+  EXPECT_NEAR(scale[0], 0.11, 1e-15);
+  EXPECT_NEAR(scale[1], 0.11, 1e-15);
+  EXPECT_NEAR(scale[2], 0.55, 1e-15);
+  EXPECT_EQ(scale[3], 1);
+  EXPECT_EQ(scale[4], 1);
 }
 
 }  // namespace
