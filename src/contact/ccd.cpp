@@ -27,8 +27,8 @@ double first_impact(const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, 
     if (next > 1) return no_impact;
     for (std::size_t k = 0; k < 4; ++k) moved[k] = x[k] + next * u[k];
     d = distance(moved);
-    if (d - separation_m < stop_m) return t;
     t = next;
+    if (d - separation_m < stop_m) return t;  // still farther apart than xi: a tenth of the room before is left
   }
   return t;
 }

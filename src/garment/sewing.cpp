@@ -136,6 +136,7 @@ void Sewing::judge_progress() {
   const bool reached = options_.closing_speed_m_per_s * time_s_ >= longest_m_;
   const bool stopped = reached && time_s_ - best_time_s_ >= options_.patience_s;
   const bool near = gap < options_.weld_gap_m || (stopped && gap < options_.weld_share * mean_edge_m_);
+  weld_obstacle_.reset();
   if (near && close_seams()) {
     status_ = SewingStatus::closed;
     return;
@@ -169,7 +170,6 @@ bool Sewing::close_seams() {
   SafeFilter filter;
   const FilterReport report =
       filter(rows.topology(), rows.tree(), state_.x, inverse_mass, rows.contact_m(), false, end);
-  weld_obstacle_.reset();
   if (report.left > 0) {
     weld_obstacle_ = state_.x[at(filter.left().front().particle[0])];
     return false;

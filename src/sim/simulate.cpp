@@ -71,6 +71,12 @@ void set_seconds(PhaseReport& phase, const PhaseSeconds& seconds) {
 std::string explain(const Sewing& sewing, const GarmentMesh& garment, double weld_gap_m) {
   constexpr std::size_t most = 5;
   constexpr double too_small = 0.05;
+  if (sewing.weld_obstacle()) {  // the gaps are small, and not what is in the way
+    const Vec3& p = *sewing.weld_obstacle();
+    return words(
+        "every seam is closed to %.1f mm, but the weld would push cloth through cloth near (%.2f, %.2f, %.2f) m",
+        1e3 * sewing.widest_gap_m(), p.x(), p.y(), p.z());
+  }
   std::string text;
   std::size_t open = 0;
   for (const SeamGap& gap : sewing.gaps()) {
@@ -83,12 +89,6 @@ std::string explain(const Sewing& sewing, const GarmentMesh& garment, double wel
             words(" is open by %.1f mm near (%.2f, %.2f, %.2f) m, ", 1e3 * gap.gap_m, gap.where.x(), gap.where.y(),
                   gap.where.z()) +
             why;
-  }
-  if (open == 0 && sewing.weld_obstacle()) {
-    const Vec3& p = *sewing.weld_obstacle();
-    text =
-        words("every seam is closed to %.1f mm, but the weld would push cloth through cloth near (%.2f, %.2f, %.2f) m",
-              1e3 * sewing.widest_gap_m(), p.x(), p.y(), p.z());
   }
   if (open > most) text += "; and " + std::to_string(open - most) + " more seams";
   return text;
