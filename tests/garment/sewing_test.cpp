@@ -231,6 +231,21 @@ TEST(Sewing, ALabelledEdgeIsDrawnToItsHeightOnceTheSeamsAreClosed) {
   }
 }
 
+TEST(Sewing, ClothIsAsStiffAsLeatherUntilTheWeldAndNeverSofterThanItsFabric) {
+  const Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
+  const GarmentMesh garment = mesh_garment(pattern, 0.02);
+  for (const double bend : {1e-6, 1e-5, 5e-3}) {
+    Fabric fabric, stiff;
+    fabric.bend_u_N_m = fabric.bend_v_N_m = bend;
+    stiff.bend_u_N_m = stiff.bend_v_N_m = std::max(bend, SewingOptions{}.bend_N_m);
+    const Sewing sewing(garment, {&fabric, 1}, nullptr, StepOptions{}, SewingOptions{});
+    const ClothModel wanted = build_model(garment.mesh, {&stiff, 1});
+    ASSERT_EQ(sewing.model().bend.size(), wanted.bend.size());
+    for (std::size_t h = 0; h < wanted.bend.size(); ++h)
+      EXPECT_EQ(sewing.model().bend[h].kappa_N_m, wanted.bend[h].kappa_N_m) << bend;
+  }
+}
+
 TEST(Sewing, AGarmentWithoutSeamsIsClosedAtOnce) {
   Pattern pattern = test::tube_pattern(0.1, 0.1, 0.1);
   pattern.stitches.clear();
