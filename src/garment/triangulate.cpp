@@ -92,6 +92,7 @@ PlanarMesh equilateral_sheet(double width_m, double height_m, double edge_m) {
   const int nx = static_cast<int>(std::clamp(std::round(width_m / edge_m), 1.0, most));
   const int ny = static_cast<int>(std::clamp(std::round(height_m / edge_m), 1.0, most));
   std::vector<Vec2> outline;
+  outline.reserve(2 * (static_cast<std::size_t>(nx) + static_cast<std::size_t>(ny)));
   for (int i = 0; i < nx; ++i) outline.emplace_back(width_m * i / nx, 0.0);
   for (int i = 0; i < ny; ++i) outline.emplace_back(width_m, height_m * i / ny);
   for (int i = nx; i > 0; --i) outline.emplace_back(width_m * i / nx, height_m);

@@ -259,7 +259,7 @@ void smooth(Delaunay& mesh, int sweeps) {
         sum.y += weight * (centre.y + (double(a.y) - here.y));
         area += weight;
       }
-      for (double part = 1; part > 0.2; part *= 0.5)
+      for (const double part : {1.0, 0.5, 0.25})
         if (mesh.move(v, snapped({here.x + part * sum.x / area, here.y + part * sum.y / area}))) break;
     }
     mesh.legalize();

@@ -179,8 +179,9 @@ std::vector<GridPoint> lattice_inside(std::span<const GridPoint> outline, double
       const double low = (std::min(a.x, b.x) - margin - x0) / dx - offset,
                    high = (std::max(a.x, b.x) + margin - x0) / dx - offset;
       const double ux = double(b.x) - a.x, uy = double(b.y) - a.y, length2 = ux * ux + uy * uy;
-      for (double c = std::max(0.0, std::ceil(low)); c <= std::min(columns, high); c += 1) {
-        const double px = x0 + (c + offset) * dx - a.x, py = y - a.y;
+      const auto last = static_cast<std::ptrdiff_t>(std::floor(std::min<double>(columns, high)));
+      for (auto c = static_cast<std::ptrdiff_t>(std::max(0.0, std::ceil(low))); c <= last; ++c) {
+        const double px = x0 + (static_cast<double>(c) + offset) * dx - a.x, py = y - a.y;
         const double t = std::clamp((px * ux + py * uy) / length2, 0.0, 1.0);
         const double qx = px - t * ux, qy = py - t * uy;
         if (qx * qx + qy * qy < margin * margin) blocked[static_cast<std::size_t>(c)] = 1;

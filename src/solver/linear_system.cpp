@@ -110,12 +110,13 @@ void LinearSystem<T>::multiply_unfiltered(std::span<const Vec3> x, std::span<Vec
 
 template <class T>
 Eigen::MatrixXd LinearSystem<T>::to_dense() const {
+  const auto first = [](Index i) { return 3 * static_cast<Eigen::Index>(i); };
   Eigen::MatrixXd dense = A_->to_dense();
   for (const ImplicitRow& row : rows_) {
     for (std::size_t k = 0; k < 4; ++k) {
       for (std::size_t l = 0; l < 4; ++l) {
         if (row.particle[k] < 0 || row.particle[l] < 0) continue;
-        dense.block<3, 3>(3 * row.particle[k], 3 * row.particle[l]) +=
+        dense.block<3, 3>(first(row.particle[k]), first(row.particle[l])) +=
             (row.a * row.weight[k] * row.weight[l]) * row.direction * row.direction.transpose();
       }
     }

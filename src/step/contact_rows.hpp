@@ -65,7 +65,7 @@ class ContactRows {
     ContactKind kind;
     bool body;
     std::array<Index, 5> feature;
-    auto operator<=>(const Key&) const = default;
+    auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 sees a 0 in it
   };
   struct Pair {
     Key key;
