@@ -242,12 +242,7 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, bool truncat
   }
   if (report.filter.corrected == 0) return;
   for (std::size_t i = 0; i < state.x.size(); ++i) {
-    if (!filter_.moved()[i]) continue;
-    // Of an alteration that was cut short only what was moved is no velocity: the rest would throw the particle back.
-    const Vec3 moved = candidate.x[i] - state.x[i];
-    const double y2 = y_[i].squaredNorm();
-    const double altered = y2 > 0 ? std::clamp(moved.dot(y_[i]) / y2, 0.0, 1.0) : 0;
-    candidate.v[i] = (moved - altered * y_[i]) / h_s;
+    if (filter_.moved()[i]) candidate.v[i] = velocity_of_motion(candidate.x[i] - state.x[i], y_[i], h_s);
   }
 }
 

@@ -7,9 +7,9 @@ namespace toile {
 namespace {
 
 constexpr int most_rounds = 4, sweeps = 3;
-constexpr double target_share = 0.25, target_separations = 1.5;  // of r; of xi
-constexpr double cut_share = 0.9;                                // of the earliest impact
-constexpr int shrinking_growths = 3;                             // after these a zone's relative motion is stopped
+constexpr double target_share = 0.25;  // of r
+constexpr double cut_share = 0.9;      // of the earliest impact
+constexpr int shrinking_growths = 3;   // after these a zone's relative motion is stopped
 constexpr int most_growths = 50;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -20,6 +20,12 @@ Index root(std::vector<Index>& parent, Index i) {
 }
 
 }  // namespace
+
+Vec3 velocity_of_motion(const Vec3& moved_m, const Vec3& y_m, double h_s) {
+  const double y2 = y_m.squaredNorm();
+  const double altered = y2 > 0 ? std::clamp(moved_m.dot(y_m) / y2, 0.0, 1.0) : 0;
+  return (moved_m - altered * y_m) / h_s;
+}
 
 FilterReport SafeFilter::operator()(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
                                     std::span<const double> inverse_mass, std::span<const double> contact_m,
@@ -48,8 +54,7 @@ void SafeFilter::push_apart(std::span<const double> inverse_mass, std::span<Vec3
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (const std::size_t i : order_) {
       const Impact& impact = impacts_[i];
-      const double target = std::max(std::min(target_share * impact.contact_m, impact.start_gap_m),
-                                     target_separations * impact.separation_m);
+      const double target = std::min(target_share * impact.contact_m, impact.start_gap_m);  // more than xi in any case
       double gap = 0, mobility = 0;
       for (std::size_t k = 0; k < 4; ++k) {
         gap += impact.weight[k] * impact.normal.dot(end[at(impact.particle[k])]);
@@ -77,6 +82,7 @@ void SafeFilter::cut_short(const ClothTopology& cloth, const TriangleTree& tree,
   std::vector<double> share(n, 1), mass(n, 0);
   std::vector<char> inside(n, 0), held(n, 0);
   Vec3s mean(n, Vec3::Zero());
+  std::vector<Impact> seen;
   for (int growth = 0; !impacts_.empty() && growth < most_growths; ++growth) {
     for (const Impact& impact : impacts_) {
       for (std::size_t k = 0; k < 4; ++k) {
@@ -86,10 +92,10 @@ void SafeFilter::cut_short(const ClothTopology& cloth, const TriangleTree& tree,
       }
     }
     // Times belong to the motion that is cut, which is the whole one, whatever the zones were when the impact was found.
-    seen_.insert(seen_.end(), impacts_.begin(), impacts_.end());
+    seen.insert(seen.end(), impacts_.begin(), impacts_.end());
     std::fill(share.begin(), share.end(), growth < shrinking_growths ? 1 : 0);
     if (growth < shrinking_growths) {
-      for (const Impact& impact : seen_) {
+      for (const Impact& impact : seen) {
         double& s = share[at(root(zone_, impact.particle[0]))];
         s = std::min(s, cut_share * std::min(1.0, impact_time(impact, start, whole_)));
       }
@@ -117,7 +123,6 @@ void SafeFilter::cut_short(const ClothTopology& cloth, const TriangleTree& tree,
     }
     find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_);
   }
-  seen_.clear();
   report.truncated = static_cast<int>(std::count(inside.begin(), inside.end(), 1));
   report.left = static_cast<int>(impacts_.size());
   if (impacts_.empty()) return;

@@ -2,7 +2,7 @@
 //
 //   1  impacts on the straight way from the state to the candidate (contact/impacts.hpp)
 //   2  at most 4 rounds of 3 sweeps, earliest impact first: inelastic impulses without friction that bring the pair's
-//      gap at the end to max( min(r/4, d_0), 1.5 xi );  particles that are held (pins, body) have infinite mass;
+//      gap at the end to min(r/4, d_0);  particles that are held (pins, body) have infinite mass;
 //      every round looks for impacts anew
 //   3  impacts left: the step is refused and halved by its caller
 //   4  where a step may not be shorter, zones are cut short: particles joined by impacts move by
@@ -28,6 +28,10 @@ struct FilterReport {
   int truncated = 0;  // particles in zones that were cut short
 };
 
+// Velocity of a particle that moves by `moved_m` in a step of h_s in which it was to be altered by y.  Only the part of y that was
+// carried out is no velocity; the rest, of a motion that was cut short, would throw the particle back.
+Vec3 velocity_of_motion(const Vec3& moved_m, const Vec3& y_m, double h_s);
+
 class SafeFilter {
  public:
   // Moves `end` where needed.  `inverse_mass` per particle in 1/kg, 0 where it is held; `contact_m` is r per particle
@@ -48,7 +52,7 @@ class SafeFilter {
                  FilterReport& report);
 
   ImpactWorkspace workspace_;
-  std::vector<Impact> impacts_, seen_;
+  std::vector<Impact> impacts_;
   std::vector<std::size_t> order_;
   std::vector<char> moved_;
   std::vector<Index> zone_;

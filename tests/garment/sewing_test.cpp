@@ -246,6 +246,23 @@ TEST(Sewing, ClothIsAsStiffAsLeatherUntilTheWeldAndNeverSofterThanItsFabric) {
   }
 }
 
+TEST(Sewing, ThePullDoublesTwiceBeforeASeamIsBlocked) {
+  BodySurface body = capsule(0.055, 0.2);
+  const auto gap_when_given_up = [&](double too_small) {
+    SewingOptions options;
+    options.patience_s = 0.1;
+    options.too_small = too_small;
+    SewingRun run(test::tube_pattern(0.10, 0.08, 0.14), 0.02, &body, options);
+    run.run(400);
+    EXPECT_EQ(run.sewing->status(), SewingStatus::blocked);
+    double sum = 0;  // the tube may slide to one side
+    for (const SeamGap& gap : run.sewing->gaps()) sum += gap.gap_m;
+    return sum;
+  };
+  const double once = gap_when_given_up(0), four_times = gap_when_given_up(1e9);
+  EXPECT_LT(four_times, 0.6 * once) << "a tube that is stretched is pulled harder only when it may be";
+}
+
 TEST(Sewing, AGarmentWithoutSeamsIsClosedAtOnce) {
   Pattern pattern = test::tube_pattern(0.1, 0.1, 0.1);
   pattern.stitches.clear();

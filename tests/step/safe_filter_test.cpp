@@ -210,6 +210,36 @@ TEST(SafeFilter, RemembersNothingOfTheLastStep) {
   EXPECT_EQ(std::memcmp(second.data(), expected.data(), second.size() * sizeof(Vec3)), 0);
 }
 
+TEST(SafeFilter, HeldParticlesThatMoveAlikeEndWhereTheyWereAskedToWhateverTheirZoneDoes) {
+  Filter filter(stack(0.06, 0.01, 3e-3, 4));
+  const Vec3 asked(1e-3, 2e-3, -1e-3);
+  Random random(21);
+  Vec3s end = filter.x;
+  for (std::size_t i = 0; i < end.size(); ++i) {
+    if (i % 5 == 0) filter.inverse_mass[i] = 0;
+    end[i] += i % 5 == 0 ? asked : random.vector(0.05);
+  }
+  ASSERT_GT(filter(end, true).truncated, 0);
+  int in_zones = 0;
+  for (std::size_t i = 0; i < end.size(); i += 5) {
+    in_zones += filter.filter.moved()[i];
+    EXPECT_LT((end[i] - filter.x[i] - asked).norm(), 1e-12) << i;
+  }
+  EXPECT_GT(in_zones, 2);
+}
+
+TEST(SafeFilter, OfAnAlterationOnlyWhatWasCarriedOutIsNoVelocity) {
+  const Vec3 y(0, 4e-4, 0), v(0.3, 0, -0.1);
+  const double h = 0.01;
+  EXPECT_LT((velocity_of_motion(h * v + y, y, h) - v).norm(), 1e-12) << "all of it";
+  EXPECT_LT((velocity_of_motion(h * v + 0.5 * y, y, h) - v).norm(), 1e-12) << "half of it";
+  EXPECT_LT(velocity_of_motion(Vec3::Zero(), y, h).norm(), 1e-15) << "none of it: stopped";
+  const Vec3 along(0, 0.2, 0);
+  EXPECT_LT((velocity_of_motion(h * along + y, y, h) - along).norm(), 1e-12) << "it moves on beyond y";
+  EXPECT_LT((velocity_of_motion(-h * along, y, h) + along).norm(), 1e-12) << "it goes the other way";
+  EXPECT_LT((velocity_of_motion(h * v, Vec3::Zero(), h) - v).norm(), 1e-12);
+}
+
 TEST(SafeFilter, GivesTheSameBitsOnAnyNumberOfThreads) {
   const Sheet sheet = stack(0.3, 0.01, 3e-3, 3);
   std::vector<Vec3s> ends;
