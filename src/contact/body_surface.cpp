@@ -51,13 +51,17 @@ BodySurface::BodySurface(std::vector<Vec3> positions, std::vector<Triangle> tria
   update_normals();
 }
 
-void BodySurface::set_motion(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m) {
-  for (const std::size_t count : {start.size(), end.size()}) {
-    if (count == start_.size()) continue;
-    throw InputError("", "body motion", std::to_string(start_.size()) + " vertices", std::to_string(count));
-  }
-  start_.assign(start.begin(), start.end());
+void BodySurface::set_end(std::span<const Vec3> end) {
+  if (end.size() != start_.size())
+    throw InputError("", "body motion", std::to_string(start_.size()) + " vertices", std::to_string(end.size()));
   end_.assign(end.begin(), end.end());
+}
+
+void BodySurface::set_motion(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m) {
+  if (start.size() != start_.size())
+    throw InputError("", "body motion", std::to_string(start_.size()) + " vertices", std::to_string(start.size()));
+  set_end(end);
+  start_.assign(start.begin(), start.end());
   tree_.refit(start_, end_, margin_m);
   tree_now_.refit(start_, start_, 0);
   update_normals();

@@ -35,6 +35,9 @@ class BodySurface {
   // Moves the body to `end` over the coming step; `start` is where it is now.  Refits the tree with `margin_m`.
   // Throws InputError when a length is not the number of vertices.
   void set_motion(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
+  // A shorter step from the same start: only where it ends changes.  The trees are left as they are; tree() holds the
+  // longer motion still, as long as the shorter one is a part of it.
+  void set_end(std::span<const Vec3> end);
 
   std::span<const Vec3> positions() const { return start_; }     // now
   std::span<const Vec3> next_positions() const { return end_; }  // at the end of the step
@@ -51,6 +54,16 @@ class BodySurface {
   // seconds is (next_position - position) / h.
   Vec3 position(Index triangle, const Vec3& barycentric) const { return point(start_, triangle, barycentric); }
   Vec3 next_position(Index triangle, const Vec3& barycentric) const { return point(end_, triangle, barycentric); }
+  // next_position - position, without the digits that their difference loses.
+  Vec3 travel(Index triangle, const Vec3& barycentric) const {
+    const Triangle& c = triangles_[static_cast<std::size_t>(triangle)];
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k) sum += barycentric[static_cast<Eigen::Index>(k)] * vertex_travel(c[k]);
+    return sum;
+  }
+  Vec3 vertex_travel(Index vertex) const {
+    return end_[static_cast<std::size_t>(vertex)] - start_[static_cast<std::size_t>(vertex)];
+  }
 
   // Unit pseudonormals of the body as it is now.
   const Vec3& face_normal(Index triangle) const { return face_normals_[static_cast<std::size_t>(triangle)]; }

@@ -25,13 +25,14 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
       report.interrupted = true;
       return report;
     }
-    integrator_.prepare(state, base_s);
+    const double start_s = t_s + static_cast<double>(now) * tick_s;
+    integrator_.prepare(state, start_s, base_s / static_cast<double>(1L << halvings_), base_s);
     while (true) {
       const long step_ticks = ticks_per_base >> halvings_;
       const double h = base_s / static_cast<double>(1L << halvings_);
       StepLimits limits{options_.stretch_limit, halvings_ >= options_.truncation_floor};
       if (halvings_ >= options_.stretch_floor) limits.stretch = std::numeric_limits<double>::infinity();
-      report.last = integrator_.attempt(state, t_s + static_cast<double>(now) * tick_s, h, limits, candidate_);
+      report.last = integrator_.attempt(state, start_s, h, limits, candidate_);
       report.passes += report.last.passes;
       report.cg_iterations += report.last.cg_iterations;
       if (report.last) {

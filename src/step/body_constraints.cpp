@@ -45,11 +45,7 @@ void BodyConstraints::detect(const ClothState& state, double h_s) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const BodyPoint& point = points_[i];
     if (point.triangle < 0) continue;
-    Near near{static_cast<Index>(i), point, Vec3::Zero()};
-    const Triangle& t = body_->triangles()[at(point.triangle)];
-    for (std::size_t c = 0; c < 3; ++c)
-      near.body_travel += point.barycentric[static_cast<Eigen::Index>(c)] * (end[at(t[c])] - start[at(t[c])]);
-    near_.push_back(near);
+    near_.push_back({static_cast<Index>(i), point, Vec3::Zero()});
   }
 }
 
@@ -69,6 +65,7 @@ void BodyConstraints::begin(const ClothState& state, std::span<const Vec3> dv, d
   for (Near& near : near_) {
     const std::size_t i = at(near.particle);
     near.released = near.slipped = false;
+    near.body_travel = body_->travel(near.point.triangle, near.point.barycentric);
     near.lambda_n = lambda_n_[i];
     near.touch = Touch::none;
     const Vec3 travel = h_s * (state.v[i] + dv[i]) - near.body_travel;

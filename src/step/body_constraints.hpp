@@ -38,7 +38,8 @@ class BodyConstraints {
   // L0: nearest body point of every particle that can reach the body within h_s.
   void detect(const ClothState& state, double h_s);
 
-  // The active set with which a step of h_s begins; `dv` is the guess of the coming change of velocity.
+  // The active set with which a step of h_s begins; `dv` is the guess of the coming change of velocity.  The body's travel
+  // is read here: it may have been told of a shorter step since detect.
   void begin(const ClothState& state, std::span<const Vec3> dv, double h_s);
   // Adds S, z of the touching particles, fills y (others zero), and appends the drag of those that slide.  Particles that
   // `constraints` already holds are left to their pins.

@@ -48,7 +48,7 @@ void ContactRows::set_thickness_scale(std::span<const double> scale) {
 }
 
 Vec3 ContactRows::relative_velocity(const Pair& pair, const Vec3s& v, double h_s) const {
-  Vec3 sum = -(pair.spring.body_displacement_m / h_s) * pair.spring.direction;
+  Vec3 sum = -pair.body_travel_m / h_s;
   for (std::size_t k = 0; k < 4; ++k) {
     if (pair.spring.particle[k] >= 0) sum += pair.spring.weight[k] * v[at(pair.spring.particle[k])];
   }
@@ -98,7 +98,6 @@ void ContactRows::detect(const ClothState& state, double h_s) {
     const Timed timed(body_seconds);
     find_body_contacts(topology_, tree_, state.x, *body_, {range, 4 * body_r_m_, options_.region_tolerance}, workspace_,
                        body_contacts_);
-    const auto start = body_->positions(), end = body_->next_positions();
     for (const BodyContact& contact : body_contacts_) {
       Pair pair{{contact.kind,
                  true,
@@ -113,12 +112,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
         pair.spring.weight[k] = contact.weight[k];
       }
       pair.spring.direction = contact.normal;
-      Vec3 travel = end[at(contact.body_vertex[0])] - start[at(contact.body_vertex[0])];
-      if (contact.body_vertex[1] >= 0) {
-        const Vec3 other = end[at(contact.body_vertex[1])] - start[at(contact.body_vertex[1])];
-        travel = (1 - contact.body_parameter) * travel + contact.body_parameter * other;
-      }
-      pair.spring.body_displacement_m = contact.normal.dot(travel);
+      pair.body_parameter = contact.body_parameter;
       pairs_.push_back(pair);
     }
   }
@@ -130,6 +124,12 @@ void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, doubl
   auto memory = memory_.begin();
   for (Pair& pair : pairs_) {
     LinearSpring& spring = pair.spring;
+    if (pair.key.body) {
+      const Index first = pair.key.feature[3], second = pair.key.feature[4];
+      pair.body_travel_m = body_->vertex_travel(first);
+      if (second >= 0) pair.body_travel_m += pair.body_parameter * (body_->vertex_travel(second) - pair.body_travel_m);
+      spring.body_displacement_m = spring.direction.dot(pair.body_travel_m);
+    }
     double inverse_mass = 0, elastic = 0;
     for (std::size_t k = 0; k < 4; ++k) {
       if (spring.particle[k] < 0) continue;
@@ -170,7 +170,8 @@ void ContactRows::append_springs(const ClothState& state, double h_s, std::vecto
     for (const Vec3& t : tangents(pair.spring.direction)) {
       LinearSpring friction = pair.spring;
       friction.direction = t;
-      friction.force_N = friction.stiffness_N_per_m = friction.body_displacement_m = 0;
+      friction.force_N = friction.stiffness_N_per_m = 0;
+      friction.body_displacement_m = t.dot(pair.body_travel_m);
       friction.damping_N_s_per_m = drag;
       springs.push_back(friction);
     }

@@ -71,8 +71,10 @@ class ContactRows {
     Key key;
     LinearSpring spring;  // direction, particles, weights, stiffness, body travel
     double gap_m, r_m, friction;
-    double lambda_N = 0;         // of the step before, then of this one
-    Vec3 slip_m_per_s{0, 0, 0};  // tangential velocity of the step before
+    double lambda_N = 0;          // of the step before, then of this one
+    Vec3 slip_m_per_s{0, 0, 0};   // tangential velocity of the step before
+    Vec3 body_travel_m{0, 0, 0};  // of the body's point over the step; cloth-cloth: 0
+    double body_parameter = 0;    // of the point on the body's edge
     bool active = false;
     double predicted_m = 0;  // gap of the last update
   };

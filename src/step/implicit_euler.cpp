@@ -79,8 +79,35 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
   for (std::size_t i = 0; i < n; ++i) A_.grounded(static_cast<Index>(i)) = model.mass_kg[i] * Mat3::Identity();
 }
 
-void ImplicitEuler::prepare(const ClothState& state, double base_h_s) {
+// The body's start and end for a step of h_s from t_s.  One of the two is often known from the attempt before.
+void ImplicitEuler::move_body(double t_s, double h_s) {
+  if (world_->body == nullptr || !world_->body_at) return;
+  const Timed timed(seconds_.body);
+  const std::size_t count = world_->body->positions().size();
+  const bool first = body_start_.empty(), same_start = !first && body_start_s_ == t_s;
+  if (same_start && body_end_s_ == t_s + h_s) return;
+  body_start_.resize(count);
+  body_end_.resize(count);
+  if (!same_start) {
+    if (!first && body_end_s_ == t_s) {
+      std::swap(body_start_, body_end_);
+    } else {
+      world_->body_at(t_s, body_start_);
+    }
+  }
+  world_->body_at(t_s + h_s, body_end_);
+  body_start_s_ = t_s;
+  body_end_s_ = t_s + h_s;
+  if (same_start) {
+    world_->body->set_end(body_end_);
+  } else {
+    world_->body->set_motion(body_start_, body_end_, 0);
+  }
+}
+
+void ImplicitEuler::prepare(const ClothState& state, double t_s, double h_s, double base_h_s) {
   base_h_s_ = base_h_s;
+  move_body(t_s, h_s);
   {
     const Timed timed(seconds_.eval);
     elements_.evaluate(*model_, state);
@@ -132,6 +159,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   // The target as a whole is loosened: the tolerance alone would change nothing where the target is 2 % of gravity.
   PcgOptions pcg_options = options_.pcg;
   pcg_options.loosen = loose_passes;
+  move_body(t_s, h_s);
   body_.begin(state, dv_, h_s);
   rows_.begin(state, dv_, h_s, base_h_s_, diagonal_);
 

@@ -46,6 +46,7 @@ struct StepLimits {
 // Time per phase, for reports; s.
 struct PhaseSeconds {
   double eval = 0, cg = 0, cloth_cloth = 0, cloth_solid = 0;
+  double body = 0;  // where the body is, its tree and its normals
 };
 
 enum class StepStatus { accepted, solver_failed, stretched, passed_through, too_fast, not_finite };
@@ -67,6 +68,9 @@ struct StepReport {  // what happened, in numbers a log can plot
 // Everything that acts on the cloth besides its own elements.
 struct StepWorld {
   BodySurface* body = nullptr;
+  // Where the body's vertices are at time t, m; empty: it moves only as its owner says (BodySurface::set_motion).  Every
+  // step, however short, asks for its own two ends, so that cloth follows the body's velocity over just that step.
+  std::function<void(double t_s, std::span<Vec3> x)> body_at;
   std::vector<Pin> pins;
   // Extra springs (sewing, attachments) at a state, for a step of h_s.
   std::function<void(const ClothState&, double h_s, std::vector<LinearSpring>&)> springs;
@@ -77,8 +81,9 @@ class ImplicitEuler {
  public:
   ImplicitEuler(const ClothModel& model, const StepWorld& world, const StepOptions& options);
 
-  // Evaluates elements and near pairs at the state; `base_h_s` is the longest step that will be tried from it.
-  void prepare(const ClothState& state, double base_h_s);
+  // Evaluates elements and near pairs at the state (at time t_s).  `h_s` is the longest step that will be tried from it,
+  // `base_h_s` >= h_s the one before any halving.
+  void prepare(const ClothState& state, double t_s, double h_s, double base_h_s);
   // Tries a step of h_s from the prepared state (at time t_s) and writes the candidate.  The state is not touched.
   [[nodiscard]] StepReport attempt(const ClothState& state, double t_s, double h_s, const StepLimits& limits,
                                    ClothState& candidate);
@@ -97,6 +102,7 @@ class ImplicitEuler {
   const ClothModel& model() const { return *model_; }
 
  private:
+  void move_body(double t_s, double h_s);
   void hold_pins(const ClothState& state, double t_s, double h_s);
   void judge(const StepLimits& limits, const ClothState& candidate, StepReport& report);
   void keep_apart(const ClothState& state, double h_s, bool truncate, ClothState& candidate, StepReport& report);
@@ -118,6 +124,8 @@ class ImplicitEuler {
   Vec3s force_, b_, y_, y_linearised_, linearised_, displacement_, reference_, dv_, dv_last_, e_;
   std::vector<Mat3> diagonal_;
   std::vector<Vec2> stretch_, stretch_candidate_;
+  Vec3s body_start_, body_end_;               // world_->body_at at the two ends of the step
+  double body_start_s_ = 0, body_end_s_ = 0;  // the times of the two
   double base_h_s_ = 0, h_last_s_ = 0;
   PhaseSeconds seconds_;
 };

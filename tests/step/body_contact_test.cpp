@@ -179,5 +179,64 @@ TEST(BodyContact, ALiftCarriesTheSheetUp) {
   }
 }
 
+// A belt at 0.5 m/s that carries a sheet, through StepWorld::body_at.
+void carry(ClothRun& run, const BodySurface& slab) {
+  const std::vector<Vec3> rest(slab.positions().begin(), slab.positions().end());
+  run.world.body_at = [rest](double t_s, std::span<Vec3> x) {
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = rest[i] + Vec3(0.5 * t_s, 0, 0);
+  };
+}
+
+TEST(BodyContact, ABodyGivenInTimeCarriesTheSheetAtEveryStepLength) {
+  for (const double step_max_s : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+    BodySurface slab = test::tilted_slab(3, 0.2, 0);
+    ClothRun run = on_incline(0, 0.3, slab);
+    run.adaptive.step_max_s = step_max_s;
+    carry(run, slab);
+    for (int k = 0; k < 15; ++k) run.frame(1.0 / 30);
+    for (const Vec3& v : run.state.v) EXPECT_LT((v - Vec3(0.5, 0, 0)).norm(), 1e-3);
+  }
+}
+
+TEST(BodyContact, AHalvedStepTakesTheBodyHalfAsFar) {
+  BodySurface slab = test::tilted_slab(3, 0.2, 0);
+  ClothRun run = on_incline(0, 0.3, slab);
+  carry(run, slab);
+  for (int k = 0; k < 15; ++k) run.frame(1.0 / 30);
+  ImplicitEuler& euler = run.stepper->integrator();
+  const double h = 1.0 / 30;
+  ClothState candidate;
+  euler.prepare(run.state, run.time_s, h, h);
+  for (const double part : {1.0, 0.5, 0.25}) {
+    ASSERT_TRUE(euler.attempt(run.state, run.time_s, part * h, {}, candidate));
+    for (std::size_t i = 0; i < candidate.v.size(); ++i) {
+      EXPECT_LT((candidate.v[i] - Vec3(0.5, 0, 0)).norm(), 1e-3) << part;
+      EXPECT_LT((candidate.x[i] - run.state.x[i] - Vec3(0.5 * part * h, 0, 0)).norm(), 2e-5) << part;
+    }
+  }
+}
+
+TEST(BodyContact, BodyRowsDragTheClothAlongTheMovingBody) {
+  // Friction against the body's own vertices and ridges, too, is relative to the body.  A single vertex under a
+  // large face: no particle of the cloth touches.
+  const std::vector<Vec3> spike = {{0, 0, 0}, {-0.02, -0.03, -0.02}, {0.02, -0.03, -0.02}, {0, -0.03, 0.03}};
+  BodySurface body(spike, {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}});
+  Sheet sheet = test::equilateral_sheet(0.2, 0.2, 0.1);
+  const Triangle& over = sheet.mesh.triangles[sheet.mesh.triangles.size() / 2];
+  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
+  const Vec3 middle = (sheet.x[at(over[0])] + sheet.x[at(over[1])] + sheet.x[at(over[2])]) / 3;
+  for (Vec3& p : sheet.x) p = Vec3(p.x() - middle.x(), 0.5 * offset, p.z() - middle.z());
+  ClothRun run(sheet, Fabric{});
+  run.world.body = &body;
+  run.step.body.friction = 0.5;
+  run.step.body.offset_m = offset;
+  run.adaptive.step_max_s = 1.0 / 120;
+  run.world.body_at = [&](double t_s, std::span<Vec3> x) {
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = spike[i] + Vec3(0.3 * t_s, 0, 0);
+  };
+  for (int k = 0; k < 3; ++k) run.frame(1.0 / 60);
+  EXPECT_GT(mean(run.state.v).x(), 0.01);
+}
+
 }  // namespace
 }  // namespace toile

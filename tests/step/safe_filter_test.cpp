@@ -299,7 +299,7 @@ TEST(SafeFilter, TheVelocityAfterAStepIsThatOfTheMotion) {
   run.start();
   ImplicitEuler& euler = run.stepper->integrator();
   const double h = 1.0 / 120;
-  euler.prepare(run.state, h);
+  euler.prepare(run.state, 0, h, h);
   ClothState candidate;
   const StepReport report = euler.attempt(run.state, 0, h, {1e9, false}, candidate);
   ASSERT_TRUE(report) << report.explain();
@@ -342,7 +342,7 @@ TEST(SafeFilter, AnAlterationThatIsCutShortThrowsNobodyBack) {
   }
   run.start();
   ImplicitEuler& euler = run.stepper->integrator();
-  euler.prepare(run.state, h);
+  euler.prepare(run.state, 0, h, h);
   ClothState candidate;
   EXPECT_EQ(euler.attempt(run.state, 0, h, {1e9, false}, candidate).status, StepStatus::passed_through);
   const StepReport report = euler.attempt(run.state, 0, h, {1e9, true}, candidate);
