@@ -1,14 +1,14 @@
-// body/mannequin.hpp: a human body made by our own code: an implicit surface over a skeleton of joints.
+// body/mannequin.hpp: human bodies made by our own code: an implicit surface over a skeleton of joints.
 //
-// Closed, about 10,000 vertices, A-pose, facing +z (so +x is her left), feet on y = 0, metres.  Deterministic: the
-// same bits everywhere, and symmetric in x to the last bit.  Skin weights are kept so that the moving mannequin can
-// come later without a new body.
+// Closed, A-pose, facing +z (so +x is the left), feet on y = 0, metres.  Deterministic: the same bits everywhere, and
+// symmetric in x to the last bit.  pose.hpp moves them.
 //                                                                                                     docs/mannequin.md
 #pragma once
 #include "core/types.hpp"
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace toile {
@@ -17,6 +17,7 @@ struct Joint {
   std::string name;   // "hips", "spine", "chest", "neck", "head", "shoulder_left", ...
   Index parent = -1;  // an earlier joint; -1 for the root
   Vec3 position_m;    // in the A-pose
+  Vec3 end_m;         // of its bone: the first child, or the crown, the finger tips, the tips of the toes
 };
 
 struct SkinWeights {  // up to four joints per vertex, weights sum to 1, largest first, unused weight 0
@@ -43,7 +44,17 @@ struct Mannequin {
   } measurements_m;
 };
 
+enum class MannequinKind {
+  woman,   // 1.72 m, 10,054 vertices: our own patterns are drawn for her
+  dancer,  // the woman's shape with longer edges, 7,630 vertices within 3 %
+  man,     // 1.80 m, 9,941 vertices within 3 %
+};
+
+// "woman", "dancer", "man".  Throws InputError with the nearest of them.
+MannequinKind mannequin_kind(std::string_view name);
+std::string_view to_string(MannequinKind kind);
+
 // Takes about a second; call it once.
-Mannequin make_mannequin();
+Mannequin make_mannequin(MannequinKind kind = MannequinKind::woman);
 
 }  // namespace toile

@@ -1,11 +1,9 @@
-// body/mannequin_shape.hpp: the shape of the mannequin as a field, and the joints that it is built around.
+// body/mannequin_shape.hpp: the shape of a mannequin as a field, and the joints that it is built around.
 //
-// An adult woman of 1.72 m with the proportions of a dress form; metres, y up, facing +z, so that +x is her left.
-// The field is symmetric in x.  Its numbers are ours: heights and girths near the middle of published
-// anthropometric ranges, shapes judged by eye.
+// Parts of a form (mannequin_form.hpp) are blended; metres, y up, facing +z, so that +x is the left.  The field is
+// symmetric in x.
 #pragma once
-#include "body/implicit_shape.hpp"
-#include "body/mannequin.hpp"
+#include "body/mannequin_form.hpp"
 
 #include <memory>
 
@@ -13,7 +11,7 @@ namespace toile {
 
 class MannequinShape {
  public:
-  MannequinShape();
+  explicit MannequinShape(const MannequinForm& form = woman_form());
   ~MannequinShape();
   MannequinShape(const MannequinShape&) = delete;
   MannequinShape& operator=(const MannequinShape&) = delete;
@@ -30,16 +28,13 @@ class MannequinShape {
 };
 
 // All joints; a parent stands before its children.
-std::vector<Joint> mannequin_joints();
-
-// The end of the bone of a joint without children (crown, finger tips, toes); for the others, of their first child.
-Vec3 bone_end(const std::vector<Joint>& joints, std::size_t joint);
+std::vector<Joint> mannequin_joints(const MannequinForm& form);
 
 // The arm's straight axis from the shoulder joint, 45 degrees below the horizontal; its positions by distance, m.
 struct ArmAxis {
   Vec3 shoulder, along;
   double elbow, wrist, finger_tip;
 };
-ArmAxis left_arm_axis();
+ArmAxis left_arm_axis(const MannequinForm& form = woman_form());
 
 }  // namespace toile

@@ -54,12 +54,11 @@ using Weights = std::vector<double>;  // one row of joints per vertex
 
 Weights by_distance(std::span<const Vec3> positions, const std::vector<Joint>& joints) {
   const std::size_t width = joints.size();
-  std::vector<Vec3> ends;
-  for (std::size_t j = 0; j < width; ++j) ends.push_back(bone_end(joints, j));
   Weights weights(positions.size() * width);
   parallel_for(positions.size(), 512, [&](std::size_t i) {
     double* row = &weights[i * width];
-    for (std::size_t j = 0; j < width; ++j) row[j] = distance_to_segment(positions[i], joints[j].position_m, ends[j]);
+    for (std::size_t j = 0; j < width; ++j)
+      row[j] = distance_to_segment(positions[i], joints[j].position_m, joints[j].end_m);
     const double nearest = *std::min_element(row, row + width);
     double sum = 0;
     for (std::size_t j = 0; j < width; ++j) {
