@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace toile {
 namespace {
@@ -12,51 +11,6 @@ namespace {
 constexpr double loose_passes = 10;  // times the residual at which the last pass stops
 
 }  // namespace
-
-std::string_view to_string(StepStatus status) {
-  switch (status) {
-    case StepStatus::accepted:
-      return "accepted";
-    case StepStatus::solver_failed:
-      return "solver_failed";
-    case StepStatus::stretched:
-      return "stretched";
-    case StepStatus::passed_through:
-      return "passed_through";
-    case StepStatus::too_fast:
-      return "too_fast";
-    case StepStatus::not_finite:
-      return "not_finite";
-  }
-  return "";
-}
-
-std::string StepReport::explain() const {
-  char text[256];
-  switch (status) {
-    case StepStatus::accepted:
-      std::snprintf(text, sizeof text, "accepted: h = %.3g ms, %d passes, %d CG iterations", 1e3 * h_s, passes,
-                    cg_iterations);
-      break;
-    case StepStatus::solver_failed:
-      return "linear solver: " + pcg.explain();
-    case StepStatus::stretched:
-      std::snprintf(text, sizeof text, "h = %.3g ms: stretch of triangle %d changes by %.3g in one step", 1e3 * h_s,
-                    worst_triangle, stretch_change);
-      break;
-    case StepStatus::passed_through:
-      std::snprintf(text, sizeof text, "h = %.3g ms: %d pairs of cloth would pass through each other", 1e3 * h_s,
-                    filter.left);
-      break;
-    case StepStatus::too_fast:
-      std::snprintf(text, sizeof text, "h = %.3g ms: particle %d is faster than the limit", 1e3 * h_s, worst_particle);
-      break;
-    case StepStatus::not_finite:
-      std::snprintf(text, sizeof text, "h = %.3g ms: position of particle %d is not finite", 1e3 * h_s, worst_particle);
-      break;
-  }
-  return text;
-}
 
 ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, const StepOptions& options)
     : model_(&model),
