@@ -17,6 +17,7 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       world_(&world),
       options_(options),
       elements_(model),
+      air_(model, *elements_.pattern()),
       A_(elements_.pattern()),
       system_(A_),
       pcg_(model.mesh),
@@ -102,6 +103,10 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
       A_.grounded(static_cast<Index>(i)) = model_->mass_kg[i] * (1 + h_s * model_->drag_per_s) * Mat3::Identity();
     }
     elements_.assemble(h_s, A_);
+    if (world_->air.density_kg_per_m3 > 0) {
+      air_.evaluate(world_->air, world_->wind ? world_->wind(t_s + h_s) : world_->air.wind_m_per_s, state);
+      air_.assemble(h_s, A_);
+    }
     for (std::size_t i = 0; i < n; ++i) {
       diagonal_[i] = A_.diagonal(static_cast<Index>(i));
       reference_[i] = (h_s * model_->mass_kg[i]) * model_->gravity_m_per_s2;
@@ -131,6 +136,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
       if (report.passes == 1 || y_ != y_linearised_) {  // f - K (h v + y) changes with y only
         y_linearised_ = y_;
         linearised_ = force_;
+        if (world_->air.density_kg_per_m3 > 0) air_.add_forces(linearised_);
         for (std::size_t i = 0; i < n; ++i) displacement_[i] = h_s * state.v[i] + y_[i];
         elements_.subtract_stiffness(displacement_, linearised_);
       }

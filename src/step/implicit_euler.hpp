@@ -9,6 +9,7 @@
 //                     -> [ constraints, rows -> b -> modified PCG -> dv, e -> active set ] until consistent
 //                     -> candidate -> safe filter
 #pragma once
+#include "assembly/air.hpp"
 #include "assembly/elements.hpp"
 #include "solver/modified_pcg.hpp"
 #include "step/body_constraints.hpp"
@@ -51,7 +52,9 @@ struct StepWorld {
   std::vector<Pin> pins;
   // Extra springs (sewing, attachments) at a state, for a step of h_s.
   std::function<void(const ClothState&, double h_s, std::vector<LinearSpring>&)> springs;
-  std::vector<Index> merged_particle;  // of seams still open: contact/proximity.hpp
+  AirOptions air;                        // density 0: none
+  std::function<Vec3(double t_s)> wind;  // m/s, at the end of a step; empty: air.wind_m_per_s at all times
+  std::vector<Index> merged_particle;    // of seams still open: contact/proximity.hpp
 };
 
 class ImplicitEuler {
@@ -88,6 +91,7 @@ class ImplicitEuler {
   const StepWorld* world_;
   StepOptions options_;
   Elements elements_;
+  Air air_;
   BlockMatrix<float> A_;
   LinearSystem<float> system_;
   ModifiedPcg<float> pcg_;

@@ -1,0 +1,83 @@
+#include "assembly/air.hpp"
+
+#include "core/parallel.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace toile {
+namespace {
+
+constexpr std::size_t grain = 512;  // triangles per block of work
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Air::Air(const ClothModel& model, const BlockPattern& pattern)
+    : triangles_(model.mesh.triangles), force_(triangles_.size(), Vec3::Zero()), B_(triangles_.size(), Mat3::Zero()) {
+  slots_.reserve(triangles_.size());
+  for (const Triangle& t : triangles_) {
+    std::array<Slot, 3> slots{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [i, j] = std::minmax(t[k], t[(k + 1) % 3]);
+      slots[k] = pattern.slot(i, j);
+    }
+    slots_.push_back(slots);
+  }
+}
+
+void Air::evaluate(const AirOptions& options, const Vec3& wind_m_per_s, const ClothState& state) {
+  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
+    force_[t].setZero();
+    B_[t].setZero();
+    const Triangle& corner = triangles_[t];
+    const Vec3& x0 = state.x[at(corner[0])];
+    const Vec3 normal = (state.x[at(corner[1])] - x0).cross(state.x[at(corner[2])] - x0);
+    const double twice_area = normal.norm();
+    if (!(twice_area > 0)) return;
+    const Vec3 n = normal / twice_area;
+    const Vec3 u = (state.v[at(corner[0])] + state.v[at(corner[1])] + state.v[at(corner[2])]) / 3 - wind_m_per_s;
+    const double u_n = n.dot(u);
+    const Vec3 u_t = u - u_n * n;
+    const double slip = u_t.norm();
+    const double half = 0.25 * options.density_kg_per_m3 * twice_area;  // rho a/2
+    const double c_n = half * options.normal_coefficient, c_t = half * options.tangential_coefficient;
+    force_[t] = -(c_n * std::abs(u_n) * u_n) * n - (c_t * slip) * u_t;
+    const Mat3 nn = n * n.transpose();
+    B_[t] = (2 * c_n * std::abs(u_n)) * nn + (c_t * slip) * (Mat3::Identity() - nn);
+    if (slip > 0) B_[t] += (c_t / slip) * u_t * u_t.transpose();
+  });
+}
+
+void Air::add_forces(std::span<Vec3> f) const {
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for (const Index corner : triangles_[t]) f[at(corner)] += force_[t] / 3;
+  }
+}
+
+void Air::add_damping(std::span<const Vec3> u, std::span<Vec3> f) const {
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const Triangle& corner = triangles_[t];
+    const Vec3 brake = B_[t] * (u[at(corner[0])] + u[at(corner[1])] + u[at(corner[2])]) / 9;
+    for (const Index c : corner) f[at(c)] += brake;
+  }
+}
+
+template <class T>
+void Air::assemble(double h_s, BlockMatrix<T>& A) const {
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const Mat3 ninth = (h_s / 9) * B_[t];
+    for (const Slot slot : slots_[t]) {
+      Block<T>& block = A.off_diagonal(slot);
+      block = Block<T>::from(block.to_mat3() + ninth);
+    }
+    for (const Index corner : triangles_[t]) A.grounded(corner) += 3 * ninth;  // the sum of a row: block_matrix.hpp
+  }
+  A.update_diagonal();
+}
+
+template void Air::assemble(double, BlockMatrix<float>&) const;
+template void Air::assemble(double, BlockMatrix<double>&) const;
+
+}  // namespace toile
