@@ -99,8 +99,12 @@ MannequinKind mannequin_kind(std::string_view name) {
 
 std::string_view to_string(MannequinKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
 
+const MannequinForm& mannequin_form(MannequinKind kind) {
+  return kind == MannequinKind::man ? man_form() : woman_form();
+}
+
 Mannequin make_mannequin(MannequinKind kind) {
-  const MannequinForm& form = kind == MannequinKind::man ? man_form() : woman_form();
+  const MannequinForm& form = mannequin_form(kind);
   const double longer = kind == MannequinKind::dancer ? dancer_edges : 1.0;
   const MannequinShape shape(form);
   const ScalarField field = [&](const Vec3& p) { return shape(p); };

@@ -18,6 +18,7 @@ struct Joint {
   Index parent = -1;  // an earlier joint; -1 for the root
   Vec3 position_m;    // in the A-pose
   Vec3 end_m;         // of its bone: the first child, or the crown, the finger tips, the tips of the toes
+  double radius_m = 0, end_radius_m = 0;  // of the flesh around the bone at both ends, about
 };
 
 struct SkinWeights {  // up to four joints per vertex, weights sum to 1, largest first, unused weight 0

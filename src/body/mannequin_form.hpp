@@ -34,6 +34,11 @@ struct MannequinForm {
     Vec3 hips, spine, chest, neck, head, crown, collar, hip, knee, ankle, toes, toe_tips;
   } joints;
 
+  struct Flesh {  // radii around the bones: where one ends, the next begins; for skin weights only
+    double hips, waist, ribs, neck_root, neck, head, collar, shoulder, elbow, wrist, finger_tips, hip, knee, ankle,
+        ball, toe_tips;
+  } flesh_m;
+
   struct Mesh {  // wanted lengths of edges
     double body, hand, foot, head, nose;
     double foot_below, head_above;  // heights at which feet and head begin
@@ -56,5 +61,8 @@ const MannequinForm& woman_form();
 
 // A man of 1.80 m: wide shoulders, flat chest, narrow hips.
 const MannequinForm& man_form();
+
+// The form of a kind; the dancer's is the woman's.
+const MannequinForm& mannequin_form(MannequinKind kind);
 
 }  // namespace toile

@@ -96,8 +96,9 @@ double MannequinShape::edge_m(const Vec3& p) const {
 
 std::vector<Joint> mannequin_joints(const MannequinForm& form) {
   std::vector<Joint> joints;
-  const auto add = [&](const std::string& name, Index parent, const Vec3& position, const Vec3& end) {
-    joints.push_back({name, parent, position, end});
+  const auto add = [&](const std::string& name, Index parent, const Vec3& position, const Vec3& end, double radius,
+                       double end_radius) {
+    joints.push_back({name, parent, position, end, radius, end_radius});
     return static_cast<Index>(joints.size()) - 1;
   };
   const ArmAxis arm = left_arm_axis(form);
@@ -105,23 +106,26 @@ std::vector<Joint> mannequin_joints(const MannequinForm& form) {
   const Vec3 elbow_at = on_arm(arm.elbow, form.elbow_z_m), wrist_at = on_arm(arm.wrist, form.wrist_z_m);
   const Vec3 finger_tips = on_arm(arm.finger_tip, form.hand_z_m);
   const MannequinForm::Joints& at = form.joints;
-  const Index hips = add("hips", -1, at.hips, at.spine);
-  const Index spine = add("spine", hips, at.spine, at.chest);
-  const Index chest = add("chest", spine, at.chest, at.neck);
-  const Index neck = add("neck", chest, at.neck, at.head);
-  add("head", neck, at.head, at.crown);
+  const MannequinForm::Flesh& r = form.flesh_m;
+  const Index hips = add("hips", -1, at.hips, at.spine, r.hips, r.waist);
+  const Index spine = add("spine", hips, at.spine, at.chest, r.waist, r.ribs);
+  const Index chest = add("chest", spine, at.chest, at.neck, r.ribs, r.neck_root);
+  const Index neck = add("neck", chest, at.neck, at.head, r.neck, r.neck);
+  add("head", neck, at.head, at.crown, r.neck, r.head);
   for (const bool left : {true, false}) {
-    const auto limb = [&](const char* name, Index parent, const Vec3& p, const Vec3& end) {
-      return add(std::string(name) + (left ? "_left" : "_right"), parent, left ? p : image(p), left ? end : image(end));
+    const auto limb = [&](const char* name, Index parent, const Vec3& p, const Vec3& end, double radius,
+                          double end_radius) {
+      return add(std::string(name) + (left ? "_left" : "_right"), parent, left ? p : image(p), left ? end : image(end),
+                 radius, end_radius);
     };
-    const Index collar = limb("collar", chest, at.collar, arm.shoulder);
-    const Index shoulder = limb("shoulder", collar, arm.shoulder, elbow_at);
-    const Index elbow = limb("elbow", shoulder, elbow_at, wrist_at);
-    limb("wrist", elbow, wrist_at, finger_tips);
-    const Index hip = limb("hip", hips, at.hip, at.knee);
-    const Index knee = limb("knee", hip, at.knee, at.ankle);
-    const Index ankle = limb("ankle", knee, at.ankle, at.toes);
-    limb("toes", ankle, at.toes, at.toe_tips);
+    const Index collar = limb("collar", chest, at.collar, arm.shoulder, r.collar, r.shoulder);
+    const Index shoulder = limb("shoulder", collar, arm.shoulder, elbow_at, r.shoulder, r.elbow);
+    const Index elbow = limb("elbow", shoulder, elbow_at, wrist_at, r.elbow, r.wrist);
+    limb("wrist", elbow, wrist_at, finger_tips, r.wrist, r.finger_tips);
+    const Index hip = limb("hip", hips, at.hip, at.knee, r.hip, r.knee);
+    const Index knee = limb("knee", hip, at.knee, at.ankle, r.knee, r.ankle);
+    const Index ankle = limb("ankle", knee, at.ankle, at.toes, r.ankle, r.ball);
+    limb("toes", ankle, at.toes, at.toe_tips, r.ball, r.toe_tips);
   }
   return joints;
 }

@@ -1,7 +1,7 @@
 // body/skin.cpp: weights from distances to bones, softened along the mesh.
 #include "body/skin.hpp"
 
-#include "body/mannequin_shape.hpp"
+#include "body/implicit_shape.hpp"
 #include "core/parallel.hpp"
 
 #include <algorithm>
@@ -16,13 +16,6 @@ constexpr double fade_m = 0.08;
 constexpr int softening_sweeps = 12;
 
 std::size_t z(Index i) { return static_cast<std::size_t>(i); }
-
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 axis = b - a;
-  const double t = std::clamp((p - a).dot(axis) / axis.dot(axis), 0.0, 1.0);
-  const Vec3 d = p - a - t * axis;
-  return std::sqrt(d.dot(d));
-}
 
 // 0 for the other side's limbs, 1 for the own side's, smooth across the middle: thighs that are close do not share
 // bones.
@@ -57,8 +50,10 @@ Weights by_distance(std::span<const Vec3> positions, const std::vector<Joint>& j
   Weights weights(positions.size() * width);
   parallel_for(positions.size(), 512, [&](std::size_t i) {
     double* row = &weights[i * width];
-    for (std::size_t j = 0; j < width; ++j)
-      row[j] = distance_to_segment(positions[i], joints[j].position_m, joints[j].end_m);
+    for (std::size_t j = 0; j < width; ++j) {
+      const Joint& bone = joints[j];
+      row[j] = RoundCone{bone.position_m, bone.end_m, bone.radius_m, bone.end_radius_m}(positions[i]);
+    }
     const double nearest = *std::min_element(row, row + width);
     double sum = 0;
     for (std::size_t j = 0; j < width; ++j) {

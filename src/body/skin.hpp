@@ -1,8 +1,10 @@
 // body/skin.hpp: which joints move a vertex of the mannequin, and how much.
 //
-// A vertex at distance d_j from bone j starts with max(0, 1 - (d_j - d_min) / fade)^3, d_min being the nearest
-// bone's distance: one bone along a limb, a hand-over around a joint.  Averaging with the neighbours on the mesh
-// then softens armpits and crotch, where the nearest bone changes fast.  The four largest weights stay, normalised.
+// d_j is the distance from the flesh of bone j, the round cone of its joint's radii: so a breast belongs to the ribs,
+// whose bone is deep inside, and not to the arm, whose bone is nearer to its own skin.  A vertex starts with
+// max(0, 1 - (d_j - d_min) / fade)^3, d_min being the smallest distance: one bone along a limb, a hand-over around a
+// joint.  Averaging with the neighbours on the mesh then softens armpits and crotch, where the nearest bone changes
+// fast.  The four largest weights stay, normalised.
 #pragma once
 #include "body/mannequin.hpp"
 

@@ -1,0 +1,54 @@
+// body/motion.hpp: movements of the mannequins as functions of time: stand, sway, walk, twist, dance.
+//
+// For t in [0, lead_in] the body comes out of the A-pose: posture(t) = s(t / lead_in) motion(t - lead_in) with
+// s(u) = u^3 (10 - 15 u + 6 u^2), so that at t = 0 it rests, and the join is C2.  After that the motion repeats with its
+// period.  All is C1 in time (C2 but for a knee at full stretch), so that cloth sees no jump in a body's velocity.
+//
+// Mind: walking is on a treadmill, the pelvis stays over the origin and the standing foot slides backwards.
+//                                                                                                      docs/motions.md
+#pragma once
+#include "body/posture.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace toile {
+
+// "stand", "sway", "walk", "twist", "dance".
+std::span<const std::string_view> motion_names();
+
+class Motion {
+ public:
+  // Throws InputError naming the nearest valid name.
+  static Motion named(std::string_view name, MannequinKind kind = MannequinKind::woman);
+
+  // Throws InputError unless 0 <= seconds <= 10.  0: the run starts in the motion, at its full speed.
+  void set_lead_in_s(double seconds);
+  double lead_in_s() const { return lead_in_s_; }
+
+  // From here on at(t + period_s()) is at(t).
+  double loop_start_s() const { return lead_in_s_; }
+  double period_s() const { return period_s_; }
+
+  const std::string& name() const { return name_; }
+  MannequinKind kind() const { return kind_; }
+
+  // `t_s` >= 0; below, the A-pose.
+  Posture posture(double t_s) const;
+  Pose at(double t_s) const;
+
+ private:
+  Motion() = default;
+
+  using Function = Posture (*)(double t_s);
+  std::string name_;
+  MannequinKind kind_ = MannequinKind::woman;
+  double period_s_ = 1, lead_in_s_ = 1;
+  Legs legs_ = Legs::planted;
+  Function motion_ = nullptr;
+  std::vector<Joint> joints_;
+};
+
+}  // namespace toile
