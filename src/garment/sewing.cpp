@@ -54,8 +54,8 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
   mean_edge_m_ = mesh_quality(garment.mesh).mean_edge_m;
   world_.body = body;
   world_.merged_particle = garment.merged;
-  world_.springs = [this](const ClothState& state, double h_s, std::vector<LinearSpring>& springs) {
-    append_springs(state, h_s, springs);
+  world_.springs = [this](const ClothState& state, double end_s, double, std::vector<LinearSpring>& springs) {
+    append_springs(state, end_s, springs);
   };
   StepOptions sewing_step = step;
   sewing_step.body.friction = 0;
@@ -70,8 +70,8 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
   if (garment.pairs.empty()) status_ = SewingStatus::closed;
 }
 
-void Sewing::append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const {
-  const double open = std::max(0.0, 1 - options_.closing_speed_m_per_s * (time_s_ + h_s) / longest_m_);
+void Sewing::append_springs(const ClothState& state, double end_s, std::vector<LinearSpring>& springs) const {
+  const double open = std::max(0.0, 1 - options_.closing_speed_m_per_s * end_s / longest_m_);
   if (open == 0) labels_.append(state, 1, springs);
   for (std::size_t k = 0; k < garment_->pairs.size(); ++k) {
     const SeamPair& pair = garment_->pairs[k];

@@ -81,7 +81,7 @@ class Sewing {
   PhaseSeconds seconds() const { return stepper_->integrator().seconds(); }
 
  private:
-  void append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const;
+  void append_springs(const ClothState& state, double end_s, std::vector<LinearSpring>& springs) const;
   void judge_progress();
   bool close_seams();
   std::optional<Vec3> weld_obstacle_;

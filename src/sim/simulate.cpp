@@ -297,7 +297,7 @@ class Run {
     adaptive.step_max_s = scene_.step_max_s.value_or(sewn ? 1.0 / 60 : frame_s);
     double label_strength = 0;
     if (!labels_.empty()) {
-      world.springs = [&](const ClothState& at, double, std::vector<LinearSpring>& springs) {
+      world.springs = [&](const ClothState& at, double, double, std::vector<LinearSpring>& springs) {
         labels_.append(at, label_strength, springs);
       };
     }

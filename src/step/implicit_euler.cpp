@@ -130,7 +130,8 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
       springs_.clear();
       body_.apply(state, h_s, constraints_, y_, springs_);
       rows_.append_springs(state, h_s, springs_);
-      if (world_->springs) world_->springs(state, h_s, springs_);
+      for (const Drag& drag : world_->drags) toile::append_springs(drag, state, t_s, h_s, springs_);
+      if (world_->springs) world_->springs(state, t_s + h_s, h_s, springs_);
       implicit_rows_.clear();
       for (const LinearSpring& spring : springs_) implicit_rows_.push_back(implicit_row(spring, h_s, state.v, y_));
       if (report.passes == 1 || y_ != y_linearised_) {  // f - K (h v + y) changes with y only

@@ -14,6 +14,7 @@
 #include "solver/modified_pcg.hpp"
 #include "step/body_constraints.hpp"
 #include "step/contact_rows.hpp"
+#include "step/drag.hpp"
 #include "step/step_report.hpp"
 
 #include <functional>
@@ -29,10 +30,14 @@ struct Pin {
   std::function<Vec3(double t_s)> path;  // where it must be; empty: it stays where it is along the held directions
 };
 
+// Whether the solve knows where contact will move particles (K y in b), or they jump once it is done; the latter for comparison.
+enum class PositionAlteration { in_solve, after_solve };
+
 struct StepOptions {
   PcgOptions pcg;
   ContactRowOptions rows;
   BodyContactOptions body;
+  PositionAlteration position_alteration = PositionAlteration::in_solve;
   int max_passes = 8;              // of the active set
   double max_speed_m_per_s = 100;  // beyond this the step is refused
 };
@@ -49,9 +54,10 @@ struct StepWorld {
   // Where the body's vertices are at time t, m; empty: it moves only as its owner says (BodySurface::set_motion).  Every
   // step, however short, asks for its own two ends, so that cloth follows the body's velocity over just that step.
   std::function<void(double t_s, std::span<Vec3> x)> body_at;
-  std::vector<Pin> pins;
-  // Extra springs (sewing, attachments) at a state, for a step of h_s.
-  std::function<void(const ClothState&, double h_s, std::vector<LinearSpring>&)> springs;
+  std::vector<Pin> pins;  // both may change between steps: what is let go is free from the next step on
+  std::vector<Drag> drags;
+  // Extra springs (sewing, attachments) at a state, for a step of h_s that ends at end_s.
+  std::function<void(const ClothState&, double end_s, double h_s, std::vector<LinearSpring>&)> springs;
   AirOptions air;                        // density 0: none
   std::function<Vec3(double t_s)> wind;  // m/s, at the end of a step; empty: air.wind_m_per_s at all times
   std::vector<Index> merged_particle;    // of seams still open: contact/proximity.hpp
@@ -102,7 +108,7 @@ class ImplicitEuler {
   std::vector<double> inverse_mass_;  // [particle] 1/kg, 0 while it is held
   std::vector<LinearSpring> springs_;
   std::vector<ImplicitRow> implicit_rows_;
-  Vec3s force_, b_, y_, y_linearised_, linearised_, displacement_, reference_, dv_, dv_last_, e_;
+  Vec3s force_, b_, y_, y_known_, y_linearised_, linearised_, displacement_, reference_, dv_, dv_last_, e_;
   std::vector<Mat3> diagonal_;
   std::vector<Vec2> stretch_, stretch_candidate_;
   Vec3s body_start_, body_end_;               // world_->body_at at the two ends of the step

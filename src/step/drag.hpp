@@ -1,0 +1,33 @@
+// step/drag.hpp: a point of the cloth pulled by a damped spring to a target that moves: the user's hand.         [BW98 4.4]
+//
+//   p = sum_k weight_k x_k       d = target - p
+//   F = k_s d + c (k_s/k) (target's velocity - p'),      k_s = min( k, max / |d| )      at the end of the step
+//
+// Three rows of the implicit system (assembly/implicit_row.hpp): however stiff, it does not overshoot within a step.
+//
+// Easily got wrong: max_force_N limits the spring with the distance that the step begins with.  A point that is torn away within a
+// step feels more, until the next.
+#pragma once
+#include "assembly/cloth_model.hpp"
+#include "assembly/implicit_row.hpp"
+
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace toile {
+
+struct Drag {
+  std::array<Index, 3> particle{-1, -1, -1};  // corners of a triangle, or one particle; -1: unused
+  std::array<double, 3> weight{1, 0, 0};      // barycentric
+  std::function<Vec3(double t_s)> target;     // m
+  double stiffness_N_per_m = 0;               // k > 0
+  double damping_N_s_per_m = 0;               // c
+  double max_force_N = std::numeric_limits<double>::infinity();
+};
+
+// Appends the rows of a step from t_s to t_s + h_s.
+void append_springs(const Drag& drag, const ClothState& state, double t_s, double h_s,
+                    std::vector<LinearSpring>& springs);
+
+}  // namespace toile
