@@ -1,5 +1,7 @@
 #include "solver/modified_pcg.hpp"
 
+#include "solver/paper_pcg.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -54,6 +56,7 @@ void ModifiedPcg<T>::prepare(const LinearSystem<T>& system, const PcgOptions& op
   const auto n = static_cast<std::size_t>(system.size());
   for (auto* vector : {&r_, &c_, &q_, &s_, &As_, &w_}) vector->resize(n);
   for (auto* vector : {&start_, &work_, &work2_}) vector->resize(n);
+  if (options.procedure == PcgProcedure::paper_1998) return;
   if (options.preconditioner == Preconditioner::block_ssor_coarse) coarse_.factorise(system);
   if (options.preconditioner == Preconditioner::diagonal) {
     inverse_diagonal_.resize(n);
@@ -151,6 +154,8 @@ void ModifiedPcg<T>::true_residual(const LinearSystem<T>& system, std::span<cons
 template <class T>
 PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const Vec3> b, std::span<const Vec3> reference,
                                 const PcgOptions& options, std::span<Vec3> dv) {
+  if (options.procedure == PcgProcedure::paper_1998)
+    return paper_pcg(system, b, options, PaperReading::inverse_everywhere, dv);
   const std::size_t n = r_.size();
   const ParticleConstraints& constraints = system.constraints();
   const auto norm2 = [&](std::span<const Vec3> a) {  // |S a|^2 in D^-1

@@ -20,11 +20,16 @@ namespace toile {
 enum class Preconditioner { diagonal, block_jacobi, block_ssor, block_ssor_coarse };
 std::string_view to_string(Preconditioner preconditioner);
 
+// Ours, or the listing of 1998 in the reading that must have been run (solver/paper_pcg.hpp); for comparison.
+enum class PcgProcedure { prefiltered, paper_1998 };
+enum class PaperReading { inverse_everywhere, diagonal_of_A, as_printed };
+
 struct PcgOptions {
   Preconditioner preconditioner = Preconditioner::block_ssor_coarse;
   double tolerance = 1e-3;
   int max_iterations = 1000;
   double loosen = 1;  // times the target of the stop rule
+  PcgProcedure procedure = PcgProcedure::prefiltered;
 };
 
 enum class PcgStatus { converged, iteration_limit, not_positive_definite, not_finite };
