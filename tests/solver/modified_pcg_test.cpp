@@ -93,6 +93,50 @@ TEST(ModifiedPcg, TheResidualIsTheConstraintForceOfTheDenseSolve) {
   }
 }
 
+// With the constraints as rows N^T dv = c of a saddle point: [A N; N^T 0] [dv; lambda] = [b; c].  No S, no z.
+TEST(ModifiedPcg, TheResidualIsMinusTheMultiplierOfADenseSaddlePoint) {
+  Problem<double> p;
+  const Eigen::MatrixXd A = p.system.to_dense();
+  const Eigen::Index n = A.rows();
+  struct Held {
+    Index particle;
+    Vec3 along;
+    double c;
+  };
+  const std::array<Held, 6> held = {{{0, Vec3(1, 0, 0), 0.1},
+                                     {0, Vec3(0, 1, 0), -0.2},
+                                     {0, Vec3(0, 0, 1), 0.3},
+                                     {5, Vec3(1, 2, 2) / 3, 0.25},
+                                     {9, Vec3(0, 1, 0), -0.5},
+                                     {9, Vec3(0.6, 0.8, 0), 0.125}}};
+  const auto m = static_cast<Eigen::Index>(held.size());
+  Eigen::MatrixXd saddle = Eigen::MatrixXd::Zero(n + m, n + m);
+  Eigen::VectorXd rhs = Eigen::VectorXd::Zero(n + m);
+  saddle.topLeftCorner(n, n) = A;
+  for (Eigen::Index k = 0; k < m; ++k) {
+    const Held& row = held[static_cast<std::size_t>(k)];
+    saddle.block<3, 1>(3 * row.particle, n + k) = row.along;
+    saddle.block<1, 3>(n + k, 3 * row.particle) = row.along.transpose();
+    rhs[n + k] = row.c;
+  }
+  for (std::size_t i = 0; i < p.b.size(); ++i) rhs.segment<3>(3 * static_cast<Eigen::Index>(i)) = p.b[i];
+  const Eigen::VectorXd solution = saddle.partialPivLu().solve(rhs);
+  const Eigen::VectorXd force = -saddle.topRightCorner(n, m) * solution.tail(m);
+
+  ModifiedPcg<double> pcg(p.model.mesh);
+  const PcgOptions options{Preconditioner::block_ssor_coarse, 1e-11, 5000};
+  pcg.prepare(p.system, options);
+  Vec3s dv(p.b.size(), Vec3::Zero()), e(p.b.size());
+  ASSERT_TRUE(pcg.solve(p.system, p.b, p.reference, options, dv));
+  p.system.multiply_unfiltered(dv, e);
+  ASSERT_GT(force.norm(), 1e-4);
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const auto row = 3 * static_cast<Eigen::Index>(i);
+    EXPECT_LT((dv[i] - solution.segment<3>(row)).norm(), 1e-7 * solution.head(n).norm()) << "particle " << i;
+    EXPECT_LT((e[i] - p.b[i] - force.segment<3>(row)).norm(), 1e-6 * force.norm()) << "particle " << i;
+  }
+}
+
 TEST(ModifiedPcg, AnExactGuessNeedsNoIteration) {
   Problem<double> p;
   ModifiedPcg<double> pcg(p.model.mesh);
