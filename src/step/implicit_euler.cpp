@@ -26,7 +26,7 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       rows_(model, world.body, world.merged_particle, options.body.offset_m, options.body.friction, options.rows) {
   const auto n = static_cast<std::size_t>(model.particle_count());
   for (Vec3s* vector :
-       {&force_, &b_, &y_, &y_linearised_, &linearised_, &displacement_, &reference_, &dv_, &dv_last_, &e_})
+       {&force_, &b_, &y_, &y_known_, &y_linearised_, &linearised_, &displacement_, &reference_, &dv_, &dv_last_, &e_})
     vector->assign(n, Vec3::Zero());
   diagonal_.assign(n, Mat3::Zero());
   stretch_.resize(model.mesh.triangles.size());
@@ -129,16 +129,18 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
       hold_pins(state, t_s, h_s);
       springs_.clear();
       body_.apply(state, h_s, constraints_, y_, springs_);
+      if (options_.position_alteration == PositionAlteration::in_solve) y_known_ = y_;
       rows_.append_springs(state, h_s, springs_);
       for (const Drag& drag : world_->drags) toile::append_springs(drag, state, t_s, h_s, springs_);
       if (world_->springs) world_->springs(state, t_s + h_s, h_s, springs_);
       implicit_rows_.clear();
-      for (const LinearSpring& spring : springs_) implicit_rows_.push_back(implicit_row(spring, h_s, state.v, y_));
-      if (report.passes == 1 || y_ != y_linearised_) {  // f - K (h v + y) changes with y only
-        y_linearised_ = y_;
+      for (const LinearSpring& spring : springs_)
+        implicit_rows_.push_back(implicit_row(spring, h_s, state.v, y_known_));
+      if (report.passes == 1 || y_known_ != y_linearised_) {  // f - K (h v + y) changes with y only
+        y_linearised_ = y_known_;
         linearised_ = force_;
         if (world_->air.density_kg_per_m3 > 0) air_.add_forces(linearised_);
-        for (std::size_t i = 0; i < n; ++i) displacement_[i] = h_s * state.v[i] + y_[i];
+        for (std::size_t i = 0; i < n; ++i) displacement_[i] = h_s * state.v[i] + y_known_[i];
         elements_.subtract_stiffness(displacement_, linearised_);
       }
       for (std::size_t i = 0; i < n; ++i) b_[i] = h_s * linearised_[i];
@@ -163,7 +165,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
 
     const bool first_passes = report.passes <= 2;
     const BodyConstraints::Change body = body_.update(state, dv_, e_, h_s, first_passes);
-    const ContactRows::Change change = rows_.update(state, dv_, y_, h_s, report.passes <= 4);
+    const ContactRows::Change change = rows_.update(state, dv_, y_known_, h_s, report.passes <= 4);
     report.rows = change.active;
     const bool last = pcg_options.loosen == options_.pcg.loosen;
     // A few particles that begin to slip, or rows that come and go, can wait for the next step; a missing contact cannot.
