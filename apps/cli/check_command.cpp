@@ -110,28 +110,20 @@ std::string check_pattern_text(const std::string& path, const std::string& text,
 
 std::string check_scene(const std::string& path, const std::string& text, JsonText& json) {
   const Scene scene = parse_scene(text, path);
-  const SceneCloth& cloth = scene.cloth.front();
   Hash hash;
-  ClothMesh mesh;
-  Vec3s x;
-  if (cloth.grid) {
-    PlacedGrid grid = make_grid(cloth);
-    mesh = std::move(grid.mesh);
-    x = std::move(grid.x);
-  } else {
-    GarmentMesh garment = load_garment(cloth, read_text_file, hash);
-    mesh = std::move(garment.mesh);
-    x = std::move(garment.x);
+  Index vertices = 0, triangles = 0;
+  for (const SceneCloth& cloth : scene.cloth) {
+    const LoadedCloth loaded = load_cloth(scene, cloth, read_text_file, hash);
+    vertices += loaded.garment.mesh.particle_count;
+    triangles += loaded.garment.mesh.triangle_count();
   }
-  fabrics_of(scene, mesh);
-  pins_of(cloth, x);
-  const SolidMesh body = load_body(scene.body, hash);
+  const LoadedBody body = load_body(scene.body, hash);
   json.member("kind", "scene");
-  json.member("vertices", mesh.particle_count);
-  json.member("triangles", mesh.triangle_count());
-  json.member("body_vertices", body.positions.size());
-  return words("scene, cloth of %d vertices and %d triangles, body of %zu vertices\n", mesh.particle_count,
-               mesh.triangle_count(), body.positions.size());
+  json.member("vertices", vertices);
+  json.member("triangles", triangles);
+  json.member("body_vertices", body.solid.positions.size());
+  return words("scene, cloth of %d vertices and %d triangles, body of %zu vertices%s\n", vertices, triangles,
+               body.solid.positions.size(), body.movement ? ", moving" : "");
 }
 
 std::string check_file(const std::string& path, JsonText& json) {

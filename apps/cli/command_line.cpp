@@ -26,7 +26,11 @@ void add_garment_options(CLI::App& command, CommandLine& line) {
   command.add_option("--resolution", line.resolution_cm, "Edge length of the cloth's triangles, cm")
       ->check(CLI::Range(0.1, 20.0));
   command.add_option("--fps", line.fps, "Frames per second of the output")->check(CLI::Range(1.0, 1000.0));
-  command.add_option("--seconds", line.seconds, "Longest drape, s")->check(CLI::Range(0.001, 3600.0));
+  command.add_option("--quality", line.quality, "draft, good or final: resolution, step and tolerance")
+      ->check(CLI::IsMember({"draft", "good", "final"}));
+  command.add_option("--start", line.start, "Directory of a run: begin where it ended, without sewing again");
+  command.add_option("--seconds", line.seconds, "Longest drape, or length of the motion, s")
+      ->check(CLI::Range(0.001, 3600.0));
 }
 
 std::string one_line(std::string text) {
@@ -55,10 +59,12 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   add_garment_options(*demo, line);
 
   CLI::App* dress = app.add_subcommand("dress", "Sew a pattern around a body and drape it");
-  dress->add_option("PATTERN", line.inputs, "Pattern file, GarmentCode JSON")->required();
-  dress->add_option("--body", line.body, "Body mesh (OBJ), or \"mannequin\"")->required();
+  dress->add_option("PATTERN", line.inputs, "Pattern files, GarmentCode JSON, from the inside out")->required();
+  dress->add_option("--body", line.body, "Body mesh (OBJ), or a mannequin: woman (also: mannequin), dancer, man")
+      ->required();
   dress->add_option("--body-unit", line.body_unit, "Unit of the body's file")->check(CLI::IsMember({"m", "dm", "cm"}));
-  dress->add_option("--motion", line.motion, "Motion of the body (not available yet)");
+  dress->add_option("--motion", line.motion,
+                    "Motion: stand, sway, walk, twist, dance; for a mesh a .pc2 file or a folder of OBJ files");
   dress->add_flag("--strict-start", line.strict_start, "End with exit code 4 when the start already intersects");
   add_garment_options(*dress, line);
 
@@ -74,6 +80,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
 
   CLI::App* preview = app.add_subcommand("preview", "Make preview.png and preview.mp4 of a finished run");
   preview->add_option("DIR", line.inputs, "Directory of the run")->required()->expected(1);
+  preview->add_option("--frames", line.frames, "Frames of the motion (or of the cloth) to show side by side, 8,13,35")
+      ->delimiter(',')
+      ->check(CLI::Range(0, 1000000));
 
   for (CLI::App* command : {demo, dress, run, check, verify, preview}) add_common(*command, line);
 

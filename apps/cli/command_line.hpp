@@ -17,7 +17,8 @@ struct CommandLine {
   int threads = 0;  // 0: one per core
   bool no_preview = false, quiet = false, json = false;
 
-  std::string body, body_unit, motion;
+  std::string body, body_unit, motion, quality, start;
+  std::vector<int> frames;  // of preview
   std::optional<std::string> fabric;
   std::optional<double> resolution_cm, fps, seconds;
   bool strict_start = false;

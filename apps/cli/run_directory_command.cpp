@@ -124,8 +124,10 @@ ExitCode verify_command(const CommandLine& line) {
 ExitCode preview_command(const CommandLine& line) {
   const std::string& directory = line.inputs.front();
   ProgressBar bar(line);
+  PictureOptions pictures;
+  pictures.frames = line.frames;
   picture_run(
-      directory, {},
+      directory, pictures,
       [&](double share) {
         bar.show({"picturing", share, -1});
       },

@@ -1,4 +1,5 @@
 // apps/cli/simulate_command.cpp: `toile demo`, `toile dress` and `toile run`: from a scene, wherever it comes from, to a run.
+#include "body/motion.hpp"
 #include "commands.hpp"
 #include "core/parallel.hpp"
 #include "embedded.hpp"
@@ -8,6 +9,7 @@
 #include "sim/simulate.hpp"
 #include "terminal.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -72,33 +74,87 @@ Scene demo_scene(const CommandLine& line) {
                                    printable(name) + '"');
 }
 
-Scene dress_scene(const CommandLine& line) {
-  if (!line.motion.empty()) throw Error(ExitCode::usage, "--motion: moving bodies are not available yet");
-  if (line.inputs.size() > 1)
-    throw Error(ExitCode::usage, "dress: expected one pattern (several garments are not available yet), got " +
-                                     std::to_string(line.inputs.size()));
-  Scene scene;
-  SceneCloth cloth;
-  cloth.pattern = line.inputs.front();
-  scene.name = std::filesystem::path(cloth.pattern).stem().string();
+std::string name_of_pattern(const std::string& path) {
+  std::string name = std::filesystem::path(path).stem().string();
   constexpr std::string_view garmentcode = "_specification";
-  if (scene.name.ends_with(garmentcode)) scene.name.resize(scene.name.size() - garmentcode.size());
-  if (scene.name.empty()) scene.name = "garment";
-  scene.cloth.push_back(std::move(cloth));
-  scene.until_still = true;
-  scene.seconds = 10;  // a limit: most garments are still after three or four
-  if (line.body == "mannequin") {
-    scene.body.kind = SceneBody::Kind::mannequin;
-    if (!line.body_unit.empty()) throw Error(ExitCode::usage, "--body-unit: the mannequin is in metres");
+  if (name.ends_with(garmentcode)) name.resize(name.size() - garmentcode.size());
+  return name.empty() ? "garment" : name;
+}
+
+SceneBody dress_body(const CommandLine& line) {
+  SceneBody body;
+  const bool mannequin =
+      line.body == "mannequin" || line.body == "woman" || line.body == "dancer" || line.body == "man";
+  if (mannequin) {
+    body.kind = SceneBody::Kind::mannequin;
+    if (line.body != "mannequin") body.mannequin = mannequin_kind(line.body);
+    if (!line.body_unit.empty()) throw Error(ExitCode::usage, "--body-unit: mannequins are in metres");
   } else {
-    scene.body.kind = SceneBody::Kind::mesh;
-    scene.body.mesh = line.body;
-    if (line.body_unit == "m") scene.body.unit = LengthUnit::m;
-    if (line.body_unit == "dm") scene.body.unit = LengthUnit::dm;
-    if (line.body_unit == "cm") scene.body.unit = LengthUnit::cm;
+    body.kind = SceneBody::Kind::mesh;
+    body.mesh = line.body;
+    if (line.body_unit == "m") body.unit = LengthUnit::m;
+    if (line.body_unit == "dm") body.unit = LengthUnit::dm;
+    if (line.body_unit == "cm") body.unit = LengthUnit::cm;
   }
+  if (line.motion.empty()) return body;
+  SceneMotion motion;
+  motion.where = "--motion";
+  if (mannequin) {
+    const auto names = motion_names();
+    if (std::find(names.begin(), names.end(), line.motion) == names.end() && !std::filesystem::exists(line.motion))
+      throw Error(ExitCode::usage, "--motion: expected a motion or a file; nearest is \"" +
+                                       std::string(nearest_name(line.motion, names.data(), names.size())) +
+                                       "\", got \"" + printable(line.motion) + '"');
+    if (std::find(names.begin(), names.end(), line.motion) != names.end()) motion.name = line.motion;
+  }
+  if (motion.name.empty()) {
+    motion.path = line.motion;
+    motion.fps = line.fps.value_or(motion.fps);
+  }
+  body.motion = std::move(motion);
+  return body;
+}
+
+Scene dress_scene(const CommandLine& line) {
+  Scene scene;
+  scene.name.clear();
+  for (const std::string& pattern : line.inputs) {
+    SceneCloth cloth;
+    cloth.pattern = pattern;
+    if (line.inputs.size() > 1) {
+      cloth.name = name_of_pattern(pattern);
+      const auto taken = [&](const SceneCloth& other) { return other.name == cloth.name; };
+      if (std::any_of(scene.cloth.begin(), scene.cloth.end(), taken))
+        cloth.name.append("-").append(std::to_string(scene.cloth.size() + 1));
+    }
+    if (!scene.name.empty()) scene.name += '+';
+    scene.name += name_of_pattern(pattern);
+    scene.cloth.push_back(std::move(cloth));
+  }
+  scene.until_still = true;
+  scene.body = dress_body(line);
+  if (!scene.body.motion) scene.seconds = 10;  // a limit: most garments are still after three or four
   scene.strict_start = line.strict_start;
   return scene;
+}
+
+// What --quality sets; the options of one value come after it.
+void set_quality(const std::string& quality, Scene& scene) {
+  struct Quality {
+    std::string_view name;
+    double resolution_m, step_max_s, tolerance;
+  };
+  static constexpr std::array<Quality, 3> qualities = {
+      {{"draft", 0.02, 1.0 / 30, 1e-2}, {"good", 0.01, 1.0 / 60, 1e-3}, {"final", 0.007, 1.0 / 120, 1e-4}}};
+  for (const Quality& q : qualities) {
+    if (q.name != quality) continue;
+    for (SceneCloth& cloth : scene.cloth) {
+      cloth.resolution_m = q.resolution_m;
+      if (cloth.grid) cloth.grid->edge_m = q.resolution_m;
+    }
+    scene.step_max_s = q.step_max_s;
+    scene.tolerance = q.tolerance;
+  }
 }
 
 Scene scene_of(const CommandLine& line) {
@@ -114,10 +170,13 @@ Scene scene_of(const CommandLine& line) {
       scene = parse_scene(read_text_file(line.inputs.front()), line.inputs.front());
       break;
   }
-  SceneCloth& cloth = scene.cloth.front();
-  if (line.fabric) cloth.fabric = fabric_preset(*line.fabric, "", "--fabric");
-  if (line.resolution_cm) cloth.resolution_m = 0.01 * *line.resolution_cm;
-  if (line.resolution_cm && cloth.grid) cloth.grid->edge_m = 0.01 * *line.resolution_cm;
+  set_quality(line.quality, scene);
+  for (SceneCloth& cloth : scene.cloth) {
+    if (line.fabric) cloth.fabric = fabric_preset(*line.fabric, "", "--fabric");
+    if (line.resolution_cm) cloth.resolution_m = 0.01 * *line.resolution_cm;
+    if (line.resolution_cm && cloth.grid) cloth.grid->edge_m = 0.01 * *line.resolution_cm;
+  }
+  if (!line.start.empty()) scene.start = line.start;
   if (line.fps) scene.fps = *line.fps;
   if (line.seconds) scene.seconds = *line.seconds;
   return scene;
@@ -177,8 +236,10 @@ ExitCode simulate_command(const CommandLine& line) {
   if (wanted && code != ExitCode::interrupted) {
     // The run is complete without its pictures; what goes wrong here is told, and does not take the result away.
     try {
+      PictureOptions pictures;
+      pictures.frames = scene.picture_frames;
       picture_run(
-          options.directory, {},
+          options.directory, pictures,
           [&](double share) {
             bar.show({"picturing", share, -1});
           },

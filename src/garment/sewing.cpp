@@ -54,6 +54,11 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
   mean_edge_m_ = mesh_quality(garment.mesh).mean_edge_m;
   world_.body = body;
   world_.merged_particle = garment.merged;
+  for (Index i = 0; i < options.held_particles; ++i) {
+    Pin held;
+    held.particle = i;
+    world_.pins.push_back(std::move(held));
+  }
   world_.springs = [this](const ClothState& state, double end_s, double, std::vector<LinearSpring>& springs) {
     append_springs(state, end_s, springs);
   };
@@ -157,8 +162,9 @@ void Sewing::judge_progress() {
 // possible without passing cloth through cloth.
 bool Sewing::close_seams() {
   const std::vector<Vec3> joined = class_means(garment_->merged, model_.mass_kg, state_.x);
-  std::vector<double> inverse_mass(state_.x.size());
-  for (std::size_t i = 0; i < inverse_mass.size(); ++i) inverse_mass[i] = 1 / model_.mass_kg[i];
+  std::vector<double> inverse_mass(state_.x.size(), 0);
+  for (std::size_t i = at(options_.held_particles); i < inverse_mass.size(); ++i)
+    inverse_mass[i] = 1 / model_.mass_kg[i];
   Vec3s end = state_.x;
   for (const SeamPair& pair : garment_->pairs) {
     for (const Index i : {pair.a, pair.b}) {

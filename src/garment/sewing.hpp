@@ -42,6 +42,7 @@ struct SewingOptions {
   double step_max_s = 1.0 / 60;
   bool paper_scaling = false;  // assembly/cloth_model.hpp
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
+  Index held_particles = 0;                // the first so many stand still: what is worn already under the garment
   std::vector<LabelHeight> label_heights;  // where labelled edges belong, once the seams are closed
   std::function<bool()> stop;              // asked before every step
 };

@@ -1,6 +1,7 @@
 #include "sim/picture_run.hpp"
 
 #include "core/error.hpp"
+#include "io/json.hpp"
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
 #include "preview/preview.hpp"
@@ -18,7 +19,12 @@ namespace {
 
 struct Take {  // one cache and the surface that it moves
   ObjMesh obj;
-  std::vector<std::array<Vec2, 3>> uv;
+  // One per object of the file: its triangles and their coordinates.
+  struct Piece {
+    std::vector<Triangle> triangles;
+    std::vector<std::array<Vec2, 3>> uv;
+  };
+  std::vector<Piece> pieces;
   std::unique_ptr<Pc2Reader> frames;
 
   bool open(const std::filesystem::path& directory, const std::string& name) {
@@ -31,11 +37,15 @@ struct Take {  // one cache and the surface that it moves
                        std::to_string(obj.positions.size()), std::to_string(frames->points()));
     if (frames->samples() < 1)
       throw InputError(printable((directory / (name + ".pc2")).string()), "samples", "at least one", "0");
-    for (const auto& corners : obj.texcoord) {
+    pieces.resize(std::max<std::size_t>(1, obj.object_names.size()));
+    for (std::size_t t = 0; t < obj.triangles.size(); ++t) {
+      Piece& piece = pieces[obj.object.empty() ? 0 : static_cast<std::size_t>(obj.object[t])];
+      piece.triangles.push_back(obj.triangles[t]);
+      if (obj.texcoord.empty()) continue;
       std::array<Vec2, 3> three{Vec2(0, 0), Vec2(0, 0), Vec2(0, 0)};
       for (std::size_t k = 0; k < 3; ++k)
-        if (corners[k] >= 0) three[k] = obj.texcoords[static_cast<std::size_t>(corners[k])];
-      uv.push_back(three);
+        if (obj.texcoord[t][k] >= 0) three[k] = obj.texcoords[static_cast<std::size_t>(obj.texcoord[t][k])];
+      piece.uv.push_back(three);
     }
     return true;
   }
@@ -68,10 +78,32 @@ Image three_views(const PreviewScene& scene, const Vec3s& cloth, const RenderOpt
   return contact_sheet(views, captions, 3);
 }
 
-void add_shots(const Take& take, int count, std::vector<Shot>& shots) {
-  const int last = take.frames->samples() - 1;
+// `count` frames of first ... last, evenly.
+void add_shots(const Take& take, int first, int last, int count, std::vector<Shot>& shots) {
   for (int k = 0; k < count; ++k)
-    shots.push_back({&take, count > 1 ? static_cast<int>(std::lround(double(k) * last / (count - 1))) : last});
+    shots.push_back(
+        {&take, count > 1 ? first + static_cast<int>(std::lround(double(k) * (last - first) / (count - 1))) : last});
+}
+
+// Every garment of the run in a colour of its own.
+const std::array<Vec3, 4> garment_colours{Vec3(0.35, 0.45, 0.62), Vec3(0.62, 0.40, 0.34), Vec3(0.42, 0.56, 0.40),
+                                          Vec3(0.60, 0.55, 0.38)};
+
+// The first frame in which the body is about to move, from report.json; -1: it never does.
+struct Timing {
+  int motion_first = -1;
+  double fps = 30;
+};
+Timing timing_of(const std::filesystem::path& folder) {
+  Timing timing;
+  const std::string path = (folder / "report.json").string();
+  if (!std::filesystem::exists(path)) return timing;
+  const Json report = Json::parse(read_file(path, Json::text_limit), printable(path));
+  if (const Json* fps = report.find("fps")) timing.fps = fps->number();
+  const Json* motion = report.find("motion");
+  if (motion != nullptr && motion->is_object())
+    timing.motion_first = static_cast<int>(motion->at("first_frame").number());
+  return timing;
 }
 
 }  // namespace
@@ -88,13 +120,13 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   Vec3s x, body_x = dressed ? body.obj.positions : Vec3s{};
   scene.body_triangles = body.obj.triangles;
   scene.body_positions = body_x;
-  scene.cloths.resize(1);
   const auto show = [&](const Shot& shot) {
     shot.take->frames->read(shot.frame, x);
     if (dressed && shot.take == &cloth) body.frames->read(std::min(shot.frame, body.frames->samples() - 1), body_x);
-    scene.cloths[0].triangles = shot.take->obj.triangles;
-    scene.cloths[0].uv = shot.take->uv;
-    scene.cloths[0].positions = x;
+    const auto& pieces = shot.take->pieces;
+    scene.cloths.resize(pieces.size());
+    for (std::size_t k = 0; k < pieces.size(); ++k)
+      scene.cloths[k] = {pieces[k].triangles, pieces[k].uv, x, garment_colours[k % garment_colours.size()]};
     scene.body_positions = body_x;
   };
   std::array<Vec3, 2> box{Vec3::Constant(1e30), Vec3::Constant(-1e30)};
@@ -131,14 +163,44 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   sheet.samples = options.sheet_samples;
   write_png((folder / "preview.png").string(), three_views(scene, x, sheet));
   scene.red_segments.clear();
+  const Timing timing = timing_of(folder);
+  if (draped && !options.frames.empty()) {
+    std::vector<Image> pictures;
+    std::vector<std::string> captions;
+    const Vec3 margin = Vec3::Constant(0.05);
+    std::array<Vec3, 2> whole{Vec3::Constant(1e30), Vec3::Constant(-1e30)};
+    std::vector<Shot> chosen;
+    for (const int frame : options.frames) {
+      chosen.push_back({&cloth, std::clamp(std::max(0, timing.motion_first) + frame, 0, cloth.frames->samples() - 1)});
+      show(chosen.back());
+      grow(whole, x);
+      captions.push_back("frame " + std::to_string(frame));
+    }
+    const double aspect = static_cast<double>(sheet.width) / sheet.height;
+    const Camera camera = frame_subject(whole[0] - margin, whole[1] + margin, 20, 8, aspect);
+    for (const Shot& shot : chosen) {
+      show(shot);
+      pictures.push_back(render(scene, camera, sheet));
+    }
+    write_png((folder / "frames.png").string(), contact_sheet(pictures, captions, static_cast<int>(pictures.size())));
+  }
   if (progress) progress(0.1);
 
   // Sewing takes two fifths of the film, the rest is the cloth's.
   std::vector<Shot> shots;
   const int budget = options.most_film_frames;
-  if (sewn) add_shots(sewing, std::min((sewing.frames->samples() + 1) / 2, draped ? 2 * budget / 5 : budget), shots);
-  if (draped)
-    add_shots(cloth, std::min((cloth.frames->samples() + 1) / 2, budget - static_cast<int>(shots.size())), shots);
+  if (sewn) {
+    const int samples = sewing.frames->samples();
+    add_shots(sewing, 0, samples - 1, std::min((samples + 1) / 2, draped ? 2 * budget / 5 : budget), shots);
+  }
+  if (draped) {
+    const int last_frame = cloth.frames->samples() - 1;
+    const int still = timing.motion_first >= 0 ? std::min(timing.motion_first, last_frame) : last_frame;
+    add_shots(cloth, 0, still, std::min(still / 2 + 1, budget - static_cast<int>(shots.size())), shots);
+    const double seconds = (last_frame - still) / timing.fps;
+    add_shots(cloth, still, last_frame,
+              std::min(static_cast<int>(std::lround(options.film_fps * seconds)), options.most_motion_frames), shots);
+  }
   RenderOptions film;
   film.width = options.film_width;
   film.height = options.film_height;

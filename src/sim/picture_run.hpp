@@ -1,10 +1,12 @@
 // sim/picture_run.hpp: a still and a film of a finished run, from its files.                         docs/command-line.md#preview
 //
 //   preview.png   front, side and back of the last frame; crossings in red
-//   preview.mp4   the sewing, if there was one, then the cloth; at most about four seconds
+//   preview.mp4   the sewing, if there was one, then the drape, then the motion in real time; 4 s, or 12 s with a motion
+//   frames.png    chosen frames side by side, when any are chosen
 #pragma once
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace toile {
 
@@ -12,7 +14,9 @@ struct PictureOptions {
   int sheet_width = 400, sheet_height = 560, sheet_samples = 12;  // of one view
   int film_width = 360, film_height = 480, film_samples = 6;
   double film_fps = 15;
-  int most_film_frames = 60;
+  int most_film_frames = 60, most_motion_frames = 120;
+  std::vector<int>
+      frames;  // of frames.png, counted from the first frame of the motion, or of the cloth if there is none
 };
 
 // `progress` gets the share done and may be empty; `stop` may be empty.  Throws IoError or InputError for files that are missing or wrong.

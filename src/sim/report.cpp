@@ -20,7 +20,7 @@ void add(JsonText& text, std::string_view key, const PenetrationCount& count) {
 
 void add_seconds_per_frame(JsonText& text, const PhaseReport& phase) {
   const double n = phase.frames > 0 ? phase.frames : 1;
-  const double parts = phase.eval + phase.cg + phase.cloth_cloth + phase.cloth_solid;
+  const double parts = phase.eval + phase.cg + phase.cloth_cloth + phase.cloth_solid + phase.body;
   text.key("seconds_per_frame");
   text.begin_object();
   text.member("total", phase.seconds / n);
@@ -28,6 +28,7 @@ void add_seconds_per_frame(JsonText& text, const PhaseReport& phase) {
   text.member("cg", phase.cg / n);
   text.member("cloth_cloth", phase.cloth_cloth / n);
   text.member("cloth_solid", phase.cloth_solid / n);
+  text.member("body", phase.body / n);
   text.member("other", (phase.seconds - parts) / n);
   text.end_object();
 }
@@ -189,6 +190,21 @@ std::string to_json(const Report& report, int indent) {
     text.begin_array();
     for (const double d : report.shift_m) text.value(d);
     text.end_array();
+    text.end_object();
+  }
+  text.key("motion");
+  if (report.motion_first_frame < 0) {
+    text.null();
+  } else {
+    text.begin_object();
+    text.member("name", report.motion_name);
+    text.member("first_frame", report.motion_first_frame);
+    text.member("frames", report.motion.frames);
+    text.member("simulated_s", report.motion.simulated_s);
+    text.member("seconds", report.motion.seconds);
+    add_steps(text, report.motion);
+    add_seconds_per_frame(text, report.motion);
+    add_cg(text, report.motion);
     text.end_object();
   }
   text.member("peak_memory_mb", report.peak_memory_mb);

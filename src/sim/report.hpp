@@ -14,7 +14,7 @@ namespace toile {
 
 struct PhaseReport {  // of the sewing, or of everything after it
   int frames = 0;     // simulated: one less than the samples of the cache
-  double seconds = 0, eval = 0, cg = 0, cloth_cloth = 0, cloth_solid = 0;  // wall time, s
+  double seconds = 0, eval = 0, cg = 0, cloth_cloth = 0, cloth_solid = 0, body = 0;  // wall time, s
   long steps = 0, steps_rejected = 0, passes = 0, cg_iterations = 0;
   int cg_max = 0;
   long corrected = 0,
@@ -33,7 +33,10 @@ struct Report {
   double fps = 30;
   int frames = 0;  // samples of cloth.pc2
   double seconds_total = 0;
-  PhaseReport sewing, drape;
+  PhaseReport sewing, drape;    // drape: everything after the weld, the motion too
+  PhaseReport motion;           // of it, from the first frame in which the body moves
+  int motion_first_frame = -1;  // sample of cloth.pc2 at which the body still stands; -1: no motion
+  std::string motion_name;
   Vec3 shift_m{0, 0, 0};  // by which the flat panels were moved before sewing
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, std::array<double, 2>>> rest_stretch;  // panel, b along the two axes of vt

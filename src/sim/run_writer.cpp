@@ -14,14 +14,15 @@ namespace toile {
 namespace {
 
 // Equal vt of one panel are one vt: a seam has one per panel, everything else one per particle.
-ObjMesh cloth_obj(const ClothMesh& mesh, std::string_view garment, std::span<const Vec3> x) {
+ObjMesh cloth_obj(const ClothMesh& mesh, std::span<const Index> garment_of_panel, std::span<const std::string> garments,
+                  std::span<const Vec3> x) {
   ObjMesh obj;
   obj.positions.assign(x.begin(), x.end());
   obj.triangles = mesh.triangles;
   obj.group = mesh.panel;
   obj.group_names = mesh.panel_names;
-  obj.object.assign(mesh.triangles.size(), 0);
-  obj.object_names = {std::string(garment)};
+  for (const Index panel : mesh.panel) obj.object.push_back(garment_of_panel[static_cast<std::size_t>(panel)]);
+  obj.object_names.assign(garments.begin(), garments.end());
   const ClothMesh drawn = drawn_mesh(mesh);
   std::map<std::tuple<Index, Index, double, double>, Index> known;  // panel, particle, vt
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -51,7 +52,7 @@ RunWriter::RunWriter(std::string directory) : directory_(std::move(directory)) {
   make_directories(directory_);
   // The report first: from here on the directory is no finished run.
   for (const char* name : {"report.json", "cloth.obj", "cloth.pc2", "body.obj", "body.pc2", "sewing.obj", "sewing.pc2",
-                           "preview.png", "preview.mp4"}) {
+                           "preview.png", "preview.mp4", "frames.png"}) {
     std::error_code error;
     std::filesystem::remove(path(name), error);
     if (error) throw IoError(path(name), "cannot remove what an earlier run left: " + error.message());
@@ -62,16 +63,19 @@ RunWriter::RunWriter(std::string directory) : directory_(std::move(directory)) {
 std::string RunWriter::path(const char* name) const { return (std::filesystem::path(directory_) / name).string(); }
 
 void RunWriter::begin_sewing(const ClothMesh& mesh, std::string_view garment, std::span<const Vec3> x) {
-  write_obj(path("sewing.obj"), cloth_obj(mesh, garment, x));
+  const std::vector<Index> one(mesh.panel_names.size(), 0);
+  const std::string name(garment);
+  write_obj(path("sewing.obj"), cloth_obj(mesh, one, {&name, 1}, x));
   sewing_ = std::make_unique<Pc2Writer>(path("sewing.pc2"), mesh.particle_count, 0, 1);
   sewing_frame(x);
 }
 
 void RunWriter::sewing_frame(std::span<const Vec3> x) { sewing_->append(x); }
 
-void RunWriter::begin_cloth(const ClothMesh& mesh, std::string_view garment, std::span<const Vec3> x,
+void RunWriter::begin_cloth(const ClothMesh& mesh, std::span<const Index> garment_of_panel,
+                            std::span<const std::string> garments, std::span<const Vec3> x,
                             std::span<const Triangle> body, std::span<const Vec3> body_x) {
-  write_obj(path("cloth.obj"), cloth_obj(mesh, garment, x));
+  write_obj(path("cloth.obj"), cloth_obj(mesh, garment_of_panel, garments, x));
   cloth_ = std::make_unique<Pc2Writer>(path("cloth.pc2"), mesh.particle_count, 0, 1);
   if (!body.empty()) {
     ObjMesh obj;

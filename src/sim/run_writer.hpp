@@ -29,8 +29,10 @@ class RunWriter {
   void begin_sewing(const ClothMesh& mesh, std::string_view garment, std::span<const Vec3> x);
   void sewing_frame(std::span<const Vec3> x);
   // `x` and `body_x` are frame 0, and written as such.  Without a body its spans are empty and it gets no files.
-  void begin_cloth(const ClothMesh& mesh, std::string_view garment, std::span<const Vec3> x,
-                   std::span<const Triangle> body, std::span<const Vec3> body_x);
+  // `garment_of_panel` says to which of `garments` a panel belongs; each becomes an object of cloth.obj.
+  void begin_cloth(const ClothMesh& mesh, std::span<const Index> garment_of_panel,
+                   std::span<const std::string> garments, std::span<const Vec3> x, std::span<const Triangle> body,
+                   std::span<const Vec3> body_x);
   void cloth_frame(std::span<const Vec3> x, std::span<const Vec3> body_x);
   // Gives the streamed files their names, then writes the report.
   void finish(std::string_view report_json);

@@ -1,6 +1,7 @@
 // sim/scene.cpp: reads a scene.  One function per object of the file, in the order of docs/scenes.md.
 #include "sim/scene.hpp"
 
+#include "body/motion.hpp"
 #include "io/file.hpp"
 
 #include <array>
@@ -11,6 +12,7 @@ namespace toile {
 namespace {
 
 constexpr double most_seconds = 3600, most_fps = 1000;
+constexpr double air_at_sea_level_kg_per_m3 = 1.2;
 
 // A number in low <= x <= high (or low < x when `open`), in words that name the range.
 double number_in(const Json& value, double low, double high, bool open = false) {
@@ -170,16 +172,34 @@ SceneCloth read_cloth(const Json& value, const std::string& file) {
   return cloth;
 }
 
+// A name of the mannequin's own, or a file; {"file", "fps", "blend_in_s"} says more about the file.
+SceneMotion read_motion(const Json& value, bool mannequin, const std::string& file) {
+  SceneMotion motion;
+  motion.where = value.where();
+  motion.pointer = value.pointer();
+  const Json* path = &value;
+  if (value.is_object()) {
+    value.allow_only({"file", "fps", "blend_in_s"});
+    path = &value.at("file");
+    read_number(value, "fps", motion.fps, 1, 1, most_fps);
+    read_number(value, "blend_in_s", motion.blend_in_s, 1, 0, 60);
+  } else if (mannequin) {
+    motion.name = motion_names()[one_of(value, motion_names())];
+    return motion;
+  }
+  motion.path = resolve(file, *path);
+  return motion;
+}
+
 SceneBody read_body(const Json& value, const std::string& file) {
   SceneBody body;
   if (value.is_null()) return body;
   value.allow_only({"mannequin", "mesh", "cylinder", "unit", "motion", "friction", "offset_mm"});
-  if (const Json* motion = value.find("motion"))
-    motion->fail("no motion: moving bodies are not available yet", motion->describe());
   int given = 0;
   if (const Json* mannequin = value.find("mannequin")) {
-    static constexpr std::array<std::string_view, 2> names = {"woman", "default"};
-    one_of(*mannequin, names);
+    static constexpr std::array<std::string_view, 4> names = {"woman", "dancer", "man", "default"};
+    const std::string_view name = names[one_of(*mannequin, names)];
+    body.mannequin = name == "default" ? MannequinKind::woman : mannequin_kind(name);
     body.kind = SceneBody::Kind::mannequin;
     ++given;
   }
@@ -202,6 +222,11 @@ SceneBody read_body(const Json& value, const std::string& file) {
     body.unit = std::array{LengthUnit::m, LengthUnit::dm, LengthUnit::cm}[one_of(*unit, units)];
     if (body.kind != SceneBody::Kind::mesh) unit->fail("\"mesh\" beside it", "a unit without a mesh");
   }
+  if (const Json* motion = value.find("motion")) {
+    if (body.kind != SceneBody::Kind::mannequin && body.kind != SceneBody::Kind::mesh)
+      motion->fail("a mannequin or a mesh beside it", "a motion without a body that can move");
+    body.motion = read_motion(*motion, body.kind == SceneBody::Kind::mannequin, file);
+  }
   read_number(value, "friction", body.friction, 1, 0, 100);
   read_number(value, "offset_mm", body.offset_m, 1e-3, 0.1, 100);
   return body;
@@ -210,15 +235,18 @@ SceneBody read_body(const Json& value, const std::string& file) {
 void read_world(const Json& value, Scene& scene) {
   value.allow_only({"gravity_m_per_s2", "wind_m_per_s", "air_density_kg_per_m3"});
   if (const Json* gravity = value.find("gravity_m_per_s2")) scene.gravity_m_per_s2 = vector_of(*gravity, 1000);
-  if (const Json* wind = value.find("wind_m_per_s"))
-    if (!vector_of(*wind).isZero(0)) wind->fail("[0, 0, 0]: wind is not available yet", "a wind");
-  if (const Json* air = value.find("air_density_kg_per_m3")) number_in(*air, 0, 1e3);  // acts through wind only
+  if (const Json* wind = value.find("wind_m_per_s")) {
+    scene.air.wind_m_per_s = vector_of(*wind, 100);
+    if (!scene.air.wind_m_per_s.isZero(0)) scene.air.density_kg_per_m3 = air_at_sea_level_kg_per_m3;
+  }
+  read_number(value, "air_density_kg_per_m3", scene.air.density_kg_per_m3, 1, 0, 1e3);
 }
 
 void read_time(const Json& value, Scene& scene) {
-  value.allow_only({"fps", "seconds", "step_max_ms", "integrator", "until_still"});
+  value.allow_only({"fps", "seconds", "drape_seconds", "step_max_ms", "integrator", "until_still"});
   read_number(value, "fps", scene.fps, 1, 1, most_fps);
   read_number(value, "seconds", scene.seconds, 1, 0, most_seconds, true);
+  read_number(value, "drape_seconds", scene.drape_seconds, 1, 0, most_seconds);
   read_number(value, "step_max_ms", scene.step_max_s, 1e-3, 0.01, 1000);
   scene.until_still = value.boolean_or("until_still", scene.until_still);
   static constexpr std::array<std::string_view, 1> integrators = {"backward_euler"};
@@ -246,14 +274,20 @@ void read_solver(const Json& value, Scene& scene) {
 
 Scene parse_scene(std::string_view text, const std::string& file) {
   const Json root = Json::parse(text, file);
-  root.allow_only({"name", "cloth", "body", "world", "time", "solver", "contact", "output"});
+  root.allow_only({"name", "cloth", "body", "world", "time", "solver", "contact", "start", "output"});
   Scene scene;
   scene.name = root.string_or("name", std::filesystem::path(file).stem().string());
   if (scene.name.empty()) root.at("name").fail("a name", "an empty string");
   const Json& cloth = root.at("cloth");
   for (const Json& one : cloth.array()) scene.cloth.push_back(read_cloth(one, file));
   if (scene.cloth.empty()) cloth.fail("at least one cloth", "an empty array");
-  if (scene.cloth.size() > 1) cloth.fail("one cloth: several in a scene are not available yet", cloth.describe());
+  for (std::size_t k = 0; k < scene.cloth.size(); ++k) {
+    if (scene.cloth[k].pattern.empty() != scene.cloth.front().pattern.empty())
+      cloth.array()[k].fail("patterns only, or grids only, in one scene", "the other kind");
+    for (std::size_t j = 0; j < k; ++j)
+      if (!scene.cloth[k].name.empty() && scene.cloth[j].name == scene.cloth[k].name)
+        cloth.array()[k].fail("a name that no other cloth has", '"' + printable(scene.cloth[k].name) + '"');
+  }
   scene.until_still = !scene.cloth.front().pattern.empty();
   if (const Json* body = root.find("body")) scene.body = read_body(*body, file);
   if (const Json* world = root.find("world")) read_world(*world, scene);
@@ -266,9 +300,13 @@ Scene parse_scene(std::string_view text, const std::string& file) {
     scene.self_contact = contact->boolean_or("self_contact", true);
     scene.strict_start = contact->boolean_or("strict_start", false);
   }
+  if (const Json* start = root.find("start")) scene.start = resolve(file, *start);
   if (const Json* output = root.find("output")) {
-    output->allow_only({"dir", "preview"});
+    output->allow_only({"dir", "preview", "picture_frames"});
     scene.output_dir = output->string_or("dir", "");
+    if (const Json* frames = output->find("picture_frames"))
+      for (const Json& frame : frames->array())
+        scene.picture_frames.push_back(static_cast<int>(number_in(frame, 0, most_seconds * most_fps)));
     if (const Json* preview = output->find("preview")) scene.preview = preview->boolean();
   }
   return scene;

@@ -3,9 +3,10 @@
 // Every key has a default, so that {"cloth": [{"pattern": "p.json"}], "body": {"mesh": "b.obj"}} is a complete scene.
 // The command `dress` fills the same struct from its options.
 //
-// What is easily got wrong: a key that is understood but not available yet (wind, motion) is an error here, never
-// ignored; a scene that runs has been obeyed in every word.
+// What is easily got wrong: a key that is understood but not available yet is an error here, never ignored; a scene
+// that runs has been obeyed in every word.
 #pragma once
+#include "assembly/air.hpp"
 #include "body/collision_body.hpp"
 #include "garment/label_heights.hpp"
 #include "io/json.hpp"
@@ -61,9 +62,19 @@ struct SceneCylinder {  // an upright solid whose rims are rounded: sim/cylinder
   Vec3 top_m{0, 0, 0};  // middle of the top
 };
 
+struct SceneMotion {
+  std::string name;       // of the mannequin's own: walk, twist, dance ...; empty: from a file
+  std::string path;       // resolved: .pc2, or a folder of OBJ files
+  double fps = 30;        // of the file
+  double blend_in_s = 1;  // from the body's own pose to the first sample
+  std::string where, pointer;
+};
+
 struct SceneBody {
   enum class Kind { none, mannequin, mesh, cylinder };
   Kind kind = Kind::none;
+  MannequinKind mannequin = MannequinKind::woman;
+  std::optional<SceneMotion> motion;
   std::string mesh;  // path, resolved
   LengthUnit unit = LengthUnit::automatic;
   SceneCylinder cylinder;
@@ -76,8 +87,10 @@ struct Scene {
   std::vector<SceneCloth> cloth;
   SceneBody body;
   Vec3 gravity_m_per_s2{0, -9.81, 0};
+  AirOptions air;  // density 0: none, unless a wind or a density is given
 
-  double fps = 30, seconds = 5;
+  double fps = 30, seconds = 5;      // of the motion, where the body moves; otherwise of the drape
+  double drape_seconds = 10;         // before the motion, and of garments that others go over: a limit
   std::optional<double> step_max_s;  // absent: 1/60 s for patterns, a frame for grids
   bool until_still = false;          // stop when at rest; then `seconds` is a limit, and moving at the end a failure
 
@@ -90,8 +103,10 @@ struct Scene {
   bool self_contact = true;
   bool strict_start = false;
 
+  std::string start;       // directory of a run whose last frame is where this one begins; empty: from the panels
   std::string output_dir;  // empty: out/<name>
   std::optional<bool> preview;
+  std::vector<int> picture_frames;  // of frames.png, sim/picture_run.hpp
 };
 
 // Throws InputError naming file, line, JSON pointer, expected and got.  Relative paths resolve against the folder of

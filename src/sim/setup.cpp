@@ -1,6 +1,8 @@
 #include "sim/setup.hpp"
 
 #include "body/measure.hpp"
+#include "body/motion.hpp"
+#include "body/pose.hpp"
 #include "core/error.hpp"
 #include "garment/triangulate.hpp"
 #include "io/file.hpp"
@@ -62,47 +64,21 @@ void add(Hash& hash, const Fabric& f) {
     add(hash, x);
 }
 
-}  // namespace
-
-void check_areas(std::string_view file, std::span<const Vec3> positions, std::span<const Triangle> triangles) {
-  constexpr double smallest = 1e-9;  // of the longer side's square
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Vec3& origin = positions[at(triangles[t][0])];
-    const Vec3 a = positions[at(triangles[t][1])] - origin, b = positions[at(triangles[t][2])] - origin;
-    const double area = 0.5 * a.cross(b).norm();
-    if (area > smallest * std::max(a.squaredNorm(), b.squaredNorm())) continue;
-    std::array<char, 32> text;
-    std::snprintf(text.data(), text.size(), "%g", area);
-    throw InputError(file, "triangle " + std::to_string(t), "an area above zero", text.data());
-  }
+BodyMovement movement_of(const Mannequin& mannequin, const SceneBody& body) {
+  const Motion motion = Motion::named(body.motion->name, body.mannequin);
+  const SkinnedBody skinned(mannequin);
+  return {[motion, skinned](double t_s, std::span<Vec3> x) { skinned.positions(motion.at(t_s), x); },
+          body.motion->name};
 }
 
-SolidMesh load_body(const SceneBody& body, Hash& inputs) {
-  switch (body.kind) {
-    case SceneBody::Kind::none:
-      return {};
-    case SceneBody::Kind::cylinder:
-      return rounded_cylinder(body.cylinder.radius_m, body.cylinder.height_m, body.cylinder.top_m);
-    case SceneBody::Kind::mannequin: {
-      CollisionBody made = from_mannequin(make_mannequin());
-      return {std::move(made.positions), std::move(made.triangles)};
-    }
-    case SceneBody::Kind::mesh:
-      break;
-  }
-  const std::string text = read_file(body.mesh);
-  inputs.add_bytes(text.data(), text.size());
-  CollisionBody read = make_collision_body(parse_obj(text, printable(body.mesh)), printable(body.mesh), body.unit);
-  check_areas(printable(body.mesh), read.positions, read.triangles);
-  return {std::move(read.positions), std::move(read.triangles)};
-}
-
-PlacedGrid make_grid(const SceneCloth& cloth) {
+// Flat sheet, placed; one panel with the cloth's name.
+GarmentMesh make_grid(const SceneCloth& cloth) {
   const SceneGrid& g = *cloth.grid;
   const PlanarMesh sheet = equilateral_sheet(g.width_m, g.height_m, g.edge_m);
   const Vec2 middle(0.5 * g.width_m, 0.5 * g.height_m);
   const Mat3 turn = rotation(cloth);
-  PlacedGrid grid;
+  GarmentMesh grid;
+  grid.name = cloth.name;
   grid.mesh.particle_count = static_cast<Index>(sheet.points.size());
   grid.mesh.triangles = sheet.triangles;
   grid.mesh.panel.assign(sheet.triangles.size(), 0);
@@ -114,10 +90,12 @@ PlacedGrid make_grid(const SceneCloth& cloth) {
   for (const Vec2& p : sheet.points) {
     const Vec2 q = p - middle;
     grid.x.push_back(turn * Vec3(q.x(), q.y(), 0) + cloth.translation_m);
+    grid.merged.push_back(static_cast<Index>(grid.merged.size()));
   }
   return grid;
 }
 
+// The pattern of the cloth, meshed and moved as `placement` says.
 GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& inputs) {
   const std::string text = read(cloth.pattern);
   inputs.add_bytes(text.data(), text.size());
@@ -137,8 +115,7 @@ GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& 
   return garment;
 }
 
-std::vector<Fabric> fabrics_of(const Scene& scene, const ClothMesh& mesh) {
-  const SceneCloth& cloth = scene.cloth.front();
+std::vector<Fabric> fabrics_of(const Scene& scene, const SceneCloth& cloth, const ClothMesh& mesh) {
   std::vector<Fabric> fabrics(mesh.panel_names.size(), cloth.fabric);
   for (const ScenePanel& panel : cloth.panels) {
     const auto place = std::find(mesh.panel_names.begin(), mesh.panel_names.end(), panel.name);
@@ -164,6 +141,94 @@ std::vector<Vec2> rest_stretch_of(const SceneCloth& cloth, const ClothMesh& mesh
     for (std::size_t p = 0; p < b.size(); ++p)
       if (mesh.panel_names[p] == panel.name) b[p] = Vec2(panel.rest_stretch_u, panel.rest_stretch_v);
   return b;
+}
+
+std::vector<Pin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) {
+  std::vector<Pin> pins;
+  for (const ScenePin& given : cloth.pins) {
+    Pin pin;
+    pin.particle = nearest_particle(x, given.near_m);
+    for (std::size_t k = 0; k < pins.size(); ++k)
+      if (pins[k].particle == pin.particle)
+        throw InputError(
+            given.where, given.pointer, "pins that hold different particles",
+            "particle " + std::to_string(pin.particle) + ", held by pin " + std::to_string(k) + " already");
+    if (given.on_path) pin.path = [path = given.path](double t_s) { return along(path, t_s); };
+    pins.push_back(std::move(pin));
+  }
+  return pins;
+}
+
+}  // namespace
+
+void check_areas(std::string_view file, std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+  constexpr double smallest = 1e-9;  // of the longer side's square
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Vec3& origin = positions[at(triangles[t][0])];
+    const Vec3 a = positions[at(triangles[t][1])] - origin, b = positions[at(triangles[t][2])] - origin;
+    const double area = 0.5 * a.cross(b).norm();
+    if (area > smallest * std::max(a.squaredNorm(), b.squaredNorm())) continue;
+    std::array<char, 32> text;
+    std::snprintf(text.data(), text.size(), "%g", area);
+    throw InputError(file, "triangle " + std::to_string(t), "an area above zero", text.data());
+  }
+}
+
+LoadedBody load_body(const SceneBody& body, Hash& inputs) {
+  LoadedBody loaded;
+  switch (body.kind) {
+    case SceneBody::Kind::none:
+      break;
+    case SceneBody::Kind::cylinder:
+      loaded.solid = rounded_cylinder(body.cylinder.radius_m, body.cylinder.height_m, body.cylinder.top_m);
+      break;
+    case SceneBody::Kind::mannequin: {
+      const Mannequin mannequin = make_mannequin(body.mannequin);
+      if (body.motion && !body.motion->name.empty()) loaded.movement = movement_of(mannequin, body);
+      CollisionBody made = from_mannequin(mannequin);
+      loaded.solid = {std::move(made.positions), std::move(made.triangles)};
+      break;
+    }
+    case SceneBody::Kind::mesh: {
+      const std::string text = read_file(body.mesh);
+      inputs.add_bytes(text.data(), text.size());
+      CollisionBody read = make_collision_body(parse_obj(text, printable(body.mesh)), printable(body.mesh), body.unit);
+      check_areas(printable(body.mesh), read.positions, read.triangles);
+      loaded.solid = {std::move(read.positions), std::move(read.triangles)};
+      break;
+    }
+  }
+  return loaded;
+}
+
+LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read, Hash& inputs) {
+  LoadedCloth loaded;
+  loaded.garment = cloth.grid ? make_grid(cloth) : load_garment(cloth, read, inputs);
+  loaded.fabrics = fabrics_of(scene, cloth, loaded.garment.mesh);
+  loaded.rest_stretch = rest_stretch_of(cloth, loaded.garment.mesh);
+  loaded.pins = pins_of(cloth, loaded.garment.x);
+  if (scene.cloth.size() > 1)  // two garments may both have a "front"
+    for (std::string& panel : loaded.garment.mesh.panel_names) panel.insert(0, loaded.garment.name + '/');
+  return loaded;
+}
+
+Outfit outfit_of_grids(std::span<const LoadedCloth> grids) {
+  Outfit outfit;
+  for (const LoadedCloth& grid : grids) put_behind(outfit, grid.garment, grid.fabrics, grid.rest_stretch);
+  return outfit;
+}
+
+std::vector<Pin> pins_of(std::span<const LoadedCloth> cloth) {
+  std::vector<Pin> pins;
+  Index first = 0;
+  for (const LoadedCloth& one : cloth) {
+    for (Pin pin : one.pins) {
+      pin.particle += first;
+      pins.push_back(std::move(pin));
+    }
+    first += one.garment.mesh.particle_count;
+  }
+  return pins;
 }
 
 std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment,
@@ -192,22 +257,6 @@ std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const Garment
   return heights;
 }
 
-std::vector<Pin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) {
-  std::vector<Pin> pins;
-  for (const ScenePin& given : cloth.pins) {
-    Pin pin;
-    pin.particle = nearest_particle(x, given.near_m);
-    for (std::size_t k = 0; k < pins.size(); ++k)
-      if (pins[k].particle == pin.particle)
-        throw InputError(
-            given.where, given.pointer, "pins that hold different particles",
-            "particle " + std::to_string(pin.particle) + ", held by pin " + std::to_string(k) + " already");
-    if (given.on_path) pin.path = [path = given.path](double t_s) { return along(path, t_s); };
-    pins.push_back(std::move(pin));
-  }
-  return pins;
-}
-
 double default_offset_m(double edge_m) { return std::clamp(0.2 * edge_m, 1.5e-3, 2.5e-3); }
 
 StepOptions step_options(const Scene& scene, const Fabric& fabric) {
@@ -215,9 +264,9 @@ StepOptions step_options(const Scene& scene, const Fabric& fabric) {
   if (scene.preconditioner) step.pcg.preconditioner = *scene.preconditioner;
   step.pcg.tolerance = scene.tolerance;
   step.rows.cloth_cloth = scene.self_contact;
-  const SceneCloth& cloth = scene.cloth.front();
-  step.body.offset_m =
-      scene.body.offset_m.value_or(default_offset_m(cloth.grid ? cloth.grid->edge_m : cloth.resolution_m));
+  double edge_m = 0;
+  for (const SceneCloth& one : scene.cloth) edge_m = std::max(edge_m, one.grid ? one.grid->edge_m : one.resolution_m);
+  step.body.offset_m = scene.body.offset_m.value_or(default_offset_m(edge_m));
   step.body.friction = scene.body.friction.value_or(fabric.friction);
   return step;
 }
@@ -251,6 +300,13 @@ void add_to_hash(const Scene& scene, Hash& hash) {
   const SceneBody& body = scene.body;
   add(hash, static_cast<double>(body.kind));
   add(hash, static_cast<double>(body.unit));
+  add(hash, static_cast<double>(body.mannequin));
+  add(hash, body.motion ? 1.0 : 0.0);
+  if (body.motion) {
+    add(hash, std::string_view(body.motion->name));
+    add(hash, body.motion->fps);
+    add(hash, body.motion->blend_in_s);
+  }
   if (body.kind == SceneBody::Kind::cylinder) {
     add(hash, body.cylinder.radius_m);
     add(hash, body.cylinder.height_m);
@@ -259,8 +315,11 @@ void add_to_hash(const Scene& scene, Hash& hash) {
   add(hash, body.friction);
   add(hash, body.offset_m);
   add(hash, scene.gravity_m_per_s2);
+  add(hash, scene.air.wind_m_per_s);
+  add(hash, scene.air.density_kg_per_m3);
   add(hash, scene.fps);
   add(hash, scene.seconds);
+  add(hash, scene.drape_seconds);
   add(hash, scene.step_max_s);
   add(hash, scene.until_still ? 1.0 : 0.0);
   add(hash, scene.preconditioner ? 1.0 + static_cast<double>(*scene.preconditioner) : 0.0);

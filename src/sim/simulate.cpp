@@ -3,42 +3,24 @@
 #include "core/parallel.hpp"
 #include "core/stopwatch.hpp"
 #include "garment/placement.hpp"
-#include "garment/sewing.hpp"
-#include "sim/run_writer.hpp"
+#include "sim/dressing.hpp"
+#include "sim/outfit_run.hpp"
+#include "sim/recorder.hpp"
 #include "sim/setup.hpp"
-#include "sim/tangles.hpp"
+#include "sim/start_run.hpp"
 #include "verify/crossings.hpp"
 
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <deque>
 #include <optional>
 
 namespace toile {
 namespace {
 
-constexpr double weightless_s = 0.2, ramp_s = 0.3;    // after the weld
-constexpr double at_rest_mm_per_s = 2, rest_s = 0.5;  // when a drape may stop
 constexpr double sewing_film_fps = 30;
-constexpr double labels_held_s = 0.5, labels_fade_s = 0.5;  // after the weld
-constexpr double frictionless_s = 1;  // after the weld: the garment slips into place before friction holds it
-
-template <class... Values>
-std::string words(const char* format, Values... values) {
-  std::array<char, 512> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
-
-// What a reader of the files will see: float32.
-Vec3s as_written(std::span<const Vec3> x) {
-  Vec3s rounded(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) rounded[i] = x[i].cast<float>().cast<double>();
-  return rounded;
-}
+constexpr double rest_s = 0.5;  // after a garment has settled, before it may be said to be still
 
 double peak_memory_mb() {
   rusage usage{};
@@ -60,38 +42,13 @@ void add(PhaseReport& phase, const FrameReport& frame) {
   phase.step_max_s = std::max(phase.step_max_s, frame.step_max_s);
 }
 
-void set_seconds(PhaseReport& phase, const PhaseSeconds& seconds) {
-  phase.eval = seconds.eval;
-  phase.cg = seconds.cg;
-  phase.cloth_cloth = seconds.cloth_cloth;
-  phase.cloth_solid = seconds.cloth_solid;
-}
-
-// Where a seam is open and why.
-std::string explain(const Sewing& sewing, const GarmentMesh& garment, double weld_gap_m) {
-  constexpr std::size_t most = 5;
-  constexpr double too_small = 0.05;
-  if (sewing.weld_obstacle()) {  // the gaps are small, and not what is in the way
-    const Vec3& p = *sewing.weld_obstacle();
-    return words(
-        "every seam is closed to %.1f mm, but the weld would push cloth through cloth near (%.2f, %.2f, %.2f) m",
-        1e3 * sewing.widest_gap_m(), p.x(), p.y(), p.z());
-  }
-  std::string text;
-  std::size_t open = 0;
-  for (const SeamGap& gap : sewing.gaps()) {
-    if (gap.gap_m < weld_gap_m) continue;
-    if (++open > most) continue;
-    const std::string why = gap.stretch > too_small
-                                ? words("too small: the cloth beside it is stretched by %.0f %%", 100 * gap.stretch)
-                                : std::string("the body is in the way");
-    text += (open == 1 ? "" : "; ") + ("seam " + garment.seams[static_cast<std::size_t>(gap.seam)].name) +
-            words(" is open by %.1f mm near (%.2f, %.2f, %.2f) m, ", 1e3 * gap.gap_m, gap.where.x(), gap.where.y(),
-                  gap.where.z()) +
-            why;
-  }
-  if (open > most) text += "; and " + std::to_string(open - most) + " more seams";
-  return text;
+// Of what happened since `before`.
+void set_seconds(PhaseReport& phase, const PhaseSeconds& seconds, const PhaseSeconds& before = {}) {
+  phase.eval = seconds.eval - before.eval;
+  phase.cg = seconds.cg - before.cg;
+  phase.cloth_cloth = seconds.cloth_cloth - before.cloth_cloth;
+  phase.cloth_solid = seconds.cloth_solid - before.cloth_solid;
+  phase.body = seconds.body - before.body;
 }
 
 class Run {
@@ -101,29 +58,15 @@ class Run {
   Report operator()() {
     Hash inputs;
     add_to_hash(scene_, inputs);
-    const SceneCloth& cloth = scene_.cloth.front();
     say("meshing", 0);
-    const bool sewn = !cloth.grid;
-    if (sewn) {
-      garment_ = load_garment(cloth, options_.read, inputs);
-      start_ = {garment_.x, {}};
-      mesh_ = garment_.mesh;
-      name_ = garment_.name;
-    } else {
-      PlacedGrid grid = make_grid(cloth);
-      start_ = {std::move(grid.x), {}};
-      mesh_ = std::move(grid.mesh);
-      name_ = cloth.name;
-    }
-    fabrics_ = fabrics_of(scene_, mesh_);
-    b_of_panel_ = rest_stretch_of(cloth, mesh_);
-    pins_ = pins_of(cloth, start_.x);
-    SolidMesh solid = load_body(scene_.body, inputs);
+    load_cloth(inputs);
+    LoadedBody loaded = load_body(scene_.body, inputs);
+    motion_ = std::move(loaded.movement);
+    SolidMesh& solid = loaded.solid;
     body_x_ = solid.positions;
     body_triangles_ = solid.triangles;
     if (!body_triangles_.empty()) body_.emplace(std::move(solid.positions), std::move(solid.triangles));
-    step_ = step_options(scene_, fabrics_.front());
-    start_.v.assign(start_.x.size(), Vec3::Zero());
+    step_ = step_options(scene_, cloth_.front().fabrics.front());
 
     report_.name = scene_.name;
     report_.command = options_.command;
@@ -132,16 +75,22 @@ class Run {
     report_.fps = scene_.fps;
     report_.body_vertices = static_cast<int>(body_x_.size());
     report_.body_triangles = static_cast<int>(body_triangles_.size());
-    report_.vertices = mesh_.particle_count;
-    report_.triangles = mesh_.triangle_count();
-    report_.panels = static_cast<int>(mesh_.panel_names.size());
-    report_.seams = static_cast<int>(garment_.seams.size());
+    for (const LoadedCloth& cloth : cloth_) {
+      report_.vertices += cloth.garment.mesh.particle_count;
+      report_.triangles += cloth.garment.mesh.triangle_count();
+      report_.panels += static_cast<int>(cloth.garment.mesh.panel_names.size());
+      report_.seams += static_cast<int>(cloth.garment.seams.size());
+    }
 
     writer_.emplace(options_.directory);
-    bool whole = true;
-    if (sewn) whole = sew();
-    if (!sewn) check_start();
-    if (whole) drape(sewn);
+    if (put_on()) {
+      report_.vertices = outfit_.mesh.particle_count;
+      for (std::size_t p = 0; p < outfit_.rest_stretch.size(); ++p) {
+        const Vec2& b = outfit_.rest_stretch[p];
+        if (b != Vec2(1, 1)) report_.rest_stretch.push_back({outfit_.mesh.panel_names[p], {b.y(), b.x()}});
+      }
+      live();
+    }
     return finish();
   }
 
@@ -151,66 +100,86 @@ class Run {
   }
   bool stopped() const { return options_.stop && options_.stop(); }
   BodySurface* body() { return body_ ? &*body_ : nullptr; }
+  bool sewn() const { return !scene_.cloth.front().grid; }
 
   void end(std::string_view how, std::string detail) {
     report_.ended = how;
     failure_.push_back({std::string(how), std::move(detail)});
   }
 
-  void bad_start(const std::string& what) {
-    if (scene_.strict_start) throw Error(ExitCode::bad_start, printable(name_) + ": bad start: " + what);
+  void bad_start(const std::string& name, const std::string& what) {
+    if (scene_.strict_start) throw Error(ExitCode::bad_start, printable(name) + ": bad start: " + what);
     report_.warnings.push_back("bad start: " + what);
   }
 
-  void check_start() {
-    const auto self = find_cloth_crossings(mesh_.triangles, start_.x);
-    if (!self.empty()) bad_start(std::to_string(count_edges(self)) + " edges of the cloth pass through it");
-    if (!body_) return;
-    const auto through = find_body_crossings(mesh_.triangles, start_.x, body_triangles_, body_x_);
-    if (!through.empty()) bad_start(std::to_string(count_edges(through)) + " edges pass between cloth and body");
+  void load_cloth(Hash& inputs) {
+    for (const SceneCloth& cloth : scene_.cloth)
+      cloth_.push_back(toile::load_cloth(scene_, cloth, options_.read, inputs));
   }
 
-  void place() {
+  void check_start() {
+    const auto self = find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x);
+    const std::string& name = outfit_.parts.front().name;
+    if (!self.empty()) bad_start(name, std::to_string(count_edges(self)) + " edges of the cloth pass through it");
+    if (!body_) return;
+    const auto through = find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_);
+    if (!through.empty()) bad_start(name, std::to_string(count_edges(through)) + " edges pass between cloth and body");
+  }
+
+  void place(GarmentMesh& garment) {
     if (!body_) return;
     say("placing", 0);
-    const Placement placement = place_garment(garment_, *body_);
+    const Placement placement = place_garment(garment, *body_);
     report_.shift_m = placement.shift_m;
     if (placement.panel_crossings > 0)
-      bad_start(std::to_string(placement.panel_crossings) + " edges of the placed panels pass through the body");
+      bad_start(garment.name,
+                std::to_string(placement.panel_crossings) + " edges of the placed panels pass through the body");
     for (const Index seam : placement.blocked_seams)
       report_.warnings.push_back("the straight way between the two sides of seam " +
-                                 garment_.seams[static_cast<std::size_t>(seam)].name + " leads through the body");
-    start_.x = garment_.x;
+                                 garment.seams[static_cast<std::size_t>(seam)].name + " leads through the body");
   }
 
-  // Panels that are drawn through each other.  Left alone for the whole sewing: the drape looks again.
-  void leave_tangles(Sewing& sewing) {
-    Tangles tangles;
-    tangles.find(garment_.mesh.triangles, garment_.x);
-    if (!tangles.any()) return;
-    bad_start("placed panels pass through each other");
-    std::vector<double> scale = sewing.thickness_scale();
-    tangles.switch_off(garment_.x, scale);
-    sewing.set_thickness_scale(std::move(scale));
+  // Fills the outfit; false when a garment could not be closed or did not come to its drape.
+  bool put_on() {
+    if (!scene_.start.empty()) {
+      outfit_ = start_from(scene_.start, cloth_, body_x_);
+      check_start();
+      return true;
+    }
+    if (!sewn()) {
+      outfit_ = outfit_of_grids(cloth_);
+      check_start();
+      return true;
+    }
+    for (std::size_t k = 0; k < cloth_.size(); ++k) {
+      if (!sew(k)) return false;
+      if (k + 1 < cloth_.size() && !drape_inner(k)) return false;
+    }
+    return true;
   }
 
-  // False when the garment could not be closed.  Leaves the welded garment in mesh_ and start_.
-  bool sew() {
-    place();
+  // Leaves the outfit welded, with the garment on.
+  bool sew(std::size_t k) {
+    LoadedCloth& cloth = cloth_[k];
+    GarmentMesh& garment = cloth.garment;
+    place(garment);
     SewingOptions sewing_options;
     sewing_options.step_max_s = scene_.step_max_s.value_or(1 / sewing_options.fps);
     sewing_options.paper_scaling = scene_.paper_scaling;
     sewing_options.damping_jacobian = scene_.damping_jacobian;
     sewing_options.label_heights =
-        label_heights_of(scene_.cloth.front(), garment_, body_x_, body_triangles_, report_.warnings);
+        label_heights_of(scene_.cloth[k], garment, body_x_, body_triangles_, report_.warnings);
     sewing_options.stop = options_.stop;
-    Sewing sewing(garment_, fabrics_, body(), step_, sewing_options);
-    leave_tangles(sewing);
-    writer_->begin_sewing(garment_.mesh, name_, garment_.x);
+    Dressing dressing(outfit_, garment, cloth.fabrics, cloth.rest_stretch, body(), step_, sewing_options);
+    if (dressing.tangled()) bad_start(garment.name, "placed panels pass through each other");
+    Sewing& sewing = dressing.sewing();
+    const bool filmed = k == 0;  // the panels of the others come with what is worn: another mesh
+    if (filmed) writer_->begin_sewing(garment.mesh, garment.name, garment.x);
     const int every = std::max(1, static_cast<int>(std::lround(sewing_options.fps / sewing_film_fps)));
     Stopwatch watch;
     PhaseReport& phase = report_.sewing;
     FrameReport frame;
+    int frames = 0;
     while (sewing.status() == SewingStatus::sewing && !stopped()) {
       {
         const Timed timed(phase.seconds);
@@ -218,169 +187,149 @@ class Run {
       }
       if (frame.interrupted) break;
       add(phase, frame);
-      if (phase.frames % every == 0 || sewing.status() != SewingStatus::sewing) writer_->sewing_frame(sewing.state().x);
+      ++frames;
+      if (filmed && (frames % every == 0 || sewing.status() != SewingStatus::sewing))
+        writer_->sewing_frame(sewing.state().x);
       const double share = sewing.closed_share();
       say("sewing", share, share > 0.05 ? watch.seconds() * (1 - share) / share : -1);
     }
-    phase.simulated_s = sewing.time_s();
-    set_seconds(phase, sewing.seconds());
+    phase.simulated_s += sewing.time_s();
+    const PhaseSeconds seconds = sewing.seconds();
+    phase.eval += seconds.eval;
+    phase.cg += seconds.cg;
+    phase.cloth_cloth += seconds.cloth_cloth;
+    phase.cloth_solid += seconds.cloth_solid;
+    const std::string which = cloth_.size() > 1 ? printable(garment.name) + ": " : "";
     switch (sewing.status()) {
       case SewingStatus::closed:
         break;
       case SewingStatus::sewing:
-        end(reason::interrupted, "while sewing, after " + std::to_string(phase.frames) + " frames");
+        end(reason::interrupted, which + "while sewing, after " + std::to_string(frames) + " frames");
         break;
       case SewingStatus::blocked:
-        end(reason::seam_blocked, explain(sewing, garment_, sewing_options.weld_gap_m));
+        end(reason::seam_blocked, which + dressing.explain());
         break;
       case SewingStatus::failed:
-        end(reason::step_collapsed, "while sewing: " + frame.diagnosis);
+        end(reason::step_collapsed, which + "while sewing: " + frame.diagnosis);
         break;
     }
     if (sewing.status() != SewingStatus::closed) {
-      final_ = sewing.state();
+      outfit_.state = sewing.state();  // for the hash
       return false;
     }
-    const WeldedMesh welded = weld(garment_);
-    start_ = weld_state(garment_, welded, sewing.model(), sewing.state());
-    thickness_scale_ = weld_thickness(welded, sewing.thickness_scale());
-    labels_ = LabelSprings(garment_, sewing_options.label_heights).welded(welded.particle_of);
-    mesh_ = welded.mesh;
-    report_.vertices = mesh_.particle_count;
+    settling_ = {true, outfit_.mesh.particle_count, dressing.labels()};
+    outfit_ = dressing.worn();
     return true;
   }
 
-  // Share of gravity and of the elastic's pull at time t after the weld.
-  static double ramp(double t_s) { return std::clamp((t_s - weightless_s) / ramp_s, 0.0, 1.0); }
-
-  void set_rest_stretch(ClothModel& model, double share) const {
-    for (std::size_t t = 0; t < model.membrane.size(); ++t) {
-      const Vec2& b = b_of_panel_[static_cast<std::size_t>(mesh_.panel[t])];
-      model.membrane[t].b_u = 1 + share * (b.x() - 1);
-      model.membrane[t].b_v = 1 + share * (b.y() - 1);
-    }
-  }
-
-  void begin_audit() {
-    RunDescription run;
-    run.mesh = drawn_mesh(mesh_);
-    const bool elastic =
-        std::any_of(b_of_panel_.begin(), b_of_panel_.end(), [](const Vec2& b) { return b != Vec2(1, 1); });
-    if (elastic) {
-      for (const Index panel : mesh_.panel) {
-        const Vec2& b = b_of_panel_[static_cast<std::size_t>(panel)];
-        run.b.emplace_back(b.y(), b.x());  // the first axis of vt is the weft: run_writer.hpp
+  // A garment that another one goes over comes to rest first; nothing of it is written.
+  bool drape_inner(std::size_t k) {
+    OutfitRun run(scene_, outfit_, {}, body(), step_, settling_, options_.stop);
+    const int frames = frames_in(scene_.drape_seconds);
+    Vec3s before = outfit_.state.x;
+    int slow = 0;
+    for (int f = 1; f < frames && slow < rest_s * scene_.fps; ++f) {
+      const FrameReport frame = run.frame();
+      if (frame.interrupted || !frame.ok) {
+        end(frame.ok ? reason::interrupted : reason::step_collapsed,
+            "while " + printable(cloth_[k].garment.name) + " was draped: " + frame.diagnosis);
+        return false;
       }
-      for (std::size_t p = 0; p < b_of_panel_.size(); ++p)
-        if (b_of_panel_[p] != Vec2(1, 1))
-          report_.rest_stretch.push_back({mesh_.panel_names[p], {b_of_panel_[p].y(), b_of_panel_[p].x()}});
+      slow =
+          run.settled() && speed_p99_mm_per_s(before, outfit_.state.x, scene_.fps) < inner_rest_mm_per_s ? slow + 1 : 0;
+      before = outfit_.state.x;
+      say("draping", static_cast<double>(f) / frames);
     }
-    run.body_triangles = body_triangles_;
-    run.body_particle_count = static_cast<Index>(body_x_.size());
-    run.fps = scene_.fps;
-    audit_.emplace(std::move(run));
-    written_body_ = as_written(body_x_);
+    outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
+    return true;
   }
 
-  void drape(bool sewn) {
-    ModelOptions model_options;
-    model_options.gravity_m_per_s2 = scene_.gravity_m_per_s2;
-    model_options.paper_scaling = scene_.paper_scaling;
-    model_options.damping_jacobian = scene_.damping_jacobian;
-    ClothModel model = build_model(mesh_, fabrics_, model_options);
-    StepWorld world;
-    world.body = body();
-    world.pins = pins_;
-    AdaptiveOptions adaptive;
-    const double frame_s = 1 / scene_.fps;
-    adaptive.stop = options_.stop;
-    adaptive.step_max_s = scene_.step_max_s.value_or(sewn ? 1.0 / 60 : frame_s);
-    double label_strength = 0;
-    if (!labels_.empty()) {
-      world.springs = [&](const ClothState& at, double, double, std::vector<LinearSpring>& springs) {
-        labels_.append(at, label_strength, springs);
-      };
-    }
-    AdaptiveStep stepper(model, world, step_, adaptive);
-    set_rest_stretch(model, 1);
+  int frames_in(double seconds) const { return std::max(1, static_cast<int>(std::lround(seconds * scene_.fps))); }
 
-    begin_audit();
-    ClothState state = start_;
-    Tangles tangles;
-    tangles.find(mesh_.triangles, state.x);
-    if (thickness_scale_.empty()) thickness_scale_.assign(state.x.size(), 1);
-    Vec3s written = as_written(state.x);
-    writer_->begin_cloth(mesh_, name_, state.x, body_triangles_, body_x_);
-    audit_->add(written, written_body_);
-
-    const int frames = std::max(1, static_cast<int>(std::lround(scene_.seconds * scene_.fps)));
-    std::deque<double> speeds;  // of the last second
-    Stopwatch watch;
+  // From the first written frame to the last: drape, then motion.
+  void live() {
+    OutfitRun run(scene_, outfit_, sewn() ? std::vector<Pin>{} : pins_of(cloth_), body(), step_, settling_,
+                  options_.stop);
+    recorder_.emplace(*writer_, outfit_, scene_.fps, body_triangles_, body_x_);
     PhaseReport& phase = report_.drape;
     report_.ended = "time";
-    for (int k = 1; k < frames; ++k) {
-      const double t_s = (k - 1) * frame_s;
-      if (sewn) {
-        label_strength = std::clamp(1 - (t_s - labels_held_s) / labels_fade_s, 0.0, 1.0);
-        model.gravity_m_per_s2 = ramp(t_s) * scene_.gravity_m_per_s2;
-        set_rest_stretch(model, ramp(t_s));
-        stepper.integrator().body_constraints().set_friction(t_s < frictionless_s ? 0 : step_.body.friction);
-      }
-      if (!sewn || t_s >= weightless_s + ramp_s) grow_thickness(thickness_scale_);
-      if (tangles.any()) tangles.find(mesh_.triangles, state.x);
-      tangles.switch_off(state.x, thickness_scale_);  // also where sewing had left it so
-      stepper.integrator().contact_rows().set_thickness_scale(thickness_scale_);
-      FrameReport frame;
-      {
-        const Timed timed(phase.seconds);
-        frame = stepper.advance(state, t_s, frame_s);
-      }
-      if (frame.interrupted) {
-        end(reason::interrupted, "while draping, after frame " + std::to_string(k - 1));
-        break;
-      }
-      add(phase, frame);
-      if (!frame.ok) {
-        end(reason::step_collapsed, "in frame " + std::to_string(k) + ": " + frame.diagnosis);
-        break;
-      }
-      Vec3s before = std::move(written);
-      written = as_written(state.x);
-      writer_->cloth_frame(state.x, body_x_);
-      audit_->add(written, written_body_);
-      speeds.push_back(speed_p99_mm_per_s(before, written, scene_.fps));
-      if (static_cast<double>(speeds.size()) > std::max(1.0, std::round(scene_.fps))) speeds.pop_front();
-      say("draping", static_cast<double>(k) / frames, watch.seconds() * (frames - 1 - k) / k);
-      if (scene_.until_still && (!sewn || t_s > weightless_s + ramp_s + rest_s) && at_rest(speeds)) {
-        report_.ended = "still";
+    const bool moving = motion_.has_value();
+    const int drape_frames =
+        moving ? (scene_.drape_seconds > 0 ? frames_in(scene_.drape_seconds) : 1) : frames_in(scene_.seconds);
+    Stopwatch watch;
+    for (int k = 1; k < drape_frames; ++k) {
+      if (!frame(run, phase, "draping", k)) return close(run);
+      say("draping", static_cast<double>(k) / drape_frames, watch.seconds() * (drape_frames - 1 - k) / k);
+      if ((scene_.until_still || moving) && run.settled() && run.time_s() - frame_s() > settle_s() + rest_s &&
+          recorder_->at_rest()) {
+        if (!moving) report_.ended = "still";
         break;
       }
     }
-    phase.simulated_s = phase.frames * frame_s;
-    set_seconds(phase, stepper.integrator().seconds());
-    final_ = std::move(state);
+    if (moving) animate(run);
+    close(run);
   }
 
-  bool at_rest(const std::deque<double>& speeds) const {
-    const auto recent = static_cast<std::size_t>(std::max(1.0, std::ceil(rest_s * scene_.fps)));
-    if (speeds.size() < recent) return false;
-    const double limit = Limits{}.still_mm_per_s;
-    return std::all_of(speeds.begin(), speeds.end(), [&](double v) { return v <= limit; }) &&
-           std::all_of(speeds.end() - static_cast<std::ptrdiff_t>(recent), speeds.end(),
-                       [](double v) { return v <= at_rest_mm_per_s; });
+  void animate(OutfitRun& run) {
+    run.start_motion(motion_->at);
+    PhaseReport& phase = report_.motion;
+    report_.motion_name = motion_->name;
+    report_.motion_first_frame = writer_->cloth_frames() - 1;
+    const PhaseSeconds before = run.seconds();
+    const int frames = frames_in(scene_.seconds);
+    Stopwatch watch;
+    for (int k = 1; k <= frames; ++k) {
+      motion_->at(static_cast<double>(k) * frame_s(), body_x_);
+      const double drape_seconds = report_.drape.seconds;
+      const bool good = frame(run, report_.drape, "moving", k, &phase);
+      phase.seconds += report_.drape.seconds - drape_seconds;
+      if (!good) break;
+      say("moving", static_cast<double>(k) / frames, watch.seconds() * (frames - k) / k);
+    }
+    phase.simulated_s = phase.frames * frame_s();
+    set_seconds(phase, run.seconds(), before);
+  }
+
+  double frame_s() const { return 1 / scene_.fps; }
+  double settle_s() const { return settling_.sewn ? OutfitRun::settling_s : -rest_s; }
+
+  // One frame, simulated and written; false when it is the last for a bad reason.
+  bool frame(OutfitRun& run, PhaseReport& phase, std::string_view what, int k, PhaseReport* also = nullptr) {
+    FrameReport frame;
+    {
+      const Timed timed(phase.seconds);
+      frame = run.frame();
+    }
+    if (frame.interrupted) {
+      end(reason::interrupted, "while " + std::string(what) + ", after frame " + std::to_string(k - 1));
+      return false;
+    }
+    add(phase, frame);
+    if (also != nullptr) add(*also, frame);
+    if (!frame.ok) {
+      end(reason::step_collapsed, "in frame " + std::to_string(k) + ": " + frame.diagnosis);
+      return false;
+    }
+    recorder_->frame(outfit_.state.x, body_x_);
+    return true;
+  }
+
+  void close(const OutfitRun& run) {
+    report_.drape.simulated_s = report_.drape.frames * frame_s();
+    set_seconds(report_.drape, run.seconds());
   }
 
   Report finish() {
     Hash state;
-    state.add(std::span<const Vec3>(final_.x));
-    state.add(std::span<const Vec3>(final_.v));
+    state.add(std::span<const Vec3>(outfit_.state.x));
+    state.add(std::span<const Vec3>(outfit_.state.v));
     report_.state_hash = state.hex();
     report_.frames = writer_->cloth_frames();
     Limits limits;
-    limits.must_be_still = scene_.until_still;
+    limits.must_be_still = scene_.until_still && !motion_;
     report_.verdict.limits = limits;
-    if (audit_) {
-      report_.audit = audit_->report();
+    if (recorder_) {
+      report_.audit = recorder_->report();
       report_.audit.must_be_still = limits.must_be_still;
       report_.verdict = judge(report_.audit, limits);
     }
@@ -393,26 +342,23 @@ class Run {
     return report_;
   }
 
+  static constexpr double inner_rest_mm_per_s = 10;
+
   const Scene& scene_;
   const RunOptions& options_;
   Stopwatch total_;
   Report report_;
   std::vector<Reason> failure_;
-  GarmentMesh garment_;
-  ClothMesh mesh_;
-  std::string name_;
-  std::vector<double> thickness_scale_;  // [welded particle]
-  LabelSprings labels_;                  // on the welded cloth
-  ClothState start_, final_;
-  std::vector<Fabric> fabrics_;
-  std::vector<Vec2> b_of_panel_;
-  std::vector<Pin> pins_;
-  Vec3s body_x_, written_body_;
+  std::vector<LoadedCloth> cloth_;
+  Outfit outfit_;
+  Settling settling_;
+  Vec3s body_x_;  // at the last frame
   std::vector<Triangle> body_triangles_;
   std::optional<BodySurface> body_;
+  std::optional<BodyMovement> motion_;
   StepOptions step_;
   std::optional<RunWriter> writer_;
-  std::optional<RunAudit> audit_;
+  std::optional<Recorder> recorder_;
 };
 
 }  // namespace

@@ -175,11 +175,21 @@ TEST(BadInput, AFabricThatDoesNotExistIsAnsweredWithTheNearest) {
                        {"/cloth/0/fabric", "nearest is \"cotton\"", "coton"});
 }
 TEST(BadInput, WhatIsNotAvailableYetIsRefusedAndNotIgnored) {
-  expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"world\": {\"wind_m_per_s\": [1, 0, 0]}}",
-                       {"/world/wind_m_per_s", "not available yet"});
-  expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"body\": {\"mannequin\": \"woman\", \"motion\": \"walk\"}}",
-                       {"/body/motion", "not available yet"});
-  expect_scene_refused("{\"cloth\": [{\"grid\": {}}, {\"grid\": {}}]}", {"/cloth", "not available yet"});
+  expect_scene_refused("{\"cloth\": [{\"pattern\": \"p.json\", \"pins\": [{\"near_m\": [0, 0, 0]}]}]}",
+                       {"/cloth/0/pins", "not available yet"});
+}
+TEST(BadInput, GridsAndPatternsDoNotMix) {
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}}, {\"pattern\": \"p.json\"}]}", {"/cloth/1", "the other kind"});
+}
+TEST(BadInput, TwoGarmentsOfOneNameAreRefused) {
+  expect_scene_refused("{\"cloth\": [{\"name\": \"a\", \"grid\": {}}, {\"name\": \"a\", \"grid\": {}}]}",
+                       {"/cloth/1", "no other cloth has", "\"a\""});
+}
+TEST(BadInput, AMotionThatNoMannequinHasIsAnsweredWithTheNearest) {
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"body\": {\"mannequin\": \"man\", \"motion\": \"wlak\"}}",
+                       {"/body/motion", "nearest is \"walk\"", "wlak"});
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"body\": {\"cylinder\": {}, \"motion\": \"walk\"}}",
+                       {"/body/motion", "body that can move"});
 }
 
 TEST(BadInput, AnOutputThatCannotBeWritten) {

@@ -136,7 +136,8 @@ TEST(Run, APinFollowsItsPathAndAnotherStays) {
   std::vector<Vec3> first, last;
   frames.read(0, first);
   frames.read(frames.samples() - 1, last);
-  const std::vector<Pin> pins = pins_of(scene.cloth.front(), first);
+  Hash inputs;
+  const std::vector<Pin> pins = load_cloth(scene, scene.cloth.front(), read_text_file, inputs).pins;
   ASSERT_EQ(pins.size(), 2u);
   const auto fixed = static_cast<std::size_t>(pins[0].particle), moved = static_cast<std::size_t>(pins[1].particle);
   EXPECT_LT((last[fixed] - first[fixed]).norm(), 1e-6);

@@ -1,0 +1,84 @@
+#include "sim/dressing.hpp"
+
+#include "sim/tangles.hpp"
+
+#include <array>
+#include <cstdio>
+
+namespace toile {
+namespace {
+
+template <class... Values>
+std::string words(const char* format, Values... values) {
+  std::array<char, 512> text;
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+}  // namespace
+
+Dressing::Dressing(const Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric> fabrics,
+                   std::span<const Vec2> rest_stretch, BodySurface* body, const StepOptions& step,
+                   SewingOptions options)
+    : outfit_(outfit), options_(std::move(options)), panels_(over(outfit, garment)) {
+  OutfitPart part;
+  part.name = garment.name;
+  part.first_panel = static_cast<Index>(outfit.mesh.panel_names.size());
+  part.panels = static_cast<Index>(garment.mesh.panel_names.size());
+  outfit_.parts.push_back(std::move(part));
+  outfit_.fabrics.insert(outfit_.fabrics.end(), fabrics.begin(), fabrics.end());
+  outfit_.rest_stretch.insert(outfit_.rest_stretch.end(), rest_stretch.begin(), rest_stretch.end());
+  outfit_.seams += static_cast<int>(garment.seams.size());
+  options_.held_particles = outfit.mesh.particle_count;
+  sewing_.emplace(panels_, outfit_.fabrics, body, step, options_);
+
+  Tangles tangles;
+  tangles.find(panels_.mesh.triangles, panels_.x);
+  tangled_ = tangles.any();
+  if (!tangled_) return;
+  std::vector<double> scale = sewing_->thickness_scale();
+  tangles.switch_off(panels_.x, scale);
+  sewing_->set_thickness_scale(std::move(scale));
+}
+
+std::string Dressing::explain() const {
+  constexpr std::size_t most = 5;
+  constexpr double too_small = 0.05;
+  if (sewing_->weld_obstacle()) {  // the gaps are small, and not what is in the way
+    const Vec3 p = *sewing_->weld_obstacle();
+    return words(
+        "every seam is closed to %.1f mm, but the weld would push cloth through cloth near (%.2f, %.2f, %.2f) m",
+        1e3 * sewing_->widest_gap_m(), p.x(), p.y(), p.z());
+  }
+  std::string text;
+  std::size_t open = 0;
+  for (const SeamGap& gap : sewing_->gaps()) {
+    if (gap.gap_m < options_.weld_gap_m) continue;
+    if (++open > most) continue;
+    const std::string why = gap.stretch > too_small
+                                ? words("too small: the cloth beside it is stretched by %.0f %%", 100 * gap.stretch)
+                                : std::string("the body is in the way");
+    text += (open == 1 ? "" : "; ") + ("seam " + panels_.seams[static_cast<std::size_t>(gap.seam)].name) +
+            words(" is open by %.1f mm near (%.2f, %.2f, %.2f) m, ", 1e3 * gap.gap_m, gap.where.x(), gap.where.y(),
+                  gap.where.z()) +
+            why;
+  }
+  if (open > most) text += "; and " + std::to_string(open - most) + " more seams";
+  return text;
+}
+
+Outfit Dressing::worn() const {
+  Outfit worn = outfit_;
+  const WeldedMesh welded = weld(panels_);
+  worn.state = weld_state(panels_, welded, sewing_->model(), sewing_->state());
+  worn.thickness_scale = weld_thickness(welded, sewing_->thickness_scale());
+  worn.mesh = welded.mesh;
+  worn.parts.back().particles = welded.mesh.particle_count - options_.held_particles;
+  return worn;
+}
+
+LabelSprings Dressing::labels() const {
+  return LabelSprings(panels_, options_.label_heights).welded(weld(panels_).particle_of);
+}
+
+}  // namespace toile

@@ -1,0 +1,39 @@
+// sim/dressing.hpp: puts one more garment on: its panels placed, sewn around body and outfit, and welded.
+#pragma once
+#include "garment/sewing.hpp"
+#include "sim/outfit.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace toile {
+
+class Dressing {
+ public:
+  // `garment` is placed already, its panels have the fabrics and elastic of the two spans.  What the outfit has is held
+  // where it is.  `body` may be null.
+  Dressing(const Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric> fabrics,
+           std::span<const Vec2> rest_stretch, BodySurface* body, const StepOptions& step, SewingOptions options);
+  Dressing(const Dressing&) = delete;
+  Dressing& operator=(const Dressing&) = delete;
+
+  // Panels that start through each other or through the outfit: their contact is switched off there, for the whole sewing.
+  bool tangled() const { return tangled_; }
+  Sewing& sewing() { return *sewing_; }
+  const GarmentMesh& panels() const { return panels_; }  // the outfit's and the garment's
+  std::string explain() const;                           // where a seam is open, and why
+  // The outfit with the garment on, once the seams are closed; its particles come to rest from where sewing left them.
+  Outfit worn() const;
+  // Springs of the labels that hold the new garment, on the particles of worn().
+  LabelSprings labels() const;
+
+ private:
+  Outfit outfit_;  // worn until now, with the new garment's fabrics behind its own
+  SewingOptions options_;
+  GarmentMesh panels_;
+  bool tangled_ = false;
+  std::optional<Sewing> sewing_;
+};
+
+}  // namespace toile

@@ -1,0 +1,91 @@
+#include "sim/outfit_run.hpp"
+
+#include "garment/sewing.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace toile {
+namespace {
+
+constexpr double weightless_s = 0.2, ramp_s = 0.3;  // after the weld
+static_assert(weightless_s + ramp_s == OutfitRun::settling_s);
+constexpr double labels_held_s = 0.5, labels_fade_s = 0.5;  // after the weld
+constexpr double frictionless_s = 1;  // after the weld: the garment slips into place before friction holds it
+constexpr double sewn_step_max_s = 1.0 / 60;
+
+// Share of gravity and of the elastic's pull at time t after the weld.
+double ramp(double t_s) { return std::clamp((t_s - weightless_s) / ramp_s, 0.0, 1.0); }
+
+}  // namespace
+
+OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, std::vector<Pin> pins, BodySurface* body,
+                     const StepOptions& step, Settling settling, std::function<bool()> stop)
+    : scene_(&scene), outfit_(&outfit), settling_(std::move(settling)), pins_(std::move(pins)), step_(step) {
+  ModelOptions options;
+  options.gravity_m_per_s2 = scene.gravity_m_per_s2;
+  options.paper_scaling = scene.paper_scaling;
+  options.damping_jacobian = scene.damping_jacobian;
+  model_ = build_model(outfit.mesh, outfit.fabrics, options);
+  world_.body = body;
+  world_.air = scene.air;
+  world_.pins = pins_;
+  for (Index i = 0; i < settling_.held_particles; ++i) {
+    Pin held;
+    held.particle = i;
+    world_.pins.push_back(std::move(held));
+  }
+  if (!settling_.labels.empty()) {
+    world_.springs = [this](const ClothState& at, double, double, std::vector<LinearSpring>& springs) {
+      settling_.labels.append(at, label_strength_, springs);
+    };
+  }
+  AdaptiveOptions adaptive;
+  adaptive.stop = std::move(stop);
+  adaptive.step_max_s = scene.step_max_s.value_or(scene.cloth.front().grid ? 1 / scene.fps : sewn_step_max_s);
+  stepper_.emplace(model_, world_, step_, adaptive);
+  set_rest_stretch(1);
+  if (outfit.thickness_scale.empty()) outfit.thickness_scale.assign(outfit.state.x.size(), 1);
+  tangles_.find(outfit.mesh.triangles, outfit.state.x);
+}
+
+bool OutfitRun::settled() const { return !settling_.sewn || time_s() >= settling_s; }
+
+void OutfitRun::set_rest_stretch(double share) {
+  for (std::size_t t = 0; t < model_.membrane.size(); ++t) {
+    const Vec2& b = outfit_->rest_stretch[static_cast<std::size_t>(outfit_->mesh.panel[t])];
+    model_.membrane[t].b_u = 1 + share * (b.x() - 1);
+    model_.membrane[t].b_v = 1 + share * (b.y() - 1);
+  }
+}
+
+void OutfitRun::settle() {
+  const double t_s = time_s();
+  const bool first = settling_.held_particles == 0;  // with friction off, what is worn below would slide down
+  label_strength_ = std::clamp(1 - (t_s - labels_held_s) / labels_fade_s, 0.0, 1.0);
+  model_.gravity_m_per_s2 = ramp(t_s) * scene_->gravity_m_per_s2;
+  set_rest_stretch(ramp(t_s));
+  if (t_s >= settling_s && world_.pins.size() > pins_.size()) world_.pins = pins_;
+  const double slippery_s = first ? frictionless_s : settling_s;
+  stepper_->integrator().body_constraints().set_friction(t_s < slippery_s ? 0 : step_.body.friction);
+}
+
+void OutfitRun::start_motion(BodyAt body_at) {
+  motion_ = std::move(body_at);
+  motion_start_s_ = time_s();
+  world_.body_at = [this](double t_s, std::span<Vec3> x) { motion_(std::max(0.0, t_s - motion_start_s_), x); };
+}
+
+FrameReport OutfitRun::frame() {
+  if (settling_.sewn) settle();
+  std::vector<double>& thickness = outfit_->thickness_scale;
+  if (settled()) grow_thickness(thickness);
+  if (tangles_.any()) tangles_.find(outfit_->mesh.triangles, outfit_->state.x);
+  tangles_.switch_off(outfit_->state.x, thickness);  // also where sewing had left it so
+  stepper_->integrator().contact_rows().set_thickness_scale(thickness);
+  const FrameReport report = stepper_->advance(outfit_->state, time_s(), 1 / scene_->fps);
+  if (!report.interrupted && report.ok) ++frames_;
+  return report;
+}
+
+}  // namespace toile

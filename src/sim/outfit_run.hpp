@@ -1,0 +1,66 @@
+// sim/outfit_run.hpp: an outfit in time: it settles after the weld, comes to rest, and follows the body.
+//
+//   after a weld   0.2 s weightless, 0.3 s in which gravity and elastic grow; what was worn before is held that long.
+//                  A single garment slips on the body for 1 s before friction holds it; labels let go between 0.5 and 1 s.
+//   then           as the scene says.  start_motion() lets the body move from the next frame on.
+#pragma once
+#include "garment/label_heights.hpp"
+#include "sim/outfit.hpp"
+#include "sim/scene.hpp"
+#include "sim/tangles.hpp"
+#include "step/adaptive_step.hpp"
+
+#include <functional>
+#include <optional>
+#include <span>
+
+namespace toile {
+
+// Where a body's vertices are, t seconds after the motion began.
+using BodyAt = std::function<void(double t_s, std::span<Vec3> x)>;
+
+struct Settling {            // of a garment that has just been sewn
+  bool sewn = false;         // false: nothing to settle (a grid, or a drape that is taken up again)
+  Index held_particles = 0;  // worn before
+  LabelSprings labels;       // hold the new garment for a while
+};
+
+class OutfitRun {
+ public:
+  // `outfit` and `scene` must outlive this object; the outfit's state and thickness are advanced in place.  `body` may be null.
+  OutfitRun(const Scene& scene, Outfit& outfit, std::vector<Pin> pins, BodySurface* body, const StepOptions& step,
+            Settling settling, std::function<bool()> stop);
+  static constexpr double settling_s = 0.5;  // until gravity and elastic are full
+  OutfitRun(const OutfitRun&) = delete;
+  OutfitRun& operator=(const OutfitRun&) = delete;
+
+  // Advances by one frame of the scene.
+  FrameReport frame();
+  // From the next frame on the body moves: `body_at(0)` is where it is now.
+  void start_motion(BodyAt body_at);
+
+  double time_s() const { return static_cast<double>(frames_) * (1 / scene_->fps); }
+  // Gravity, elastic and friction are what the scene says.
+  bool settled() const;
+  PhaseSeconds seconds() const { return stepper_->integrator().seconds(); }
+  const ClothModel& model() const { return model_; }
+
+ private:
+  void settle();
+  void set_rest_stretch(double share);
+
+  const Scene* scene_;
+  Outfit* outfit_;
+  Settling settling_;
+  std::vector<Pin> pins_;  // of the scene
+  StepOptions step_;
+  ClothModel model_;
+  StepWorld world_;
+  Tangles tangles_;
+  double label_strength_ = 0, motion_start_s_ = 0;
+  BodyAt motion_;
+  long frames_ = 0;
+  std::optional<AdaptiveStep> stepper_;
+};
+
+}  // namespace toile

@@ -1,0 +1,70 @@
+#include "sim/recorder.hpp"
+
+#include "verify/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile {
+namespace {
+
+constexpr double at_rest_mm_per_s = 2, rest_s = 0.5;  // when a drape may stop
+
+// What a reader of the files will see: float32.
+Vec3s as_written(std::span<const Vec3> x) {
+  Vec3s rounded(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) rounded[i] = x[i].cast<float>().cast<double>();
+  return rounded;
+}
+
+RunDescription describe(const Outfit& outfit, double fps, std::span<const Triangle> body, std::size_t body_vertices) {
+  RunDescription run;
+  run.mesh = drawn_mesh(outfit.mesh);
+  if (outfit.elastic()) {
+    for (const Index panel : outfit.mesh.panel) {
+      const Vec2& b = outfit.rest_stretch[static_cast<std::size_t>(panel)];
+      run.b.emplace_back(b.y(), b.x());  // the first axis of vt is the weft: run_writer.hpp
+    }
+  }
+  run.body_triangles.assign(body.begin(), body.end());
+  run.body_particle_count = static_cast<Index>(body_vertices);
+  run.fps = fps;
+  return run;
+}
+
+}  // namespace
+
+Recorder::Recorder(RunWriter& writer, const Outfit& outfit, double fps, std::span<const Triangle> body,
+                   std::span<const Vec3> body_x)
+    : writer_(&writer),
+      audit_(describe(outfit, fps, body, body_x.size())),
+      fps_(fps),
+      written_(as_written(outfit.state.x)) {
+  std::vector<Index> garment_of_panel;
+  for (std::size_t p = 0; p < outfit.mesh.panel_names.size(); ++p)
+    garment_of_panel.push_back(outfit.part_of_panel(static_cast<Index>(p)));
+  std::vector<std::string> names;
+  for (const OutfitPart& part : outfit.parts) names.push_back(part.name);
+  writer_->begin_cloth(outfit.mesh, garment_of_panel, names, outfit.state.x, body, body_x);
+  audit_.add(written_, as_written(body_x));
+}
+
+void Recorder::frame(std::span<const Vec3> x, std::span<const Vec3> body_x) {
+  const Vec3s before = std::move(written_);
+  written_ = as_written(x);
+  writer_->cloth_frame(x, body_x);
+  audit_.add(written_, as_written(body_x));
+  speeds_.push_back(speed_p99_mm_per_s(before, written_, fps_));
+  if (static_cast<double>(speeds_.size()) > std::max(1.0, std::round(fps_))) speeds_.pop_front();
+}
+
+bool Recorder::at_rest() const {
+  const auto recent = static_cast<std::size_t>(std::max(1.0, std::ceil(rest_s * fps_)));
+  if (speeds_.size() < recent) return false;
+  const double limit = Limits{}.still_mm_per_s;
+  return std::all_of(speeds_.begin(), speeds_.end(), [&](double v) { return v <= limit; }) &&
+         std::all_of(speeds_.end() - static_cast<std::ptrdiff_t>(recent), speeds_.end(),
+                     [](double v) { return v <= at_rest_mm_per_s; });
+}
+
+}  // namespace toile

@@ -1,0 +1,32 @@
+// sim/recorder.hpp: frames of the outfit, from memory to the files and to the judge, who sees what is written.
+#pragma once
+#include "sim/outfit.hpp"
+#include "sim/run_writer.hpp"
+#include "verify/verify.hpp"
+
+#include <deque>
+#include <span>
+#include <vector>
+
+namespace toile {
+
+class Recorder {
+ public:
+  // Writes frame 0.  `body` may be empty.
+  Recorder(RunWriter& writer, const Outfit& outfit, double fps, std::span<const Triangle> body,
+           std::span<const Vec3> body_x);
+
+  void frame(std::span<const Vec3> x, std::span<const Vec3> body_x);
+  // Has the cloth been at rest for half a second, and slow for the last one, which is what the verdict asks?
+  bool at_rest() const;
+  VerifyReport report() const { return audit_.report(); }
+
+ private:
+  RunWriter* writer_;
+  RunAudit audit_;
+  double fps_;
+  Vec3s written_;
+  std::deque<double> speeds_;  // p99 of each frame of the last second, mm/s
+};
+
+}  // namespace toile

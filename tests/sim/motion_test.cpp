@@ -1,0 +1,171 @@
+// Bodies that move, runs that begin where others ended, several pieces of cloth in one scene.
+#include "body/mannequin.hpp"
+#include "io/obj.hpp"
+#include "io/pc2.hpp"
+#include "io/scratch.hpp"
+#include "sim/simulate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace toile {
+namespace {
+
+Report run(const std::string& directory, const Scene& scene) {
+  RunOptions options;
+  options.directory = directory;
+  options.command = "test";
+  return simulate(scene, options);
+}
+
+// A kerchief on the head of a mannequin that moves.
+Scene kerchief(const std::string& motion, const std::string& edge_m = "0.03") {
+  return parse_scene(R"({"cloth": [{"name": "kerchief", "grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": )" +
+                         edge_m +
+                         R"(}, "placement": {"translation_m": [0, 1.74, 0], "rotation_deg": [-90, 0, 0]}}],
+    "body": {"mannequin": "woman", "motion": ")" +
+                         motion + R"("}, "time": {"seconds": 0.4, "drape_seconds": 0.5}})",
+                     "s.json");
+}
+
+std::vector<Vec3> sample(const std::string& path, int frame) {
+  Pc2Reader reader(path);
+  std::vector<Vec3> x;
+  reader.read(frame < 0 ? reader.samples() + frame : frame, x);
+  return x;
+}
+
+double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double distance = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) distance = std::max(distance, (a[i] - b[i]).norm());
+  return distance;
+}
+
+TEST(MovingBody, StandsWhileTheClothDrapesAndThenMoves) {
+  const Scratch scratch;
+  const Report report = run(scratch / "out", kerchief("twist"));
+  EXPECT_EQ(report.ended, "time");
+  EXPECT_EQ(report.motion_name, "twist");
+  EXPECT_EQ(report.motion.frames, 12);
+  EXPECT_EQ(report.motion_first_frame, 14);  // 15 frames of drape, the first of them sample 0
+  EXPECT_EQ(report.frames, 27);
+  EXPECT_GT(report.motion.body, 0);
+  const std::string body = scratch / "out/body.pc2";
+  EXPECT_EQ(farthest(sample(body, 0), sample(body, 14)), 0);
+  EXPECT_GT(farthest(sample(body, 14), sample(body, -1)), 0.01);
+  EXPECT_EQ(report.audit.cloth_body_edges.last, 0);
+  EXPECT_FALSE(report.verdict.limits.must_be_still);
+}
+
+TEST(MovingBody, OfAMotionThatStandsStillChangesNothing) {
+  const Scratch scratch;
+  Scene scene = kerchief("stand");
+  const Report moving = run(scratch / "moving", scene);
+  scene.body.motion.reset();
+  scene.seconds = 0.5 + 0.4;
+  const Report still = run(scratch / "still", scene);
+  EXPECT_EQ(moving.state_hash, still.state_hash);
+}
+
+TEST(StartRun, TakesUpADrapeWhereTheBodyBeganToMove) {
+  const Scratch scratch;
+  run(scratch / "first", kerchief("twist"));
+  Scene scene = kerchief("sway");
+  scene.start = scratch / "first";
+  scene.drape_seconds = 0;
+  const Report report = run(scratch / "second", scene);
+  EXPECT_EQ(report.motion_first_frame, 0);
+  EXPECT_LT(farthest(sample(scratch / "first/cloth.pc2", 14), sample(scratch / "second/cloth.pc2", 0)), 1e-6);
+}
+
+TEST(StartRun, CarriesADrapeOverToAFinerMesh) {
+  const Scratch scratch;
+  run(scratch / "coarse", kerchief("stand", "0.04"));
+  Scene scene = kerchief("stand", "0.02");
+  scene.start = scratch / "coarse";
+  const Report report = run(scratch / "fine", scene);
+  EXPECT_LT(report.audit.stretch.p99, 0.02);
+  EXPECT_EQ(report.audit.cloth_body_edges.last, 0);
+  // The fine cloth starts on the coarse one: no particle is farther from its triangles than float32 rounds.
+  const ObjMesh coarse = load_obj(scratch / "coarse/cloth.obj");
+  Vec3 low = Vec3::Constant(1e9), high = -low;
+  for (const Vec3& p : sample(scratch / "coarse/cloth.pc2", 14)) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  for (const Vec3& p : sample(scratch / "fine/cloth.pc2", 0)) {
+    EXPECT_TRUE((p.array() >= low.array() - 1e-6).all() && (p.array() <= high.array() + 1e-6).all());
+  }
+}
+
+TEST(StartRun, RefusesWhatDoesNotFit) {
+  const Scratch scratch;
+  const auto on_cylinder = [](const std::string& name, const std::string& width_m, const std::string& radius_m) {
+    return parse_scene(R"({"cloth": [{"name": ")" + name +
+                           R"(", "grid": {"height_m": 0.3, "edge_m": 0.05, "width_m": )" + width_m +
+                           R"(}, "placement": {"translation_m": [0, 0.01, 0], "rotation_deg": [-90, 0, 0]}}],
+      "body": {"cylinder": {"radius_m": )" +
+                           radius_m + R"(}}, "time": {"seconds": 0.1}})",
+                       "s.json");
+  };
+  Scene scene = on_cylinder("kerchief", "0.3", "0.1");
+  scene.start = scratch / "nothing";
+  EXPECT_THROW(run(scratch / "out", scene), IoError);
+  scene.start.clear();
+  run(scratch / "first", scene);
+  scene.start = scratch / "first";
+  EXPECT_EQ(run(scratch / "out", scene).ended, "time");
+
+  scene = on_cylinder("scarf", "0.3", "0.1");
+  scene.start = scratch / "first";
+  try {
+    run(scratch / "out", scene);
+    ADD_FAILURE() << "another panel was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("a group \"scarf\""), std::string::npos) << error.what();
+  }
+  scene = on_cylinder("kerchief", "0.6", "0.1");
+  scene.start = scratch / "first";
+  EXPECT_THROW(run(scratch / "out", scene), InputError);  // another drawing
+  scene = on_cylinder("kerchief", "0.3", "0.11");
+  scene.start = scratch / "first";
+  EXPECT_THROW(run(scratch / "out", scene), InputError);  // another body
+}
+
+TEST(SeveralCloths, LieOnEachOtherAndAreObjectsOfOneFile) {
+  const Scratch scratch;
+  const Scene scene = parse_scene(R"({"cloth": [
+    {"name": "lower", "grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.03},
+     "placement": {"translation_m": [0, 0.005, 0], "rotation_deg": [-90, 0, 0]}},
+    {"name": "upper", "grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.03}, "fabric": "silk",
+     "placement": {"translation_m": [0, 0.02, 0], "rotation_deg": [-90, 30, 0]},
+     "pins": [{"near_m": [0.1, 0.02, 0.1]}]}],
+    "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.5}}, "time": {"seconds": 1}})",
+                                  "s.json");
+  const Report report = run(scratch / "out", scene);
+  EXPECT_EQ(report.ended, "time");
+  EXPECT_EQ(report.panels, 2);
+  EXPECT_EQ(report.audit.cloth_cloth_edges.max, 0);
+  EXPECT_EQ(report.audit.cloth_body_edges.last, 0);
+  const ObjMesh mesh = load_obj(scratch / "out/cloth.obj");
+  ASSERT_EQ(mesh.object_names, (std::vector<std::string>{"lower", "upper"}));
+  // Over the middle of the cylinder the upper one is on top, by about a fabric's thickness.
+  const std::vector<Vec3> end = sample(scratch / "out/cloth.pc2", -1);
+  std::array<double, 2> height{0, 0};
+  std::array<int, 2> count{0, 0};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const Index i : mesh.triangles[t]) {
+      const Vec3& p = end[static_cast<std::size_t>(i)];
+      if (p.x() * p.x() + p.z() * p.z() > 0.05 * 0.05) continue;
+      height[static_cast<std::size_t>(mesh.object[t])] += p.y();
+      ++count[static_cast<std::size_t>(mesh.object[t])];
+    }
+  ASSERT_GT(count[0], 0);
+  ASSERT_GT(count[1], 0);
+  EXPECT_NEAR(height[1] / count[1] - height[0] / count[0], 2.5e-3, 1.2e-3);
+}
+
+}  // namespace
+}  // namespace toile
