@@ -41,15 +41,15 @@ bool is_body_name(std::string_view name) {
                     [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
 }
 
-// The triangles whose group or object is called body; empty when nothing is.
-std::vector<Triangle> named_body(const ObjMesh& mesh) {
+// The triangles (by index) whose group or object is called body; empty when nothing is.
+std::vector<Index> named_body(const ObjMesh& mesh) {
   const auto belongs = [&](const std::vector<Index>& of, const std::vector<std::string>& names, std::size_t t) {
     return t < of.size() && is_body_name(names[z(of[t])]);
   };
-  std::vector<Triangle> kept;
+  std::vector<Index> kept;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if (belongs(mesh.group, mesh.group_names, t) || belongs(mesh.object, mesh.object_names, t))
-      kept.push_back(mesh.triangles[t]);
+      kept.push_back(static_cast<Index>(t));
   return kept;
 }
 
@@ -74,7 +74,7 @@ class DisjointSets {
 
 // The triangles of the closed parts that are large enough; all triangles when no part is closed, so that the check
 // of the whole can say where it is open.
-std::vector<Triangle> closed_parts(const ObjMesh& mesh) {
+std::vector<Index> closed_parts(const ObjMesh& mesh) {
   struct Part {
     double volume = 0;
     bool closed = true;
@@ -102,11 +102,10 @@ std::vector<Triangle> closed_parts(const ObjMesh& mesh) {
   double largest = 0;
   for (const Part& p : parts)
     if (p.closed) largest = std::max(largest, std::abs(p.volume));
-  if (largest == 0) return mesh.triangles;
-  std::vector<Triangle> kept;
-  for (const Triangle& t : mesh.triangles) {
-    const Part& p = parts[z(sets.find(t[0]))];
-    if (p.closed && std::abs(p.volume) >= part_share * largest) kept.push_back(t);
+  std::vector<Index> kept;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Part& p = parts[z(sets.find(mesh.triangles[t][0]))];
+    if (largest == 0 || (p.closed && std::abs(p.volume) >= part_share * largest)) kept.push_back(static_cast<Index>(t));
   }
   return kept;
 }
@@ -153,20 +152,27 @@ void check_input(const ObjMesh& mesh, std::string_view file) {
 
 CollisionBody make_collision_body(const ObjMesh& mesh, std::string_view file, LengthUnit unit) {
   check_input(mesh, file);
-  std::vector<Triangle> kept = named_body(mesh);
+  std::vector<Index> kept = named_body(mesh);
   if (kept.empty()) kept = closed_parts(mesh);
 
   CollisionBody body;
   body.name = std::filesystem::path(file).stem().string();
   std::vector<Index> map(mesh.positions.size(), -1);
-  for (const Triangle& t : kept)
-    for (Index v : t) map[z(v)] = 0;
+  for (Index t : kept)
+    for (Index v : mesh.triangles[z(t)]) map[z(v)] = 0;
   for (std::size_t i = 0; i < map.size(); ++i)
     if (map[i] == 0) {
       map[i] = static_cast<Index>(body.positions.size());
       body.positions.push_back(metres(unit) * mesh.positions[i]);
+      body.source_vertex.push_back(static_cast<Index>(i));
     }
-  for (const Triangle& t : kept) body.triangles.push_back({map[z(t[0])], map[z(t[1])], map[z(t[2])]});
+  for (Index k : kept) {
+    const Triangle& t = mesh.triangles[z(k)];
+    body.triangles.push_back({map[z(t[0])], map[z(t[1])], map[z(t[2])]});
+  }
+  body.source_triangle = std::move(kept);
+  body.source_vertex_count = mesh.positions.size();
+  body.source_triangle_count = mesh.triangles.size();
   check_closed(file, body.positions, body.triangles);
 
   const auto [low, high] = std::minmax_element(body.positions.begin(), body.positions.end(),
@@ -178,7 +184,16 @@ CollisionBody make_collision_body(const ObjMesh& mesh, std::string_view file, Le
 }
 
 CollisionBody from_mannequin(const Mannequin& mannequin) {
-  return {mannequin.positions, mannequin.triangles, "mannequin", mannequin.measurements_m.height};
+  CollisionBody body;
+  body.positions = mannequin.positions;
+  body.triangles = mannequin.triangles;
+  body.name = "mannequin";
+  body.height_m = mannequin.measurements_m.height;
+  body.source_vertex_count = body.positions.size();
+  body.source_triangle_count = body.triangles.size();
+  for (std::size_t i = 0; i < body.positions.size(); ++i) body.source_vertex.push_back(static_cast<Index>(i));
+  for (std::size_t i = 0; i < body.triangles.size(); ++i) body.source_triangle.push_back(static_cast<Index>(i));
+  return body;
 }
 
 }  // namespace toile

@@ -18,6 +18,10 @@ struct CollisionBody {
   std::vector<Triangle> triangles;  // counter-clockwise from outside
   std::string name;                 // of the file without folder and ending, or "mannequin"
   double height_m = 0;              // extent along y
+  // Where vertices and triangles stood in the file, ascending, and how many it has: moving samples of the same file
+  // are mapped by these (body_motion.hpp).
+  std::vector<Index> source_vertex, source_triangle;
+  std::size_t source_vertex_count = 0, source_triangle_count = 0;
 };
 
 enum class LengthUnit { automatic, m, dm, cm };  // automatic: metres, or an error

@@ -130,7 +130,7 @@ const MannequinForm& man_form() {
                  .toe_tips = Vec3(0.137, 0.023, 0.187)},
       .flesh_m = {.hips = 0.108,
                   .waist = 0.110,
-                  .ribs = 0.130,
+                  .ribs = 0.165,
                   .neck_root = 0.080,
                   .neck = 0.060,
                   .head = 0.084,

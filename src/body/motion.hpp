@@ -34,6 +34,7 @@ class Motion {
 
   const std::string& name() const { return name_; }
   MannequinKind kind() const { return kind_; }
+  std::span<const Joint> joints() const { return joints_; }
 
   // `t_s` >= 0; below, the A-pose.
   Posture posture(double t_s) const;

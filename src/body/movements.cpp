@@ -2,8 +2,9 @@
 //
 // The walk's hip, knee and ankle follow the curves of level walking at natural cadence [Winter, Biomechanics and Motor
 // Control of Human Movement, 4th ed. 2009, ch. 3; Perry & Burnfield, Gait Analysis, 2nd ed. 2010, chs. 4-6]: values read
-// at every 5 to 10 % of the stride, then fitted by us with 4 to 6 harmonics (rms error below 0.4 degrees).  Pelvis, trunk
-// and arms: amplitudes from the same books, one harmonic each.
+// at every 5 to 10 % of the stride, then fitted by us with 5 or 6 harmonics (rms error below 0.4 degrees).  Within the
+// published bands hip and ankle are bent so that the standing foot lies flat and runs back evenly, as a belt does.  Pelvis, trunk and
+// arms: amplitudes from the same books, one harmonic each.
 #include "body/movements.hpp"
 
 #include <algorithm>
@@ -36,11 +37,12 @@ struct Series {
 };
 
 // Degrees against the phase of the stride, which starts with the heel's strike.
-constexpr Series<4> hip_flexion{11.55, {{{19.39, -4.93}, {-2.68, -1.96}, {-0.12, 0.72}, {-0.33, -0.13}}}};
+constexpr Series<5> hip_flexion{12.10,
+                                {{{19.95, -4.01}, {-3.19, -1.28}, {-0.52, 0.61}, {-0.41, -0.24}, {-0.10, 0.25}}}};
 constexpr Series<5> knee_flexion{23.27,
                                  {{{-2.41, -19.55}, {-13.42, 6.38}, {-1.26, 3.72}, {-0.31, 0.46}, {-0.08, 0.30}}}};
 constexpr Series<6> ankle_dorsiflexion{
-    -0.37, {{{-1.30, 6.60}, {1.28, -6.93}, {-2.62, 0.52}, {1.76, -0.71}, {-0.30, -0.80}, {0.29, 0.12}}}};
+    -1.05, {{{-1.86, 5.49}, {1.82, -7.60}, {-2.30, 0.55}, {1.91, -0.79}, {-0.07, -0.73}, {0.36, 0.26}}}};
 constexpr Series<5> toe_extension{7.95, {{{-6.14, -7.00}, {4.31, 4.60}, {1.16, -4.29}, {-0.68, 0.68}, {0.96, -0.42}}}};
 
 double wave(double phase) { return ieee_cos(two_pi * phase); }

@@ -44,7 +44,7 @@ class SkinnedBody {
   std::span<const Joint> joints() const { return joints_; }
 
   // Throws InputError unless `x` has one entry per vertex and the pose one turn per joint.  The A-pose gives the
-  // mannequin's positions to the last bit.  About 0.2 ms for 10,000 vertices on two threads.
+  // mannequin's positions to the last bit.  About 0.2 ms for 10,000 vertices on one thread.
   void positions(const Pose& pose, std::span<Vec3> x) const;
 
  private:

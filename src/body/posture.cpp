@@ -1,6 +1,7 @@
 // body/posture.cpp: from channels to joint rotations; legs that stand and legs that swing.
 #include "body/posture.hpp"
 
+#include "body/implicit_shape.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -34,16 +35,13 @@ double knee_flexion(const Vec3& thigh, const Vec3& shank, double distance) {
   const double b = thigh.z() * shank.y() - thigh.y() * shank.z();
   const double c = thigh.x() * shank.x();
   const double wanted = 0.5 * (distance * distance - thigh.dot(thigh) - shank.dot(shank)) - c;
-  const double u = std::clamp(wanted / std::sqrt(a * a + b * b), -1.0, 1.0);
+  const double u = std::clamp(wanted / std::sqrt(a * a + b * b), -1.0, 1.0);  // 1: out of reach, the leg is straight
   return ieee_atan2(b, a) + ieee_atan2(std::sqrt(1.0 - u * u), u);
 }
 
 double smooth_lowest(std::span<const double> heights) {
   double low = heights[0];
-  for (const double h : heights.subspan(1)) {
-    const double near = std::max(0.0, 1.0 - std::abs(low - h) / touch_m);
-    low = std::min(low, h) - near * near * near * touch_m / 6.0;
-  }
+  for (const double h : heights.subspan(1)) low = smooth_min(low, h, touch_m);
   return low;
 }
 

@@ -77,7 +77,7 @@ enum class Legs { planted, free };
 constexpr double sole_depth_m = 0.01;
 
 // `joints` are a mannequin's (their names are looked up).  A planted foot out of the leg's reach hangs from a straight
-// leg.
+// leg; on the way there the knee snaps, its angle going with the root of what is missing, so motions must stay below.
 Pose make_pose(const Posture& posture, Legs legs, std::span<const Joint> joints);
 
 }  // namespace toile

@@ -130,7 +130,7 @@ const MannequinForm& woman_form() {
                  .toe_tips = Vec3(0.140, 0.022, 0.170)},
       .flesh_m = {.hips = 0.105,
                   .waist = 0.095,
-                  .ribs = 0.115,
+                  .ribs = 0.140,
                   .neck_root = 0.070,
                   .neck = 0.052,
                   .head = 0.080,

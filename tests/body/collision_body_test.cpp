@@ -1,6 +1,7 @@
 // Reading a body out of a file: its unit, which part it is, and what is refused.
 #include "body/collision_body.hpp"
 
+#include "body/mannequins.hpp"
 #include "core/error.hpp"
 
 #include <gtest/gtest.h>
@@ -108,12 +109,14 @@ TEST(CollisionBody, RefusesWhatIsNotAClosedBody) {
 }
 
 TEST(CollisionBody, IsMadeFromTheMannequinToo) {
-  const Mannequin m = make_mannequin();
+  const Mannequin& m = test::mannequin_of(MannequinKind::woman);
   const CollisionBody body = from_mannequin(m);
   EXPECT_EQ(body.positions.size(), m.positions.size());
   EXPECT_EQ(body.triangles, m.triangles);
   EXPECT_NEAR(body.height_m, 1.72, 0.005);
   EXPECT_EQ(body.name, "mannequin");
+  EXPECT_EQ(body.source_vertex_count, m.positions.size());
+  EXPECT_EQ(body.source_vertex.back(), static_cast<Index>(m.positions.size()) - 1);
 }
 
 TEST(CollisionBody, ReadsTheBodyOfMakeHumansBaseMesh) {
@@ -123,6 +126,14 @@ TEST(CollisionBody, ReadsTheBodyOfMakeHumansBaseMesh) {
   const CollisionBody body = make_collision_body(mesh, file, LengthUnit::dm);
   EXPECT_EQ(body.positions.size(), 13380U);
   EXPECT_EQ(body.triangles.size(), 26756U);
+  ASSERT_EQ(body.source_vertex.size(), body.positions.size());
+  EXPECT_EQ(body.source_vertex_count, mesh.positions.size());
+  for (std::size_t i = 0; i < body.positions.size(); ++i)
+    ASSERT_EQ(body.positions[i], Vec3(0.1 * mesh.positions[static_cast<std::size_t>(body.source_vertex[i])]));
+  for (std::size_t t = 0; t < body.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      ASSERT_EQ(body.source_vertex[static_cast<std::size_t>(body.triangles[t][k])],
+                mesh.triangles[static_cast<std::size_t>(body.source_triangle[t])][k]);
   EXPECT_GT(body.height_m, 1.5);
   EXPECT_LT(body.height_m, 1.9);
   EXPECT_NE(complaint(mesh, LengthUnit::automatic).find("--body-unit dm"), std::string::npos);

@@ -3,6 +3,8 @@
 
 #include "body/closed_mesh.hpp"
 #include "body/mannequin_shape.hpp"
+#include "body/mannequins.hpp"
+#include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
 #include "mesh/check.hpp"
@@ -18,10 +20,7 @@ namespace {
 
 using test::at;
 
-const Mannequin& mannequin() {
-  static const Mannequin m = make_mannequin();
-  return m;
-}
+const Mannequin& mannequin() { return test::mannequin_of(MannequinKind::woman); }
 
 TEST(Mannequin, IsOneClosedSurfaceWithoutHandlesWoundOutwards) {
   const Mannequin& m = mannequin();
@@ -180,6 +179,58 @@ TEST(Mannequin, WeighsSkinByTheNearestBonesSmoothlyAndAlikeOnBothSides) {
     }
 }
 
+TEST(Mannequin, TheDancerIsTheWomanWithLongerEdges) {
+  const Mannequin& d = test::mannequin_of(MannequinKind::dancer);
+  EXPECT_NO_THROW(check_closed("dancer", d.positions, d.triangles));
+  EXPECT_NEAR(static_cast<double>(d.positions.size()), 7630, 0.03 * 7630);
+  EXPECT_EQ(test::self_intersection_count(d.positions, d.triangles), 0);
+  EXPECT_GT(test::smallest_angle_degrees(d.positions, d.triangles), 25);
+  const MannequinShape shape;
+  const double sole = mannequin().measurements_m.height - d.measurements_m.height;
+  EXPECT_NEAR(sole, 0, 0.001);
+  double off = 0;
+  for (const Vec3& p : d.positions) off = std::max(off, std::abs(shape(p)));
+  EXPECT_LT(off, 0.001);
+}
+
+TEST(Mannequin, TheManIsASoundMeshWithTheMeasurementsOfAMan) {
+  const Mannequin& man = test::mannequin_of(MannequinKind::man);
+  EXPECT_NO_THROW(check_closed("man", man.positions, man.triangles));
+  EXPECT_EQ(test::euler_characteristic(man.positions.size(), man.triangles), 2);
+  EXPECT_EQ(test::piece_count(man.positions.size(), man.triangles), 1);
+  EXPECT_NEAR(static_cast<double>(man.positions.size()), 9941, 0.03 * 9941);
+  EXPECT_EQ(test::self_intersection_count(man.positions, man.triangles), 0);
+  EXPECT_GT(test::smallest_angle_degrees(man.positions, man.triangles), 25);
+  const auto& m = man.measurements_m;
+  EXPECT_NEAR(m.height, 1.80, 0.005);
+  EXPECT_NEAR(m.bust, 0.99, 0.03);
+  EXPECT_NEAR(m.waist, 0.82, 0.03);
+  EXPECT_NEAR(m.hips, 0.97, 0.03);
+  EXPECT_NEAR(m.shoulder_width, 0.44, 0.02);
+  EXPECT_NEAR(m.neck_girth, 0.385, 0.02);
+  EXPECT_NEAR(m.wrist, 0.173, 0.01);
+  EXPECT_NEAR(m.arm_length, 0.60, 0.02);
+  EXPECT_NEAR(m.height - m.head_length - m.waist_line, 1.11, 0.03);
+  // One can see through between his thighs and between arm and trunk.
+  const test::Obstacle body(man.positions, man.triangles);
+  EXPECT_FALSE(body.meets({0, 0.78, -1}, {0, 0.78, 1}));
+  EXPECT_TRUE(body.meets({0, 0.90, -1}, {0, 0.90, 1}));
+  EXPECT_FALSE(body.meets({0.24, 1.20, -1}, {0.24, 1.20, 1}));
+  const MannequinShape shape(man_form());
+  for (const Joint& j : man.joints) EXPECT_LT(shape(j.position_m), -0.01) << j.name;
+}
+
+TEST(Mannequin, KindsHaveNamesAndAWrongOneIsAnsweredWithTheNearest) {
+  for (const MannequinKind kind : {MannequinKind::woman, MannequinKind::dancer, MannequinKind::man})
+    EXPECT_EQ(mannequin_kind(to_string(kind)), kind);
+  try {
+    mannequin_kind("dancr");
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("did you mean dancer?"), std::string::npos) << e.what();
+  }
+}
+
 TEST(Mannequin, IsTheSameOnOneThreadAndOnMany) {
   Mannequin one;
   with_threads(1, [&] { one = make_mannequin(); });
@@ -202,7 +253,7 @@ TEST(Mannequin, HasTheSameBitsEverywhere) {
     skin.add(std::span<const Index>(s.joint));
     skin.add(std::span<const double>(s.weight));
   }
-  EXPECT_EQ(skin.hex(), "0a0044439843433e");
+  EXPECT_EQ(skin.hex(), "0a4087ec80116d86");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "body/closed_mesh.hpp"
 #include "body/mannequin.hpp"
 #include "body/mannequin_shape.hpp"
+#include "body/mannequins.hpp"
 #include "body/measure.hpp"
 #include "io/json.hpp"
 
@@ -120,7 +121,7 @@ Draft load(const std::string& name) {
 }
 
 const Mannequin& mannequin() {
-  static const Mannequin m = make_mannequin();
+  static const Mannequin m = test::mannequin_of(MannequinKind::woman);
   return m;
 }
 

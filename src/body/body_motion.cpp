@@ -1,0 +1,113 @@
+// body/body_motion.cpp: where a moving body comes from.
+#include "body/body_motion.hpp"
+
+#include "body/body_samples.hpp"
+#include "core/error.hpp"
+#include "io/pc2.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace toile {
+
+namespace {
+
+std::size_t z(Index i) { return static_cast<std::size_t>(i); }
+
+class MovingMannequin : public BodyMotion::Source {
+ public:
+  MovingMannequin(const Mannequin& mannequin, const Motion& motion) : body_(mannequin), motion_(motion) {}
+
+  std::size_t vertex_count() const override { return body_.vertex_count(); }
+  void positions(double t_s, std::span<Vec3> x) const override { body_.positions(motion_.at(t_s), x); }
+  double duration_s() const override { return std::numeric_limits<double>::infinity(); }
+  double lead_in_s() const override { return motion_.lead_in_s(); }
+  void add_to(Hash& hash) const override {
+    for (const std::string_view text : {std::string_view(motion_.name()), to_string(motion_.kind())})
+      hash.add_bytes(text.data(), text.size());
+    const double lead_in = motion_.lead_in_s();
+    hash.add_bytes(&lead_in, sizeof lead_in);
+  }
+
+ private:
+  SkinnedBody body_;
+  Motion motion_;
+};
+
+// The triangles of the body must be where they were in its file.
+void check_triangles(std::string_view file, std::size_t frame, const ObjMesh& mesh, const CollisionBody& body) {
+  const std::string place = "frame " + std::to_string(frame);
+  const bool known = !body.source_triangle.empty();
+  const std::size_t count = known ? body.source_triangle_count : body.triangles.size();
+  if (mesh.triangles.size() != count)
+    throw InputError(file, place, std::to_string(count) + " triangles as in the body's file",
+                     std::to_string(mesh.triangles.size()));
+  const auto text = [](const Triangle& t) {
+    return std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]);
+  };
+  for (std::size_t i = 0; i < body.triangles.size(); ++i) {
+    const std::size_t at = known ? z(body.source_triangle[i]) : i;
+    Triangle expected = body.triangles[i];
+    if (known)
+      for (Index& v : expected) v = body.source_vertex[z(v)];
+    if (mesh.triangles[at] != expected)
+      throw InputError(file, place + ", triangle " + std::to_string(at),
+                       "vertices " + text(expected) + " as in the body's file", text(mesh.triangles[at]));
+  }
+}
+
+}  // namespace
+
+BodyMotion BodyMotion::of_mannequin(const Mannequin& mannequin, const Motion& motion) {
+  const bool fits =
+      std::equal(mannequin.joints.begin(), mannequin.joints.end(), motion.joints().begin(), motion.joints().end(),
+                 [](const Joint& a, const Joint& b) { return a.position_m == b.position_m; });
+  if (!fits)
+    throw InputError("", "body motion", "a motion for the joints of this mannequin",
+                     "one for the " + std::string(to_string(motion.kind())));
+  return {mannequin.triangles, std::make_shared<MovingMannequin>(mannequin, motion)};
+}
+
+BodyMotion BodyMotion::from_pc2(const std::string& path, const CollisionBody& body, const SampleOptions& options) {
+  const std::string file = printable(path);
+  auto samples = std::make_shared<BodySamples>(file, body, options);
+  Pc2Reader reader(path);
+  std::vector<Vec3> positions;
+  for (int frame = 0; frame < reader.samples(); ++frame) {
+    reader.read(frame, positions);
+    samples->append(file, positions);
+  }
+  samples->finish(file);
+  return {body.triangles, samples};
+}
+
+BodyMotion BodyMotion::from_obj_sequence(const std::string& path, const CollisionBody& body,
+                                         const SampleOptions& options) {
+  auto samples = std::make_shared<BodySamples>(printable(path), body, options);
+  const std::vector<NumberedFile> files = numbered_files(path);
+  for (std::size_t frame = 0; frame < files.size(); ++frame) {
+    const std::string file = printable(files[frame].path);
+    const ObjMesh mesh = load_obj(files[frame].path);
+    samples->append(file, mesh.positions);
+    check_triangles(file, frame, mesh, body);
+  }
+  samples->finish(printable(path));
+  return {body.triangles, samples};
+}
+
+BodyMotion BodyMotion::from_files(const std::string& path, const CollisionBody& body, const SampleOptions& options) {
+  return path.ends_with(".pc2") ? from_pc2(path, body, options) : from_obj_sequence(path, body, options);
+}
+
+void BodyMotion::positions(double t_s, std::span<Vec3> x) const {
+  if (x.size() != vertex_count())
+    throw InputError("", "body", "room for " + std::to_string(vertex_count()) + " vertices", std::to_string(x.size()));
+  source_->positions(t_s, x);
+}
+
+void BodyMotion::add_to(Hash& hash) const {
+  hash.add(std::span<const Triangle>(triangles_));
+  source_->add_to(hash);
+}
+
+}  // namespace toile

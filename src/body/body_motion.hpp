@@ -1,0 +1,85 @@
+// body/body_motion.hpp: a body that moves: fixed triangles, and where their vertices are at any time.
+//
+// Sources: a mannequin with a Motion, evaluated exactly at every t; or samples at a fixed rate from a PC2 file or from
+// numbered OBJ files.  Between samples p_i and p_i+1, u = (tau - tau_i) / dt:
+//   x = (1 + 2u)(1 - u)^2 p_i + u(1 - u)^2 dt m_i + u^2 (3 - 2u) p_i+1 + u^2 (u - 1) dt m_i+1,
+//   m_i = (p_i+1 - p_i-1) / 2 dt, one-sided at both ends                                            [Catmull & Rom 1974]
+// so that velocities are continuous; through samples of a straight uniform path it goes exactly.  After the last sample
+// the body holds still.
+//
+// Lead-in of L seconds from the drape pose d, put before the samples when the first differs from d:
+//   x(t) = d + s(t / L) (p(tau(t)) - d),   s(u) = u^3 (10 - 15u + 6u^2)
+// tau(t) is max(0, t - L) with its corner rounded over 2 e, e = min(L / 2, 0.15 s), tau' being 3w^2 - 2w^3 there: the
+// body starts at rest, is C2 to the end of the lead-in, and meets sample i at L + i dt whenever i dt >= e.
+//
+// Mind: PC2's own start and rate are not used; programs disagree on what they mean.  The rate is the caller's.
+#pragma once
+#include "body/collision_body.hpp"
+#include "body/motion.hpp"
+#include "core/hash.hpp"
+
+#include <memory>
+#include <span>
+#include <string>
+
+namespace toile {
+
+struct SampleOptions {
+  double rate_hz = 30;  // samples per second
+  LengthUnit unit = LengthUnit::automatic;
+  double lead_in_s = 1;
+  double fastest_m_s = 20;  // a vertex that moves farther between two samples is an error of the file
+};
+
+class BodyMotion {
+ public:
+  // Starts in the A-pose, as the mannequin is made.  Throws InputError for a motion of another kind of mannequin.
+  static BodyMotion of_mannequin(const Mannequin& mannequin, const Motion& motion);
+
+  // A point cache of all vertices of the file that `body` was read from, or of the kept ones only.
+  static BodyMotion from_pc2(const std::string& path, const CollisionBody& body, const SampleOptions& options);
+
+  // `path` is a folder, of which every .obj is a frame, ordered by the last number in its name, or a pattern with one
+  // "%d" or "%04d".  Every frame has the vertices and triangles of the file that `body` was read from.
+  static BodyMotion from_obj_sequence(const std::string& path, const CollisionBody& body, const SampleOptions& options);
+
+  // PC2 for a name that ends in .pc2, otherwise OBJ files.
+  static BodyMotion from_files(const std::string& path, const CollisionBody& body, const SampleOptions& options);
+
+  // The readers throw IoError, and InputError naming file, frame, vertex, expected and got, for
+  //   options out of range; no frames; a number missing or twice; another count of vertices or list of triangles; a
+  //   coordinate that is not finite; a vertex faster than `fastest_m_s`; a first sample more than 4 times as tall or as
+  //   short as the body (the unit); more than 2^30 coordinates.
+
+  std::size_t vertex_count() const { return source_->vertex_count(); }
+  std::span<const Triangle> triangles() const { return triangles_; }
+
+  // `x` has one entry per vertex; t < 0 is t = 0.  May be called from several threads.
+  void positions(double t_s, std::span<Vec3> x) const;
+
+  // Until the body holds still; infinite for a mannequin.
+  double duration_s() const { return source_->duration_s(); }
+  // What was put before the motion, 0 when the first sample is the drape pose.
+  double lead_in_s() const { return source_->lead_in_s(); }
+
+  // Everything that decides the positions.
+  void add_to(Hash& hash) const;
+
+  struct Source {
+    virtual ~Source() = default;
+    virtual std::size_t vertex_count() const = 0;
+    virtual void positions(double t_s, std::span<Vec3> x) const = 0;
+    virtual double duration_s() const = 0;
+    virtual double lead_in_s() const = 0;
+    virtual void add_to(Hash& hash) const = 0;
+  };
+
+ private:
+  BodyMotion(std::vector<Triangle> triangles, std::shared_ptr<const Source> source)
+      : triangles_(std::move(triangles)), source_(std::move(source)) {}
+
+  std::vector<Triangle> triangles_;
+  std::shared_ptr<const Source> source_;
+};
+
+}  // namespace toile

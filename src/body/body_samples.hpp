@@ -1,0 +1,53 @@
+// body/body_samples.hpp: positions of a body at a fixed rate, and the numbered files that they come from.
+#pragma once
+#include "body/body_motion.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace toile {
+
+struct NumberedFile {
+  std::int64_t number = 0;
+  std::string path;
+};
+
+// The frames that `path` (a folder or a pattern, see body_motion.hpp) names, in order and without gaps.
+// Throws InputError for none, a gap, a number twice, a name without a number or a pattern without %d; IoError.
+std::vector<NumberedFile> numbered_files(const std::string& path);
+
+// Samples of the kept vertices, in metres, as float32.  Filled frame by frame; every frame is checked as it comes.
+class BodySamples : public BodyMotion::Source {
+ public:
+  // Throws InputError for options out of range.
+  BodySamples(std::string_view file, const CollisionBody& body, const SampleOptions& options);
+
+  // `positions` are those of a file with all source vertices, or of the kept vertices only; as in the file.
+  void append(std::string_view file, std::span<const Vec3> positions);
+  // After the last frame; throws InputError when there was none.
+  void finish(std::string_view file);
+
+  std::size_t vertex_count() const override { return drape_.size(); }
+  void positions(double t_s, std::span<Vec3> x) const override;
+  double duration_s() const override;
+  double lead_in_s() const override { return lead_in_s_; }
+  void add_to(Hash& hash) const override;
+
+ private:
+  using Vec3f = Eigen::Vector3f;
+  Vec3 sample(std::size_t frame, std::size_t vertex) const {
+    return samples_[frame * drape_.size() + vertex].cast<double>();
+  }
+  void check_height(std::string_view file) const;
+
+  std::vector<Vec3> drape_;
+  std::vector<Index> source_vertex_;
+  std::size_t source_count_ = 0, frames_ = 0;
+  SampleOptions options_;
+  double lead_in_s_ = 0;
+  std::vector<Vec3f> samples_;
+};
+
+}  // namespace toile
