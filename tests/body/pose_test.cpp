@@ -120,6 +120,55 @@ TEST(Pose, TurnsALimbAboutItsJointAndLeavesTheRest) {
   EXPECT_GT(far, 1000);
 }
 
+TEST(Pose, DoesNotCareWhichOfTwoQuaternionsNamesARotation) {
+  const Mannequin& m = mannequin_of(MannequinKind::dancer);
+  Pose pose = Motion::named("dance", MannequinKind::dancer).at(4.0), other = pose;
+  for (const char* name : {"elbow_left", "chest", "hip_right"}) {
+    Quaternion& q = other.turns[joint(m, name)];
+    q = {-q.w, -q.v};
+  }
+  const std::vector<Vec3> x = skinned(m, pose), y = skinned(m, other);
+  for (std::size_t i = 0; i < x.size(); ++i) ASSERT_LT((x[i] - y[i]).norm(), 1e-12);
+}
+
+// Left and right exchanged, and what leans or turns to a side with them: the image in x = 0.
+TEST(Pose, OfAMirroredPostureIsTheImage) {
+  const Mannequin& m = mannequin_of(MannequinKind::dancer);
+  for (const Legs legs : {Legs::planted, Legs::free}) {
+    Posture p, image;
+    for (std::size_t c = 0; c < channel_count; ++c) p.values[c] = 3.0 + static_cast<double>(c * 7 % 11);
+    p(Channel::pelvis_x) = 0.03, p(Channel::pelvis_y) = -0.06, p(Channel::pelvis_z) = 0.02;
+    for (const Side side : {Side::left, Side::right}) {
+      p(Channel::foot_x, side) = side == Side::left ? -0.02 : 0.03;
+      p(Channel::foot_z, side) = side == Side::left ? 0.05 : -0.04;
+    }
+    const auto first_of_side = static_cast<std::size_t>(Channel::collar);
+    for (std::size_t c = 0; c < channel_count; ++c) {
+      const bool left = c < first_of_side + side_channels;
+      image.values[c] = p.values[c < first_of_side ? c : left ? c + side_channels : c - side_channels];
+    }
+    for (const Channel c :
+         {Channel::turn, Channel::pelvis_x, Channel::pelvis_turn, Channel::pelvis_list, Channel::spine_turn,
+          Channel::spine_left, Channel::chest_turn, Channel::chest_left, Channel::neck_turn, Channel::neck_left})
+      image(c) = -p(c);
+    const auto a = joint_transforms(m.joints, make_pose(p, legs, m.joints));
+    const auto b = joint_transforms(m.joints, make_pose(image, legs, m.joints));
+    for (std::size_t j = 0; j < m.joints.size(); ++j) {
+      std::string name = m.joints[j].name;
+      if (const auto left = name.find("_left"); left != std::string::npos)
+        name.replace(left, 5, "_right");
+      else if (const auto right = name.find("_right"); right != std::string::npos)
+        name.replace(right, 6, "_left");
+      // Three points of a bone that do not lie on a line, so that a turn about its axis shows.
+      for (const Vec3& off : {Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0, 0, 0.1)}) {
+        const Vec3 q = m.joints[j].end_m + off;
+        const Vec3 expected = a[j](q), got = b[joint(m, name)](Vec3(-q.x(), q.y(), q.z()));
+        EXPECT_LT((Vec3(-got.x(), got.y(), got.z()) - expected).norm(), 1e-9) << name;
+      }
+    }
+  }
+}
+
 TEST(Pose, RefusesAnotherNumberOfJointsOrVertices) {
   const Mannequin& m = mannequin_of(MannequinKind::dancer);
   const SkinnedBody body(m);
