@@ -73,7 +73,22 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
   for (const Hinge& hinge : model.topology.hinges) {
     model.bend.push_back(hinge_rest(model, fabrics, hinge, options.paper_scaling));
   }
+  set_folds(model, 1);
   return model;
+}
+
+void set_folds(ClothModel& model, double share) {
+  const std::vector<Hinge>& hinges = model.topology.hinges;  // sorted by edge
+  const auto edge_of = [](const Hinge& h) {
+    return std::pair(std::min(h.particle[0], h.particle[1]), std::max(h.particle[0], h.particle[1]));
+  };
+  for (const FoldedEdge& fold : model.mesh.folds) {
+    const std::pair edge(std::min(fold.a, fold.b), std::max(fold.a, fold.b));
+    const auto hinge = std::lower_bound(hinges.begin(), hinges.end(), edge,
+                                        [&](const Hinge& h, const auto& wanted) { return edge_of(h) < wanted; });
+    if (hinge != hinges.end() && edge_of(*hinge) == edge)
+      model.bend[static_cast<std::size_t>(hinge - hinges.begin())].theta_0 = share * fold.angle_rad;
+  }
 }
 
 }  // namespace toile

@@ -41,7 +41,10 @@ struct ClothModel {
 };
 
 // `fabric_of_panel` has one entry, or one per panel of the mesh.  Hinges on a seam take the mean of both sides.
-// Masses: a third of each triangle's density * area goes to each corner.   Rest angles are zero; set model.bend[h].theta_0 after.
+// Masses: a third of each triangle's density * area goes to each corner.  Rest angles are those of mesh.folds, zero elsewhere.
 ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabric_of_panel, const ModelOptions& options = {});
+
+// Rest angles = share * mesh.folds: panels are sewn flat (0) and then folded.  Folds on a free edge have no hinge and no effect.
+void set_folds(ClothModel& model, double share);
 
 }  // namespace toile

@@ -2,7 +2,8 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
-#include "garment/triangulate.hpp"
+#include "garment/fold_lines.hpp"
+#include "garment/pattern_check.hpp"
 
 #include <Eigen/Geometry>
 
@@ -37,15 +38,16 @@ double signed_area(std::span<const Vec2> outline) {
   return 0.5 * twice;
 }
 
+int piece_count(double length_m, double resolution_m) {
+  return std::max(1, static_cast<int>(std::ceil(length_m / resolution_m - 1e-9)));
+}
+
 // How many pieces every edge of every panel is cut into: both sides of a seam alike.
 std::vector<std::vector<int>> pieces_of_edges(const Pattern& pattern, double resolution_m) {
   std::vector<std::vector<int>> pieces(pattern.panels.size());
-  const auto count = [&](double length) {
-    return std::max(1, static_cast<int>(std::ceil(length / resolution_m - 1e-9)));
-  };
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     for (const PanelEdge& edge : pattern.panels[p].edges)
-      pieces[p].push_back(count(edge_length_m(pattern.panels[p], edge)));
+      pieces[p].push_back(piece_count(edge_length_m(pattern.panels[p], edge), resolution_m));
   }
   for (const Stitch& stitch : pattern.stitches) {
     int &a = pieces[at(stitch.a.panel)][at(stitch.a.edge)], &b = pieces[at(stitch.b.panel)][at(stitch.b.edge)];
@@ -56,6 +58,7 @@ std::vector<std::vector<int>> pieces_of_edges(const Pattern& pattern, double res
 
 struct MeshedPanel {
   std::vector<std::vector<Index>> edge_particles;  // [edge] first to last corner, in the edge's direction
+  std::size_t first_fold = 0, end_fold = 0;        // its entries of ClothMesh::folds
 };
 
 // Meshes one panel and appends it to the garment.
@@ -75,19 +78,33 @@ MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_inde
   for (std::size_t e = 0; e < panel.edges.size(); ++e) {
     meshed.edge_particles[e].push_back(meshed.edge_particles[(e + 1) % panel.edges.size()].front());
   }
-  PlanarMesh planar;
+  const Index first = garment.mesh.particle_count;
+  std::vector<FoldLine> lines;
+  for (const PanelFold& fold : panel.folds) {
+    const auto corner = [&](Index c) {  // as a point of the outline
+      for (std::size_t e = 0; e < panel.edges.size(); ++e) {
+        if (panel.edges[e].start == c) return meshed.edge_particles[e].front() - first;
+      }
+      return Index{-1};
+    };
+    const std::vector<Vec2> points =
+        sample_edge(panel, fold.line, piece_count(edge_length_m(panel, fold.line), resolution_m));
+    lines.push_back(
+        {corner(fold.line.start), corner(fold.line.end), std::vector<Vec2>(points.begin() + 1, points.end() - 1)});
+  }
+  FoldedPlanarMesh folded;
   try {
-    planar = triangulate(outline, resolution_m);
+    folded = triangulate_folded(outline, lines, resolution_m);
   } catch (const InputError& error) {
     throw InputError("", "panel " + printable(panel.name), "an outline that can be meshed at this resolution",
                      error.what());
   }
+  const PlanarMesh& planar = folded.mesh;
   const bool mirrored = signed_area(outline) < 0;
   const auto pattern_uv = [&](Index i) {
     return mirrored ? Vec2(planar.points[at(i)].y(), planar.points[at(i)].x())
                     : Vec2(planar.points[at(i)].y(), -planar.points[at(i)].x());
   };
-  const Index first = garment.mesh.particle_count;
   for (Triangle t : planar.triangles) {
     if (mirrored) std::swap(t[1], t[2]);
     garment.mesh.uv.push_back({pattern_uv(t[0]), pattern_uv(t[1]), pattern_uv(t[2])});
@@ -100,6 +117,13 @@ MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_inde
   }
   garment.mesh.particle_count += static_cast<Index>(planar.points.size());
   garment.mesh.panel_names.push_back(panel.name);
+  garment.mesh.panel_cloth.push_back({panel.fabric, panel.rest_stretch});
+  meshed.first_fold = garment.mesh.folds.size();
+  for (std::size_t f = 0; f < panel.folds.size(); ++f) {
+    for (const auto& [a, b] : folded.line[f])
+      garment.mesh.folds.push_back({first + a, first + b, panel.folds[f].angle_rad});
+  }
+  meshed.end_fold = garment.mesh.folds.size();
   return meshed;
 }
 
@@ -135,17 +159,19 @@ void add_seam(GarmentMesh& garment, const Pattern& pattern, const Stitch& stitch
   garment.seams.push_back(std::move(seam));
 }
 
-void turn_over(GarmentMesh& garment, Index panel) {
+void turn_over(GarmentMesh& garment, Index panel, const MeshedPanel& meshed) {
   for (std::size_t t = 0; t < garment.mesh.triangles.size(); ++t) {
     if (garment.mesh.panel[t] != panel) continue;
     std::swap(garment.mesh.triangles[t][1], garment.mesh.triangles[t][2]);
     std::swap(garment.mesh.uv[t][1], garment.mesh.uv[t][2]);
     for (Vec2& uv : garment.mesh.uv[t]) uv.y() = -uv.y();
   }
+  // A ridge on the drawn side is a valley on the other.
+  for (std::size_t f = meshed.first_fold; f < meshed.end_fold; ++f) garment.mesh.folds[f].angle_rad *= -1;
 }
 
 // Panels joined right to wrong must be turned over for the surface to have one right side.
-void orient_panels(GarmentMesh& garment, const Pattern& pattern) {
+void orient_panels(GarmentMesh& garment, const Pattern& pattern, const std::vector<MeshedPanel>& meshed) {
   std::vector<int> side(pattern.panels.size(), 0);  // 0: not reached, 1: as drawn, -1: turned over
   for (std::size_t start = 0; start < side.size(); ++start) {
     if (side[start] != 0) continue;
@@ -169,7 +195,7 @@ void orient_panels(GarmentMesh& garment, const Pattern& pattern) {
     }
   }
   for (std::size_t p = 0; p < side.size(); ++p) {
-    if (side[p] < 0) turn_over(garment, static_cast<Index>(p));
+    if (side[p] < 0) turn_over(garment, static_cast<Index>(p), meshed[p]);
   }
 }
 
@@ -189,7 +215,7 @@ GarmentMesh mesh_garment(const Pattern& pattern, double resolution_m) {
     }
   }
   for (const Stitch& stitch : pattern.stitches) add_seam(garment, pattern, stitch, meshed);
-  orient_panels(garment, pattern);
+  orient_panels(garment, pattern, meshed);
 
   garment.merged.resize(at(garment.mesh.particle_count));
   std::iota(garment.merged.begin(), garment.merged.end(), 0);
@@ -199,6 +225,38 @@ GarmentMesh mesh_garment(const Pattern& pattern, double resolution_m) {
   }
   for (Index i = 0; i < garment.mesh.particle_count; ++i) garment.merged[at(i)] = find_root(garment.merged, i);
   return garment;
+}
+
+int welded_count(const GarmentMesh& garment) {
+  int count = 0;
+  for (std::size_t i = 0; i < garment.merged.size(); ++i) count += at(garment.merged[i]) == i ? 1 : 0;
+  return count;
+}
+
+CountedGarment mesh_garment_to_count(const Pattern& pattern, int particles) {
+  constexpr int least = 20, most = 2'000'000, halvings = 24;
+  constexpr double tolerance = 0.01;
+  if (particles < least || particles > most)
+    throw InputError("", "vertices", "a number from 20 to 2,000,000", std::to_string(particles));
+  // A lattice of edge e has a particle per e^2 sqrt(3)/2; seams and outlines have more, never half of it.
+  const double estimate = std::sqrt(summarize(pattern).area_m2 / (0.8660254037844386 * particles));
+  CountedGarment best;
+  int best_count = 0;
+  double low = 0.5 * estimate, high = 4 * estimate;
+  for (int k = 0; k < halvings && best_count != particles; ++k) {
+    const double middle = k == 0 ? estimate : std::sqrt(low * high);
+    GarmentMesh garment = mesh_garment(pattern, middle);
+    const int count = welded_count(garment);
+    if (best_count == 0 || std::abs(count - particles) < std::abs(best_count - particles)) {
+      best = {std::move(garment), middle};
+      best_count = count;
+    }
+    (count > particles ? low : high) = middle;  // the count falls with the edge but for a little noise
+  }
+  if (std::abs(best_count - particles) > tolerance * particles)
+    throw InputError("", "vertices", "a number of particles that this pattern can be cut into, within 1 %",
+                     std::to_string(particles) + "; the nearest found is " + std::to_string(best_count));
+  return best;
 }
 
 WeldedMesh weld(const GarmentMesh& garment) {
@@ -211,6 +269,10 @@ WeldedMesh weld(const GarmentMesh& garment) {
   welded.mesh.particle_count = count;
   for (Triangle& t : welded.mesh.triangles) {
     for (Index& corner : t) corner = welded.particle_of[at(corner)];
+  }
+  for (FoldedEdge& fold : welded.mesh.folds) {
+    fold.a = welded.particle_of[at(fold.a)];
+    fold.b = welded.particle_of[at(fold.b)];
   }
   return welded;
 }

@@ -6,6 +6,8 @@
 // Coordinates: the grain runs up the panel, so the warp is u = y of the drawing and the weft v = -x.  A panel that is drawn
 // clockwise faces the other way (a back panel): it is mirrored, v = x, so that every triangle is counter-clockwise in (u, v) and
 // seen from its right side.  A panel sewn "right to wrong" is turned over so that the right sides agree along every seam.
+//
+// A fold cuts its panel into pieces that are meshed one by one and share the points on the line: mesh edges follow it.
 #pragma once
 #include "garment/pattern.hpp"
 #include "mesh/cloth_mesh.hpp"
@@ -51,6 +53,17 @@ MeshQuality mesh_quality(const ClothMesh& mesh);
 // Throws InputError naming the seam when its two sides cannot be joined: twisted (the other way round, the placed edges are much
 // nearer) or closing into a one-sided surface.
 GarmentMesh mesh_garment(const Pattern& pattern, double resolution_m);
+
+// The same with the edge length chosen such that the welded garment has `particles` particles, within 1 %.  Throws
+// InputError naming the nearest count when the pattern cannot be cut so (or for particles outside 20 ... 2,000,000).
+struct CountedGarment {
+  GarmentMesh garment;
+  double resolution_m = 0;  // mesh_garment(pattern, resolution_m) gives this garment
+};
+CountedGarment mesh_garment_to_count(const Pattern& pattern, int particles);
+
+// Particles of the welded garment.
+int welded_count(const GarmentMesh& garment);
 
 // The welded cloth: classes of `merged` become one particle each, in order of their smallest member.
 struct WeldedMesh {

@@ -27,12 +27,21 @@ struct PanelEdge {
   Index file_number = -1;  // its number in the file, for messages; -1: its place in `edges`
 };
 
+struct PanelFold {       // a line across a panel that wants to stay folded: of a collar, a pleat, a crease
+  PanelEdge line;        // from one corner of the outline to another, inside the panel
+  double angle_rad = 0;  // at rest; > 0: a ridge on the panel's outer side, < 0: a valley
+};
+
 struct Panel {
   std::string name, label;
   Vec3 translation_m{0, 0, 0};
   Vec3 rotation_deg{0, 0, 0};    // R = Rz Ry Rx
   std::vector<Vec2> corners;     // m
   std::vector<PanelEdge> edges;  // one closed loop, in order; may be clockwise (the normal then points to -z)
+  // The file's extension "toile":
+  std::string fabric;            // a preset's name (material/fabric.hpp); empty: the garment's
+  Vec2 rest_stretch{1, 1};       // b of the warp (up the panel) and of the weft; below 1 it is elastic
+  std::vector<PanelFold> folds;  // do not cross each other or the outline
 
   Mat3 rotation() const;                // exact at multiples of 90 degrees
   Vec3 place(const Vec2& p) const;      // panel plane to world

@@ -8,15 +8,19 @@
 #include "garment/pattern.hpp"
 #include "garment/pattern_check.hpp"
 #include "io/json.hpp"
+#include "material/fabric.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace toile {
 namespace {
+
+constexpr double largest_fold_deg = 170;  // at 180 a hinge cannot tell one side from the other
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -98,7 +102,18 @@ class PatternReader {
     pattern_.name = pattern_name(file);
     read_properties();
     const Json& pattern = root_.at("pattern");
+    if (const Json* extension = root_.find("toile")) {
+      if (!extension->is_object()) extension->fail("an object with the key \"panels\"", extension->describe());
+      extension->allow_only({"panels"});
+      extension_ = extension->find("panels");
+    }
     read_panels(pattern);
+    if (extension_ != nullptr) {
+      for (const auto& [name, panel] : extension_->object()) {
+        if (!place_of_panel_.contains(name))
+          panel.fail("the name of a panel", '"' + printable(name) + '"' + suggestion(name, panel_names_));
+      }
+    }
     read_stitches(pattern.at("stitches"));
     report_faults(pattern);
     pattern_.legacy_frame = is_legacy_frame();
@@ -190,6 +205,7 @@ class PatternReader {
       panel.edges.back().file_number = static_cast<Index>(panel.edges.size() - 1);
     }
     sources_.push_back({&json, order_loop(panel, edges)});
+    read_extension(panel);
     if (centre_panels_) centre(panel);
     pattern_.panels.push_back(std::move(panel));
   }
@@ -197,6 +213,11 @@ class PatternReader {
   PanelEdge read_edge(const Panel& panel, const Json& json) const {
     if (!json.is_object()) json.fail("an edge: an object", json.describe());
     json.allow_only({"endpoints", "curvature", "label"});
+    return read_line(panel, json);
+  }
+
+  // What edges and folds have in common.
+  PanelEdge read_line(const Panel& panel, const Json& json) const {
     const Json& ends = json.at("endpoints");
     if (!ends.is_array() || ends.array().size() != 2) ends.fail("two corners: [start, end]", ends.describe());
     PanelEdge edge;
@@ -297,7 +318,48 @@ class PatternReader {
     for (PanelEdge& edge : panel.edges) {
       for (Vec2& control : edge.control) control -= mean;
     }
+    for (PanelFold& fold : panel.folds) {
+      for (Vec2& control : fold.line.control) control -= mean;
+    }
     panel.translation_m += Vec3{mean.x(), mean.y(), 0};
+  }
+
+  // What the format has no words for: docs/pattern-format.md, "The extension".
+  void read_extension(Panel& panel) const {
+    const Json* json = extension_ != nullptr ? extension_->find(panel.name) : nullptr;
+    if (json == nullptr) return;
+    if (!json->is_object()) json->fail("an object", json->describe());
+    json->allow_only({"fabric", "rest_stretch_u", "rest_stretch_v", "folds"});
+    if (const Json* fabric = json->find("fabric"))
+      panel.fabric = fabric_preset(fabric->string(), fabric->where(), fabric->pointer()).name;
+    const auto rest_stretch = [&](const char* key) {
+      const Json* b = json->find(key);
+      if (b == nullptr) return 1.0;
+      if (!(b->number() >= 0.2 && b->number() <= 5)) b->fail("a number from 0.2 to 5", b->describe());
+      return b->number();
+    };
+    panel.rest_stretch = {rest_stretch("rest_stretch_u"), rest_stretch("rest_stretch_v")};
+    const Json* folds = json->find("folds");
+    if (folds == nullptr) return;
+    constexpr std::size_t most_folds = 100;
+    if (folds->array().size() > most_folds) folds->fail("at most 100 folds", folds->describe());
+    for (const Json& entry : folds->array()) {
+      if (!entry.is_object()) entry.fail("a fold: an object", entry.describe());
+      entry.allow_only({"endpoints", "curvature", "angle_deg"});
+      const Json& angle = entry.at("angle_deg");
+      if (!(std::abs(angle.number()) <= largest_fold_deg))
+        angle.fail("an angle between -170 and 170 degrees", angle.describe());
+      PanelFold fold{read_line(panel, entry), angle.number() * std::numbers::pi / 180};
+      const auto is_side = [&](const PanelEdge& edge) {
+        return (edge.start == fold.line.start && edge.end == fold.line.end) ||
+               (edge.start == fold.line.end && edge.end == fold.line.start);
+      };
+      if (fold.line.kind == CurveKind::line && std::any_of(panel.edges.begin(), panel.edges.end(), [&](const auto& e) {
+            return e.kind == CurveKind::line && is_side(e);
+          }))
+        entry.fail("a line through the panel", "a side of its outline");
+      panel.folds.push_back(std::move(fold));
+    }
   }
 
   // ---- stitches -----------------------------------------------------------------------------------------------------
@@ -377,6 +439,7 @@ class PatternReader {
   std::map<std::string, Index> place_of_panel_;  // first in the order of the file, then in Pattern::panels
   std::vector<PanelSource> sources_;             // as Pattern::panels
   const Json* stitches_ = nullptr;
+  const Json* extension_ = nullptr;  // /toile/panels
 };
 
 }  // namespace

@@ -45,6 +45,7 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
     fabric.bend_v_N_m = std::max(fabric.bend_v_N_m, options.bend_N_m);
   }
   model_ = build_model(garment.mesh, stiff, weightless);
+  set_folds(model_, 0);
   state_ = {garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
   for (const SeamPair& pair : garment.pairs) {
     start_distance_m_.push_back((garment.x[at(pair.b)] - garment.x[at(pair.a)]).norm());

@@ -11,12 +11,24 @@
 
 namespace toile {
 
+struct PanelCloth {         // what a panel asks for by itself; a scene may say otherwise
+  std::string fabric;       // a preset's name; empty: the garment's
+  Vec2 rest_stretch{1, 1};  // (b_u, b_v)
+};
+
+struct FoldedEdge {  // an edge whose hinge is not flat at rest
+  Index a = 0, b = 0;
+  double angle_rad = 0;  // theta of mesh/topology.hpp: > 0 is a ridge on the right side
+};
+
 struct ClothMesh {
   Index particle_count = 0;
   std::vector<Triangle> triangles;      // counter-clockwise in (u, v) and seen from the right side
   std::vector<std::array<Vec2, 3>> uv;  // [triangle][corner], m
   std::vector<Index> panel;             // [triangle] index into panel_names
   std::vector<std::string> panel_names;
+  std::vector<PanelCloth> panel_cloth;  // as panel_names, or empty
+  std::vector<FoldedEdge> folds;
 
   Index triangle_count() const { return static_cast<Index>(triangles.size()); }
 };

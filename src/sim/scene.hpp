@@ -25,7 +25,7 @@ namespace toile {
 struct ScenePanel {  // what one panel has of its own
   std::string name;
   std::optional<Fabric> fabric;
-  double rest_stretch_u = 1, rest_stretch_v = 1;  // b of the warp and the weft; < 1 pulls together
+  std::optional<double> rest_stretch_u, rest_stretch_v;  // b of the warp and the weft, < 1 pulls together; absent: the pattern's
   std::string where, pointer;                     // in the file, for the message that there is no such panel
 };
 

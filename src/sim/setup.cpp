@@ -117,6 +117,8 @@ GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& 
 
 std::vector<Fabric> fabrics_of(const Scene& scene, const SceneCloth& cloth, const ClothMesh& mesh) {
   std::vector<Fabric> fabrics(mesh.panel_names.size(), cloth.fabric);
+  for (std::size_t p = 0; p < mesh.panel_cloth.size(); ++p)
+    if (!mesh.panel_cloth[p].fabric.empty()) fabrics[p] = fabric_preset(mesh.panel_cloth[p].fabric, "", "fabric");
   for (const ScenePanel& panel : cloth.panels) {
     const auto place = std::find(mesh.panel_names.begin(), mesh.panel_names.end(), panel.name);
     if (place == mesh.panel_names.end()) {
@@ -137,9 +139,11 @@ std::vector<Fabric> fabrics_of(const Scene& scene, const SceneCloth& cloth, cons
 
 std::vector<Vec2> rest_stretch_of(const SceneCloth& cloth, const ClothMesh& mesh) {
   std::vector<Vec2> b(mesh.panel_names.size(), Vec2(1, 1));
+  for (std::size_t p = 0; p < mesh.panel_cloth.size(); ++p) b[p] = mesh.panel_cloth[p].rest_stretch;
   for (const ScenePanel& panel : cloth.panels)
     for (std::size_t p = 0; p < b.size(); ++p)
-      if (mesh.panel_names[p] == panel.name) b[p] = Vec2(panel.rest_stretch_u, panel.rest_stretch_v);
+      if (mesh.panel_names[p] == panel.name)
+        b[p] = Vec2(panel.rest_stretch_u.value_or(b[p].x()), panel.rest_stretch_v.value_or(b[p].y()));
   return b;
 }
 

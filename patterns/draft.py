@@ -1,0 +1,411 @@
+#!/usr/bin/env python3
+"""Drafts our garments for the man and the dancer and writes their pattern files.
+
+Usage: draft.py [FOLDER]        FOLDER is where this file is, if not given
+
+Centimetres, y up, bodies on the floor facing +z: docs/patterns.md.  Panels are drawn as they hang: fronts before the
+body, backs behind it, sleeves along the arms; the left side is drawn and the right one is its mirror image.  Fronts run
+counter-clockwise and backs clockwise, so that outer sides face away from the body.
+"""
+import json
+import math
+import pathlib
+import sys
+
+
+# ---- lines: a piece of an outline is (control points..., end), with the point before it as its start ----
+
+def bezier(points, t):
+    while len(points) > 1:
+        points = [((1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1]) for a, b in zip(points, points[1:])]
+    return points[0]
+
+
+def length(*points):
+    fine = [bezier(list(points), i / 400) for i in range(401)]
+    return sum(math.dist(a, b) for a, b in zip(fine, fine[1:]))
+
+
+def arc(radius, angle0, angle1, centre=(0, 0)):
+    """Control points of the cubic next to an arc of a circle, angles in degrees from +x."""
+    a, b = math.radians(angle0), math.radians(angle1)
+    k = 4 / 3 * math.tan((b - a) / 4) * radius
+    p = lambda t, along: (centre[0] + radius * math.cos(t) - along * math.sin(t), centre[1] + radius * math.sin(t) + along * math.cos(t))
+    return [p(a, 0), p(a, k), p(b, -k), p(b, 0)]
+
+
+def solved(wanted, measure, low, high):
+    """x between low and high where measure(x), which rises, is `wanted`."""
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if measure(middle) < wanted else (low, middle)
+    return (low + high) / 2
+
+
+class Panel:
+    """An outline: start, then pieces.  A piece is a dict: to, via (0 to 2 control points), name, label."""
+
+    def __init__(self, name, label, translation, turn=0, start=None):
+        self.name, self.label, self.translation, self.turn = name, label, translation, turn
+        self.start, self.pieces, self.extension, self.folds = start, [], {}, []
+
+    def to(self, x, y, *via, name=None, label=None):
+        self.pieces.append({"to": (x, y), "via": list(via), "name": name, "label": label})
+        return self
+
+    def elastic(self, **rest_stretch):
+        self.extension.update({f"rest_stretch_{k}": v for k, v in rest_stretch.items()})
+        return self
+
+    def of(self, fabric):
+        self.extension["fabric"] = fabric
+        return self
+
+    def fold(self, a, b, angle_deg):
+        """Along the straight line between two corners, given by their coordinates."""
+        self.folds.append((a, b, angle_deg))
+        return self
+
+    def corners(self):
+        return [self.start] + [p["to"] for p in self.pieces[:-1]]
+
+    def points(self, k):
+        return [self.corners()[k], *self.pieces[k]["via"], self.pieces[k]["to"]]
+
+    def edge(self, name):
+        return next(k for k, p in enumerate(self.pieces) if p["name"] == name)
+
+    def edge_length(self, name):
+        return length(*self.points(self.edge(name)))
+
+    def area(self):
+        ring = [bezier(self.points(k), i / 16) for k in range(len(self.pieces)) for i in range(16)]
+        return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1])) / 2
+
+    def reversed(self):
+        other = Panel(self.name, self.label, self.translation, self.turn, self.start)
+        corners = self.corners()
+        for k in reversed(range(len(self.pieces))):
+            p = self.pieces[k]
+            other.to(*corners[k], *reversed(p["via"]), name=p["name"], label=p["label"])
+        other.extension, other.folds = self.extension, self.folds
+        return other
+
+    def facing(self):
+        """Counter-clockwise in front of the body, clockwise behind it."""
+        return self if (self.area() > 0) == (self.translation[2] > 0) else self.reversed()
+
+    def mirrored(self):
+        swap = lambda s: s.replace("left", "right") if s else s
+        flip = lambda p: (-p[0], p[1])
+        x, y, z = self.translation
+        other = Panel(swap(self.name), self.label, (-x, y, z), -self.turn, flip(self.start))
+        for p in self.pieces:
+            other.to(*flip(p["to"]), *map(flip, p["via"]), name=swap(p["name"]), label=p["label"])
+        other.extension = dict(self.extension)
+        other.folds = [(flip(a), flip(b), angle) for a, b, angle in self.folds]
+        return other.facing()
+
+
+def rounded(x, digits=3):
+    x = round(x, digits)
+    return int(x) if x == int(x) else x
+
+
+class Garment:
+    def __init__(self, name):
+        self.name, self.panels, self.stitches = name, [], []
+
+    def add(self, *panels):
+        self.panels += [p.facing() for p in panels]
+
+    def pair(self, panel):
+        """The panel and its mirror image."""
+        self.add(panel, panel.mirrored())
+
+    def sew(self, a, b):
+        """Edges as "panel/edge"."""
+        self.stitches.append((a, b))
+
+    def sew_sides(self, a, b):
+        """The same on the left and on the right."""
+        self.sew(a, b)
+        self.sew(a.replace("left", "right"), b.replace("left", "right"))
+
+    def side(self, text):
+        name, edge = text.split("/")
+        panel = next(p for p in self.panels if p.name == name)
+        return {"panel": name, "edge": panel.edge(edge)}
+
+    def text(self):
+        one = lambda value: json.dumps(value)
+        lines, extension = [], {}
+        for panel in self.panels:
+            corners = panel.corners()
+            number = {tuple(rounded(c) for c in corner): k for k, corner in enumerate(corners)}
+            edges = []
+            for k, piece in enumerate(panel.pieces):
+                start, end = corners[k], piece["to"]
+                edge = {"endpoints": [k, (k + 1) % len(corners)]}
+                if piece["via"]:
+                    e = (end[0] - start[0], end[1] - start[1])
+                    e2 = e[0] ** 2 + e[1] ** 2
+                    relative = lambda p: [rounded(((p[0] - start[0]) * e[0] + (p[1] - start[1]) * e[1]) / e2, 5),
+                                          rounded(((p[1] - start[1]) * e[0] - (p[0] - start[0]) * e[1]) / e2, 5)]
+                    edge["curvature"] = {"type": "quadratic" if len(piece["via"]) == 1 else "cubic",
+                                         "params": [relative(p) for p in piece["via"]]}
+                if piece["label"]:
+                    edge["label"] = piece["label"]
+                edges.append("     " + one(edge))
+            lines.append(f'   {one(panel.name)}: {{\n    "translation": {one([rounded(t) for t in panel.translation])},\n'
+                         f'    "rotation": {one([0, 0, panel.turn])},\n    "vertices": [\n     '
+                         + ",\n     ".join(one([rounded(c) for c in corner]) for corner in corners)
+                         + '\n    ],\n    "edges": [\n' + ",\n".join(edges) + f'\n    ],\n    "label": {one(panel.label)}\n   }}')
+            more = dict(panel.extension)
+            if panel.folds:
+                more["folds"] = [{"endpoints": [number[tuple(map(rounded, a))], number[tuple(map(rounded, b))]], "angle_deg": angle}
+                                 for a, b, angle in panel.folds]
+            if more:
+                extension[panel.name] = more
+        stitches = ",\n".join("   " + one([self.side(a), self.side(b)]) for a, b in self.stitches)
+        text = ('{\n "pattern": {\n  "panels": {\n' + ",\n".join(lines) + '\n  },\n  "stitches": [\n' + stitches
+                + '\n  ],\n  "panel_order": ' + one([p.name for p in self.panels]) + '\n },\n')
+        if extension:
+            text += ' "toile": {\n  "panels": {\n' + ",\n".join(f"   {one(k)}: {one(v)}" for k, v in extension.items()) + '\n  }\n },\n'
+        return text + (' "parameters": {},\n "parameter_order": [],\n "properties": {\n  "curvature_coords": "relative",\n'
+                       '  "normalize_panel_translation": false,\n  "normalized_edge_loops": true,\n  "units_in_meter": 100\n }\n}\n')
+
+
+# ---- bodies ----
+
+DANCER = dict(waist=67.5, waist_y=108.5, hips=96.4, hip_y=90, crotch_y=79, neck=(9.0, 146.6), tip=(19.2, 142.4), joint=(17.0, 136.7),
+              wrist=54.0, bust_y=124)
+MAN = dict(waist=81.8, waist_y=109, hips=96.8, hip_y=89, crotch_y=83, neck=(9.6, 153.4), tip=(21.6, 149.3), joint=(19.0, 143.2),
+           wrist=58.5, bust_y=130)
+
+FRONT, BACK = 20, -24  # z of the panels
+
+
+# ---- parts ----
+
+def waistband(garment, waist, y, height, joints, b, fabric=None, gap=1.0):
+    """Front and back, `waist` around, above y; `joints` = (front, back): x of the right half's lower corners beside the middle one."""
+    for name, z, xs in (("waistband_front", FRONT, joints[0]), ("waistband_back", BACK, joints[1])):
+        w = waist / 4
+        panel = Panel(name, "body", (0, y + gap, z), start=(-w, 0))
+        stops = sorted({x for x in xs} | {-x for x in xs} | {w})
+        for k, x in enumerate(s for s in stops if s > -w):
+            panel.to(x, 0, name=f"lower{k}")
+        panel.to(w, height, name="left_end").to(-w, height, name="upper").to(-w, 0, name="right_end").elastic(v=b)
+        if fabric:
+            panel.of(fabric)
+        garment.add(panel)
+    garment.sew_sides("waistband_front/left_end", "waistband_back/left_end")
+
+
+def dart(panel, a, b, share, width, long, toward, name):
+    """The line from a to b with a dart: edges name + "_before", "_leg_a", "_leg_b", "_after"; the tip lies on the side of `toward`."""
+    full = math.dist(a, b)
+    u = ((b[0] - a[0]) / full, (b[1] - a[1]) / full)
+    at = lambda s: (a[0] + s * u[0], a[1] + s * u[1])
+    middle = at(share * full)
+    n = (-u[1], u[0])
+    if n[0] * (toward[0] - middle[0]) + n[1] * (toward[1] - middle[1]) < 0:
+        n = (u[1], -u[0])
+    panel.to(*at(share * full - width / 2), name=name + "_before")
+    panel.to(middle[0] + long * n[0], middle[1] + long * n[1], name=name + "_leg_a")
+    panel.to(*at(share * full + width / 2), name=name + "_leg_b").to(*b, name=name + "_after")
+
+
+def skirt(name, body, length_cm, band, ease, angle, darts=0):
+    """Two sectors of `angle` degrees whose upper edges, `ease` times the band, are drawn into an elastic band."""
+    garment = Garment(name)
+    top = ease * band / 2 + 2 * darts
+    radius = top / math.radians(angle)
+    y = body["waist_y"] - 1.5
+    for which, z in (("front", FRONT), ("back", BACK)):
+        centre = (0, radius)
+        inner = arc(radius, -90 + angle / 2, -90 - angle / 2, centre)   # from the left end (x > 0) to the right one
+        outer = arc(radius + length_cm, -90 - angle / 2, -90 + angle / 2, centre)
+        panel = Panel(which, "leg", (0, y, z), start=outer[0])
+        panel.to(*outer[3], *outer[1:3], name="hem").to(*inner[0], name="left_side")
+        panel.to(*inner[3], *inner[1:3], name="waist").to(*outer[0], name="right_side")
+        garment.add(panel)
+    garment.sew_sides("front/left_side", "back/left_side")
+    waistband(garment, band, y + radius * (1 - math.cos(math.radians(angle / 2))), 3.0, ([], []), 0.86)
+    garment.sew("front/waist", "waistband_front/lower0")
+    garment.sew("back/waist", "waistband_back/lower0")
+    return garment
+
+
+def bodice(garment, which, body, z, chest, hem, underarm_y, hem_y, neck_half, neck_depth, scoop, bust_dart=0):
+    """Front or back in one piece; chest and hem are half widths, `scoop` is how far the armhole is cut in."""
+    tip, neck = body["tip"], (neck_half, body["neck"][1] - (neck_half - body["neck"][0]) * 0.41)
+    y0 = hem_y
+    left = Panel(which, "body", (0, y0, z), start=(hem, -bust_dart))
+    under = (chest, underarm_y - y0)
+    if bust_dart:
+        bust = (8, body["bust_y"] - y0)
+        dart(left, left.start, under, 0.78, bust_dart, 11, bust, "left_side")
+    else:
+        split = 0.78 * math.dist(left.start, under)  # where the front's dart ends, so that both sides have two pieces
+        u = (under[0] - left.start[0], under[1] - left.start[1])
+        left.to(left.start[0] + 0.78 * u[0], left.start[1] + 0.78 * u[1], name="left_side_before").to(*under, name="left_side_after")
+        assert split > 0
+    shoulder = (tip[0], tip[1] - y0)
+    left.to(*shoulder, (under[0] - scoop, under[1]), (shoulder[0] - 1.9, shoulder[1] - 0.39 * (shoulder[1] - under[1])), name="left_armhole")
+    left.to(neck[0], neck[1] - y0, name="left_shoulder")
+    low = (0, neck[1] - neck_depth - y0)
+    left.to(*low, (neck[0] - 0.15 * neck[0], neck[1] - 0.75 * neck_depth - y0), (0.55 * neck[0], low[1]), name="left_neck")
+    panel = Panel(which, "body", left.translation, start=(-hem, -bust_dart)).to(*left.start, name="hem")
+    panel.pieces += left.pieces
+    right = left.mirrored()
+    if right.area() < 0 or left.area() < 0:
+        pass
+    corners = left.corners() + [left.pieces[-1]["to"]]
+    for k in reversed(range(len(left.pieces))):
+        p = left.pieces[k]
+        panel.to(-corners[k][0], corners[k][1], *[(-x, y) for x, y in reversed(p["via"])], name=p["name"].replace("left", "right"))
+    garment.add(panel)
+    return next(p for p in garment.panels if p.name == which)
+
+
+def sleeves(garment, body, fronts, half_arm, cap, sleeve_end, wrist, cuff, cuff_height, cuff_b, turn=-45, ease=1.01):
+    """Two halves each along the arm, and elastic cuffs; wrist and cuff are half girths."""
+    c = math.cos(math.radians(turn))
+    joint = body["joint"]
+    out = lambda d: (round(joint[0] + d * c, 3), round(joint[1] - d * c, 3))
+    for which, z, panel in (("front", 13, fronts[0]), ("back", -18, fronts[1])):
+        def line(low):
+            span = half_arm + low
+            return (0, half_arm), (0, half_arm - 0.55 * span), (cap - 0.27, -low + 0.4 * span), (cap, -low)
+        low = solved(ease * panel.edge_length("left_armhole"), lambda x: length(*line(x)), 1, 30)
+        p = line(low)
+        sleeve = Panel("left_sleeve_" + which, "arm", (*out(5), z), turn, start=p[0])
+        sleeve.to(*p[3], *p[1:3], name="cap").to(sleeve_end, -wrist / 2, name="under").to(sleeve_end, wrist / 2, name="wrist")
+        sleeve.to(*p[0], name="over")
+        garment.pair(sleeve)
+        band = Panel("left_cuff_" + which, "arm", (*out(6), z), turn, start=(sleeve_end, -cuff / 2))
+        band.to(sleeve_end + cuff_height, -cuff / 2, name="under").to(sleeve_end + cuff_height, cuff / 2, name="end")
+        band.to(sleeve_end, cuff / 2, name="over").to(sleeve_end, -cuff / 2, name="wrist")
+        if cuff_b != 1:
+            band.elastic(u=cuff_b)
+        garment.pair(band)
+        garment.sew_sides(f"left_sleeve_{which}/cap", f"{which}/left_armhole")
+        garment.sew_sides(f"left_sleeve_{which}/wrist", f"left_cuff_{which}/wrist")
+    for part in ("sleeve", "cuff"):
+        for edge in ("over", "under"):
+            garment.sew_sides(f"left_{part}_front/{edge}", f"left_{part}_back/{edge}")
+
+
+def top(name, body, chest, hem, underarm_y, hem_y, neck, bust_dart, sleeve):
+    """neck = (half width, depth in front, depth behind); chest and hem = half widths (front, back)."""
+    garment = Garment(name)
+    front = bodice(garment, "front", body, FRONT + 1, chest[0], hem[0], underarm_y, hem_y, neck[0], neck[1], 7.1, bust_dart)
+    back = bodice(garment, "back", body, BACK - 1, chest[1], hem[1], underarm_y, hem_y, neck[0], neck[2], 5.8)
+    for edge in ("shoulder", "side_before", "side_after"):
+        garment.sew_sides("front/left_" + edge, "back/left_" + edge)
+    if bust_dart:
+        garment.sew_sides("front/left_side_leg_a", "front/left_side_leg_b")
+    sleeves(garment, body, (front, back), **sleeve)
+    return garment
+
+
+def collar(garment, body, stand, fall, angle_deg, fabric):
+    """A turned-down collar, open in front: a back and two fronts, each folded along a line at the height of the stand."""
+    front = next(p for p in garment.panels if p.name == "front")
+    back = next(p for p in garment.panels if p.name == "back")
+    y = body["neck"][1] + 1.5
+    long = front.edge_length("left_neck")
+    panel = Panel("left_collar", "body", (0, y, FRONT + 1), start=(1, 0))
+    side = 1 + long
+    a, b = (1, stand), (side, stand)
+    panel.to(side, 0, name="neck").to(*b, name="shoulder_stand").to(side + 1.2, stand + fall, name="shoulder_fall")
+    panel.to(-1 + 1.2, stand + fall + 1.5, name="edge").to(*a, name="point").to(1, 0, name="end")
+    panel.fold(a, b, angle_deg).of(fabric)
+    garment.pair(panel)
+    half = back.edge_length("left_neck")
+    panel = Panel("collar_back", "body", (0, y, BACK - 1), start=(-half, 0))
+    a, b = (-half, stand), (half, stand)
+    panel.to(0, 0, name="right_neck").to(half, 0, name="left_neck").to(*b, name="left_stand").to(half + 1.2, stand + fall, name="left_fall")
+    panel.to(-half - 1.2, stand + fall, name="edge").to(*a, name="right_fall").to(-half, 0, name="right_stand")
+    panel.fold(a, b, angle_deg).of(fabric)
+    garment.add(panel)
+    garment.sew_sides("left_collar/neck", "front/left_neck")
+    garment.sew("right_collar/shoulder_stand", "collar_back/right_stand")
+    garment.sew("right_collar/shoulder_fall", "collar_back/right_fall")
+    garment.sew("left_collar/shoulder_stand", "collar_back/left_stand")
+    garment.sew("left_collar/shoulder_fall", "collar_back/left_fall")
+    garment.sew_sides("collar_back/left_neck", "back/left_neck")
+
+
+def pants(name, body, ease, band, band_height, band_b, waist_y, hem_y, hem):
+    """hem = widths of the front and the back leg there."""
+    garment = Garment(name)
+    cy = body["crotch_y"] - 1.5
+    quarter = (body["hips"] + ease) / 4
+    hip_y = body["hip_y"]
+    quarter_band, gather = band / 4, 1.03
+
+    def leg(which, z, width, fork, rise, slant, crotch_height, hem_width, drop, dart_width):
+        middle = (width - fork) / 2 - 0.5
+        inner, outer = middle - hem_width / 2, middle + hem_width / 2
+        top_long = gather * quarter_band + dart_width
+        side_top = slant + math.sqrt(top_long ** 2 - rise ** 2)
+        panel = Panel("left_" + which, "leg", (fork + 1, 0, z), start=(inner, hem_y)).to(outer, hem_y, name="hem")
+        panel.to(width, hip_y, (outer, hem_y + 30), (width + 0.3, hip_y - 22), name="side_low")
+        panel.to(side_top, waist_y, (width - 0.1, hip_y + 0.45 * (waist_y - hip_y)), name="side_high")
+        centre = (slant, waist_y + rise)
+        if dart_width:
+            dart(panel, (side_top, waist_y), centre, 0.5, dart_width, 9, (side_top - 10, 0), "waist")
+        else:
+            panel.to(*centre, name="waist")
+        panel.to(0, cy + crotch_height, name="centre")
+        panel.to(-fork, cy - drop, (0, cy + 0.3 * crotch_height), (-0.45 * fork, cy - drop + 0.1), name="crotch")
+        panel.to(inner, hem_y, (inner - 1, cy - 20), (inner, cy - 40), name="inseam")
+        return panel
+
+    front = leg("front", FRONT, quarter - 0.5, 5.0, 0, 1.0, 6.5, hem[0], 0, 0)
+    back_of = lambda drop: leg("back", BACK, quarter + 0.5, 10.0, 2.0, 3.0, 9.0, hem[1], drop, 2.2)
+    drop = solved(-front.edge_length("inseam"), lambda d: -back_of(d).edge_length("inseam"), -2, 5)
+    back = back_of(drop)
+    garment.pair(front)
+    garment.pair(back)
+    d = quarter_band / 2  # the band's corner where the dart ends
+    waistband(garment, band, waist_y + 2, band_height, ((0,), (0, d)), band_b)
+    for edge in ("side_low", "side_high", "inseam"):
+        garment.sew_sides("left_front/" + edge, "left_back/" + edge)
+    for part in ("front", "back"):
+        for edge in ("centre", "crotch"):
+            garment.sew(f"left_{part}/{edge}", f"right_{part}/{edge}")
+    garment.sew_sides("left_back/waist_leg_a", "left_back/waist_leg_b")
+    garment.sew("left_front/waist", "waistband_front/lower1")
+    garment.sew("right_front/waist", "waistband_front/lower0")
+    garment.sew("left_back/waist_before", "waistband_back/lower3")
+    garment.sew("left_back/waist_after", "waistband_back/lower2")
+    garment.sew("right_back/waist_after", "waistband_back/lower1")
+    garment.sew("right_back/waist_before", "waistband_back/lower0")
+    return garment
+
+
+# ---- the garments ----
+
+def garments():
+    blouse_sleeve = dict(half_arm=9.5, cap=12, sleeve_end=51, wrist=13, cuff=10, cuff_height=4, cuff_b=0.88)
+    shirt_sleeve = dict(half_arm=11, cap=13, sleeve_end=54.5, wrist=13, cuff=12, cuff_height=5, cuff_b=1)
+    shirt = top("man_shirt", MAN, (28.3, 27.7), (28.5, 28.0), 126, 84, (9.0, 9.5, 1.5), 0, shirt_sleeve)
+    collar(shirt, MAN, 3.0, 4.5, -150, "denim")
+    return [
+        shirt,
+        pants("man_pants", MAN, 8, 88, 4, 0.86, 104, 8, (21, 23)),
+        skirt("short_skirt", DANCER, 40, 72, 1.04, 42),
+        skirt("long_skirt", DANCER, 84, 72, 1.15, 90),
+        top("blouse", DANCER, (26.2, 25.6), (28, 27.5), 119.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve),
+    ]
+
+
+if __name__ == "__main__":
+    folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
+    folder = folder if folder.is_dir() else folder.parent
+    for garment in garments():
+        (folder / (garment.name + ".json")).write_text(garment.text())

@@ -1,0 +1,78 @@
+#include "garment/fold_lines.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace toile {
+namespace {
+
+using Ring = std::vector<Index>;  // a piece's outline, as numbers of points
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// Cuts the one piece that has both ends of the line.
+void cut(std::vector<Ring>& pieces, const FoldLine& line, const Ring& between, const std::string& name) {
+  for (Ring& piece : pieces) {
+    auto from = std::find(piece.begin(), piece.end(), line.from);
+    if (from == piece.end() || std::find(piece.begin(), piece.end(), line.to) == piece.end()) continue;
+    std::rotate(piece.begin(), from, piece.end());
+    const auto to = std::find(piece.begin(), piece.end(), line.to);
+    // piece: from ... to ... ; the line goes from `from` to `to` through `between`.
+    Ring left(piece.begin(), to + 1), right(to, piece.end());
+    left.insert(left.end(), between.rbegin(), between.rend());
+    right.push_back(line.from);
+    right.insert(right.end(), between.begin(), between.end());
+    if (left.size() < 3 || right.size() < 3) break;
+    piece = std::move(left);
+    pieces.push_back(std::move(right));
+    return;
+  }
+  throw InputError("", name, "a line from one side of the panel to another that no other fold crosses",
+                   line.from == line.to ? "one that ends where it begins" : "one that is crossed or lies on the outline");
+}
+
+}  // namespace
+
+FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<const FoldLine> lines, double edge_m) {
+  FoldedPlanarMesh folded;
+  if (lines.empty()) {
+    folded.mesh = triangulate(outline, edge_m);
+    return folded;
+  }
+  std::vector<Vec2>& points = folded.mesh.points;
+  points.assign(outline.begin(), outline.end());
+  std::vector<Ring> pieces(1);
+  for (std::size_t i = 0; i < outline.size(); ++i) pieces[0].push_back(static_cast<Index>(i));
+  for (const FoldLine& line : lines) {
+    Ring between;
+    for (const Vec2& p : line.between) {
+      between.push_back(static_cast<Index>(points.size()));
+      points.push_back(p);
+    }
+    cut(pieces, line, between, "fold " + std::to_string(folded.line.size()));
+    std::vector<std::array<Index, 2>> edges;
+    Index last = line.from;
+    for (const Index i : between) {
+      edges.push_back({last, i});
+      last = i;
+    }
+    edges.push_back({last, line.to});
+    folded.line.push_back(std::move(edges));
+  }
+  for (const Ring& piece : pieces) {
+    std::vector<Vec2> ring;
+    for (const Index i : piece) ring.push_back(points[at(i)]);
+    const PlanarMesh mesh = triangulate(ring, edge_m);
+    const auto number = [&, first = static_cast<Index>(points.size()) - static_cast<Index>(piece.size())](Index i) {
+      return at(i) < piece.size() ? piece[at(i)] : first + i;
+    };
+    for (const Triangle& t : mesh.triangles)
+      folded.mesh.triangles.push_back({number(t[0]), number(t[1]), number(t[2])});
+    points.insert(points.end(), mesh.points.begin() + static_cast<std::ptrdiff_t>(piece.size()), mesh.points.end());
+  }
+  return folded;
+}
+
+}  // namespace toile

@@ -1,0 +1,31 @@
+// garment/fold_lines.hpp: a panel with lines across it that the mesh's edges must follow.
+//
+// Each line cuts the outline in two.  The pieces are triangulated one by one and share the points on the line, so the
+// line needs no recovery inside the triangulation: to each piece it is outline, which nothing may flip or cut.
+//
+// What a caller may get wrong: lines end at points of the outline.  One that ends on another line or crosses it leaves
+// no simple piece and is refused.
+#pragma once
+#include "garment/triangulate.hpp"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace toile {
+
+struct FoldLine {
+  Index from = 0, to = 0;     // points of the outline
+  std::vector<Vec2> between;  // the points on the way, in order, m
+};
+
+struct FoldedPlanarMesh {
+  PlanarMesh mesh;                                      // outline points, then points of the lines in order, then the rest
+  std::vector<std::vector<std::array<Index, 2>>> line;  // [line] its edges, from `from` to `to`
+};
+
+// Without lines it is triangulate(outline, edge_m), to the bit.  Throws InputError as that does, and for "fold 1" (its
+// number) when it crosses another, or is a side of the outline.
+FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<const FoldLine> lines, double edge_m);
+
+}  // namespace toile
