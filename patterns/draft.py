@@ -91,6 +91,21 @@ class Panel:
         other.extension, other.folds = self.extension, self.folds
         return other
 
+    def whole(self, name):
+        """The panel, drawn counter-clockwise with its last or first edge "middle" on x = 0, and its image in one."""
+        k = self.edge("middle")
+        pieces = self.pieces[k + 1:] + self.pieces[:k]
+        start = self.pieces[k]["to"]
+        other = Panel(name, self.label, self.translation, self.turn, start)
+        for p in pieces:
+            other.to(*p["to"], *p["via"], name="left_" + p["name"], label=p["label"])
+        points = [start] + [p["to"] for p in pieces]
+        for k in reversed(range(len(pieces))):
+            p = pieces[k]
+            other.to(-points[k][0], points[k][1], *[(-x, y) for x, y in reversed(p["via"])], name="right_" + p["name"], label=p["label"])
+        other.extension = self.extension
+        return other
+
     def facing(self):
         """Counter-clockwise in front of the body, clockwise behind it."""
         return self if (self.area() > 0) == (self.translation[2] > 0) else self.reversed()
@@ -123,14 +138,14 @@ class Garment:
         """The panel and its mirror image."""
         self.add(panel, panel.mirrored())
 
-    def sew(self, a, b):
+    def sew(self, a, b, right_wrong=False, angle_deg=0):
         """Edges as "panel/edge"."""
-        self.stitches.append((a, b))
+        self.stitches.append((a, b, right_wrong, angle_deg))
 
-    def sew_sides(self, a, b):
+    def sew_sides(self, a, b, **how):
         """The same on the left and on the right."""
-        self.sew(a, b)
-        self.sew(a.replace("left", "right"), b.replace("left", "right"))
+        self.sew(a, b, **how)
+        self.sew(a.replace("left", "right"), b.replace("left", "right"), **how)
 
     def side(self, text):
         name, edge = text.split("/")
@@ -167,18 +182,24 @@ class Garment:
                                  for a, b, angle in panel.folds]
             if more:
                 extension[panel.name] = more
-        stitches = ",\n".join("   " + one([self.side(a), self.side(b)]) for a, b in self.stitches)
+        stitches = ",\n".join("   " + one([self.side(a), self.side(b)] + ["right_wrong"] * turned) for a, b, turned, _ in self.stitches)
+        pressed = [{"stitch": k, "angle_deg": angle} for k, (_, _, _, angle) in enumerate(self.stitches) if angle]
         text = ('{\n "pattern": {\n  "panels": {\n' + ",\n".join(lines) + '\n  },\n  "stitches": [\n' + stitches
                 + '\n  ],\n  "panel_order": ' + one([p.name for p in self.panels]) + '\n },\n')
+        ours = []
         if extension:
-            text += ' "toile": {\n  "panels": {\n' + ",\n".join(f"   {one(k)}: {one(v)}" for k, v in extension.items()) + '\n  }\n },\n'
+            ours.append('  "panels": {\n' + ",\n".join(f"   {one(k)}: {one(v)}" for k, v in extension.items()) + '\n  }')
+        if pressed:
+            ours.append('  "stitches": ' + one(pressed))
+        if ours:
+            text += ' "toile": {\n' + ",\n".join(ours) + '\n },\n'
         return text + (' "parameters": {},\n "parameter_order": [],\n "properties": {\n  "curvature_coords": "relative",\n'
                        '  "normalize_panel_translation": false,\n  "normalized_edge_loops": true,\n  "units_in_meter": 100\n }\n}\n')
 
 
 # ---- bodies ----
 
-DANCER = dict(waist=67.5, waist_y=108.5, hips=96.4, hip_y=90, crotch_y=79, neck=(9.0, 146.6), tip=(19.2, 142.4), joint=(17.0, 136.7),
+DANCER = dict(waist=67.5, waist_y=108.5, hips=96.4, hip_y=90, crotch_y=79, neck=(9.0, 145.6), tip=(19.2, 142.2), joint=(17.0, 136.7),
               wrist=54.0, bust_y=124)
 MAN = dict(waist=81.8, waist_y=109, hips=96.8, hip_y=89, crotch_y=83, neck=(9.6, 153.4), tip=(21.6, 149.3), joint=(19.0, 143.2),
            wrist=58.5, bust_y=130)
@@ -238,35 +259,27 @@ def skirt(name, body, length_cm, band, ease, angle, darts=0):
     return garment
 
 
-def bodice(garment, which, body, z, chest, hem, underarm_y, hem_y, neck_half, neck_depth, scoop, bust_dart=0):
+def bodice(garment, which, body, z, chest, hem, underarm_y, hem_y, neck_half, neck_depth, scoop, balance, bust_dart=0, side=None):
     """Front or back in one piece; chest and hem are half widths, `scoop` is how far the armhole is cut in."""
-    tip, neck = body["tip"], (neck_half, body["neck"][1] - (neck_half - body["neck"][0]) * 0.41)
+    tip = (body["tip"][0], body["tip"][1] + balance)
+    neck = (neck_half, body["neck"][1] - (neck_half - body["neck"][0]) * 0.41 + balance)
     y0 = hem_y
     left = Panel(which, "body", (0, y0, z), start=(hem, -bust_dart))
     under = (chest, underarm_y - y0)
     if bust_dart:
         bust = (8, body["bust_y"] - y0)
-        dart(left, left.start, under, 0.78, bust_dart, 11, bust, "left_side")
+        dart(left, left.start, under, 0.78, bust_dart, 11, bust, "side")
     else:
-        split = 0.78 * math.dist(left.start, under)  # where the front's dart ends, so that both sides have two pieces
-        u = (under[0] - left.start[0], under[1] - left.start[1])
-        left.to(left.start[0] + 0.78 * u[0], left.start[1] + 0.78 * u[1], name="left_side_before").to(*under, name="left_side_after")
-        assert split > 0
+        share = side / math.dist(left.start, under) if side else 0.78  # where the front's dart ends
+        at = lambda k: left.start[k] + share * (under[k] - left.start[k])
+        left.to(at(0), at(1), name="side_before").to(*under, name="side_after")
     shoulder = (tip[0], tip[1] - y0)
-    left.to(*shoulder, (under[0] - scoop, under[1]), (shoulder[0] - 1.9, shoulder[1] - 0.39 * (shoulder[1] - under[1])), name="left_armhole")
-    left.to(neck[0], neck[1] - y0, name="left_shoulder")
+    left.to(*shoulder, (under[0] - scoop, under[1]), (shoulder[0] - 1.9, shoulder[1] - 0.39 * (shoulder[1] - under[1])), name="armhole")
+    left.to(neck[0], neck[1] - y0, name="shoulder")
     low = (0, neck[1] - neck_depth - y0)
-    left.to(*low, (neck[0] - 0.15 * neck[0], neck[1] - 0.75 * neck_depth - y0), (0.55 * neck[0], low[1]), name="left_neck")
-    panel = Panel(which, "body", left.translation, start=(-hem, -bust_dart)).to(*left.start, name="hem")
-    panel.pieces += left.pieces
-    right = left.mirrored()
-    if right.area() < 0 or left.area() < 0:
-        pass
-    corners = left.corners() + [left.pieces[-1]["to"]]
-    for k in reversed(range(len(left.pieces))):
-        p = left.pieces[k]
-        panel.to(-corners[k][0], corners[k][1], *[(-x, y) for x, y in reversed(p["via"])], name=p["name"].replace("left", "right"))
-    garment.add(panel)
+    left.to(*low, (neck[0] - 0.15 * neck[0], neck[1] - 0.75 * neck_depth - y0), (0.55 * neck[0], low[1]), name="neck")
+    left.to(0, -bust_dart, name="middle").to(*left.start, name="hem")
+    garment.add(left.whole(which))
     return next(p for p in garment.panels if p.name == which)
 
 
@@ -298,11 +311,15 @@ def sleeves(garment, body, fronts, half_arm, cap, sleeve_end, wrist, cuff, cuff_
             garment.sew_sides(f"left_{part}_front/{edge}", f"left_{part}_back/{edge}")
 
 
-def top(name, body, chest, hem, underarm_y, hem_y, neck, bust_dart, sleeve):
-    """neck = (half width, depth in front, depth behind); chest and hem = half widths (front, back)."""
+def top(name, body, chest, hem, underarm_y, hem_y, neck, bust_dart, sleeve, balance):
+    """neck = (half width, depth in front, depth behind); chest and hem = half widths (front, back).
+
+    `balance` makes the front longer and the back shorter above the armhole: a chest stands farther forward than a back does behind.
+    """
     garment = Garment(name)
-    front = bodice(garment, "front", body, FRONT + 1, chest[0], hem[0], underarm_y, hem_y, neck[0], neck[1], 7.1, bust_dart)
-    back = bodice(garment, "back", body, BACK - 1, chest[1], hem[1], underarm_y, hem_y, neck[0], neck[2], 5.8)
+    front = bodice(garment, "front", body, FRONT + 1, chest[0], hem[0], underarm_y, hem_y, neck[0], neck[1], 7.1, balance, bust_dart)
+    back = bodice(garment, "back", body, BACK - 1, chest[1], hem[1], underarm_y, hem_y, neck[0], neck[2], 5.8, -balance,
+                  side=front.edge_length("left_side_before"))
     for edge in ("shoulder", "side_before", "side_after"):
         garment.sew_sides("front/left_" + edge, "back/left_" + edge)
     if bust_dart:
@@ -312,31 +329,38 @@ def top(name, body, chest, hem, underarm_y, hem_y, neck, bust_dart, sleeve):
 
 
 def collar(garment, body, stand, fall, angle_deg, fabric):
-    """A turned-down collar, open in front: a back and two fronts, each folded along a line at the height of the stand."""
+    """A turned-down collar, open in front: a stand on the neckline, and a fall that hangs over it from a pressed seam."""
     front = next(p for p in garment.panels if p.name == "front")
     back = next(p for p in garment.panels if p.name == "back")
-    y = body["neck"][1] + 1.5
-    long = front.edge_length("left_neck")
-    panel = Panel("left_collar", "body", (0, y, FRONT + 1), start=(1, 0))
-    side = 1 + long
-    a, b = (1, stand), (side, stand)
-    panel.to(side, 0, name="neck").to(*b, name="shoulder_stand").to(side + 1.2, stand + fall, name="shoulder_fall")
-    panel.to(-1 + 1.2, stand + fall + 1.5, name="edge").to(*a, name="point").to(1, 0, name="end")
-    panel.fold(a, b, angle_deg).of(fabric)
-    garment.pair(panel)
-    half = back.edge_length("left_neck")
-    panel = Panel("collar_back", "body", (0, y, BACK - 1), start=(-half, 0))
-    a, b = (-half, stand), (half, stand)
-    panel.to(0, 0, name="right_neck").to(half, 0, name="left_neck").to(*b, name="left_stand").to(half + 1.2, stand + fall, name="left_fall")
-    panel.to(-half - 1.2, stand + fall, name="edge").to(*a, name="right_fall").to(-half, 0, name="right_stand")
-    panel.fold(a, b, angle_deg).of(fabric)
-    garment.add(panel)
-    garment.sew_sides("left_collar/neck", "front/left_neck")
-    garment.sew("right_collar/shoulder_stand", "collar_back/right_stand")
-    garment.sew("right_collar/shoulder_fall", "collar_back/right_fall")
-    garment.sew("left_collar/shoulder_stand", "collar_back/left_stand")
-    garment.sew("left_collar/shoulder_fall", "collar_back/left_fall")
-    garment.sew_sides("collar_back/left_neck", "back/left_neck")
+    y = body["neck"][1] + 2.5
+    ends = 0.6 * stand  # the stand's height in front
+    for name, z, lower, low in (("front", FRONT + 1, front.edge_length("left_neck"), ends), ("back", BACK - 1, back.edge_length("left_neck"), stand)):
+        for k, layer in enumerate(("stand", "fall")):
+            top, out = y + stand + 1.0, math.copysign(5, z)
+            panel = Panel(f"left_{layer}_{name}", "body", ((0.5 + 2 * k) if name == "front" else 0, y if layer == "stand" else top, z + k * out))
+            if layer == "stand":
+                panel.start = (0, 0)
+                panel.to(lower, 0, name="neck").to(lower, stand, name="side").to(0, low, name="top")
+            else:
+                panel.start = (0, -(stand - low))
+                flare, point = (2.0, 2.0) if name == "front" else (2.0, 0)
+                panel.to(-point, -(stand - low) - fall - point, name="middle" if name == "back" else "point")
+                panel.to(lower + flare, -fall, name="edge").to(lower, 0, name="side")
+                panel.to(0, -(stand - low), name="top")
+            if layer == "stand":
+                panel.to(0, 0, name="middle" if name == "back" else "end")
+            if fabric:
+                panel.of(fabric)
+            if name == "front":
+                garment.pair(panel)
+            else:
+                garment.add(panel.whole(f"{layer}_back"))
+    garment.sew_sides("left_stand_front/neck", "front/left_neck")
+    garment.sew_sides("stand_back/left_neck", "back/left_neck")
+    garment.sew_sides("left_stand_front/top", "left_fall_front/top", right_wrong=True, angle_deg=angle_deg)
+    garment.sew_sides("stand_back/left_top", "fall_back/left_top", right_wrong=True, angle_deg=angle_deg)
+    for layer in ("stand", "fall"):
+        garment.sew_sides(f"left_{layer}_front/side", f"{layer}_back/left_side")
 
 
 def pants(name, body, ease, band, band_height, band_b, waist_y, hem_y, hem):
@@ -391,16 +415,16 @@ def pants(name, body, ease, band, band_height, band_b, waist_y, hem_y, hem):
 # ---- the garments ----
 
 def garments():
-    blouse_sleeve = dict(half_arm=9.5, cap=12, sleeve_end=51, wrist=13, cuff=10, cuff_height=4, cuff_b=0.88)
+    blouse_sleeve = dict(half_arm=9.5, cap=12, sleeve_end=48.5, wrist=14, cuff=11.5, cuff_height=4, cuff_b=0.76)
     shirt_sleeve = dict(half_arm=11, cap=13, sleeve_end=54.5, wrist=13, cuff=12, cuff_height=5, cuff_b=1)
-    shirt = top("man_shirt", MAN, (28.3, 27.7), (28.5, 28.0), 126, 84, (9.0, 9.5, 1.5), 0, shirt_sleeve)
-    collar(shirt, MAN, 3.0, 4.5, -150, "denim")
+    shirt = top("man_shirt", MAN, (28.0, 27.6), (26.8, 26.4), 126, 85, (9.0, 9.5, 1.5), 0, shirt_sleeve, 1.5)
+    collar(shirt, MAN, 3.0, 5.0, -150, None)
     return [
         shirt,
-        pants("man_pants", MAN, 8, 88, 4, 0.86, 104, 8, (21, 23)),
-        skirt("short_skirt", DANCER, 40, 72, 1.04, 42),
+        pants("man_pants", MAN, 8, 88, 4, 0.86, 104, 9.5, (22, 24)),
+        skirt("short_skirt", DANCER, 31, 72, 1.04, 105),
         skirt("long_skirt", DANCER, 84, 72, 1.15, 90),
-        top("blouse", DANCER, (26.2, 25.6), (28, 27.5), 119.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve),
+        top("blouse", DANCER, (26.2, 25.6), (27, 26.5), 119.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve, 0.5),
     ]
 
 

@@ -14,6 +14,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 // Cuts the one piece that has both ends of the line.
 void cut(std::vector<Ring>& pieces, const FoldLine& line, const Ring& between, const std::string& name) {
+  if (line.from == line.to) throw InputError("", name, "two ends", "a line that ends where it begins");
   for (Ring& piece : pieces) {
     auto from = std::find(piece.begin(), piece.end(), line.from);
     if (from == piece.end() || std::find(piece.begin(), piece.end(), line.to) == piece.end()) continue;
@@ -30,7 +31,7 @@ void cut(std::vector<Ring>& pieces, const FoldLine& line, const Ring& between, c
     return;
   }
   throw InputError("", name, "a line from one side of the panel to another that no other fold crosses",
-                   line.from == line.to ? "one that ends where it begins" : "one that is crossed or lies on the outline");
+                   "one that is crossed or lies on the outline");
 }
 
 }  // namespace
@@ -64,7 +65,13 @@ FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<con
   for (const Ring& piece : pieces) {
     std::vector<Vec2> ring;
     for (const Index i : piece) ring.push_back(points[at(i)]);
-    const PlanarMesh mesh = triangulate(ring, edge_m);
+    PlanarMesh mesh;
+    try {
+      mesh = triangulate(ring, edge_m);
+    } catch (const InputError& error) {
+      throw InputError("", "folds", "lines inside the panel that touch neither its outline nor each other",
+                       error.what());
+    }
     const auto number = [&, first = static_cast<Index>(points.size()) - static_cast<Index>(piece.size())](Index i) {
       return at(i) < piece.size() ? piece[at(i)] : first + i;
     };

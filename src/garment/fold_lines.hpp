@@ -20,12 +20,12 @@ struct FoldLine {
 };
 
 struct FoldedPlanarMesh {
-  PlanarMesh mesh;                                      // outline points, then points of the lines in order, then the rest
+  PlanarMesh mesh;  // outline points, then points of the lines in order, then the rest
   std::vector<std::vector<std::array<Index, 2>>> line;  // [line] its edges, from `from` to `to`
 };
 
-// Without lines it is triangulate(outline, edge_m), to the bit.  Throws InputError as that does, and for "fold 1" (its
-// number) when it crosses another, or is a side of the outline.
+// Without lines it is triangulate(outline, edge_m), to the bit, and throws as that does.  Throws InputError for "fold 1"
+// (its number) when it cannot cut the panel in two, and for "folds" when a piece between them cannot be meshed.
 FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<const FoldLine> lines, double edge_m);
 
 }  // namespace toile

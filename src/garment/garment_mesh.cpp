@@ -58,7 +58,7 @@ std::vector<std::vector<int>> pieces_of_edges(const Pattern& pattern, double res
 
 struct MeshedPanel {
   std::vector<std::vector<Index>> edge_particles;  // [edge] first to last corner, in the edge's direction
-  std::size_t first_fold = 0, end_fold = 0;        // its entries of ClothMesh::folds
+  Index first_particle = 0, end_particle = 0;
 };
 
 // Meshes one panel and appends it to the garment.
@@ -118,12 +118,12 @@ MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_inde
   garment.mesh.particle_count += static_cast<Index>(planar.points.size());
   garment.mesh.panel_names.push_back(panel.name);
   garment.mesh.panel_cloth.push_back({panel.fabric, panel.rest_stretch});
-  meshed.first_fold = garment.mesh.folds.size();
   for (std::size_t f = 0; f < panel.folds.size(); ++f) {
     for (const auto& [a, b] : folded.line[f])
       garment.mesh.folds.push_back({first + a, first + b, panel.folds[f].angle_rad});
   }
-  meshed.end_fold = garment.mesh.folds.size();
+  meshed.first_particle = first;
+  meshed.end_particle = garment.mesh.particle_count;
   return meshed;
 }
 
@@ -156,6 +156,9 @@ void add_seam(GarmentMesh& garment, const Pattern& pattern, const Stitch& stitch
     const bool end = k == 0 || k + 1 == a.size();
     garment.pairs.push_back({a[k], b[k], end ? 0.5 * piece : piece, index});
   }
+  if (stitch.angle_rad != 0) {  // no hinge before the weld
+    for (std::size_t k = 0; k + 1 < a.size(); ++k) garment.mesh.folds.push_back({a[k], a[k + 1], stitch.angle_rad});
+  }
   garment.seams.push_back(std::move(seam));
 }
 
@@ -167,7 +170,9 @@ void turn_over(GarmentMesh& garment, Index panel, const MeshedPanel& meshed) {
     for (Vec2& uv : garment.mesh.uv[t]) uv.y() = -uv.y();
   }
   // A ridge on the drawn side is a valley on the other.
-  for (std::size_t f = meshed.first_fold; f < meshed.end_fold; ++f) garment.mesh.folds[f].angle_rad *= -1;
+  for (FoldedEdge& fold : garment.mesh.folds) {
+    if (fold.a >= meshed.first_particle && fold.a < meshed.end_particle) fold.angle_rad *= -1;
+  }
 }
 
 // Panels joined right to wrong must be turned over for the surface to have one right side.
@@ -199,16 +204,15 @@ void orient_panels(GarmentMesh& garment, const Pattern& pattern, const std::vect
   }
 }
 
-}  // namespace
-
-GarmentMesh mesh_garment(const Pattern& pattern, double resolution_m) {
+// `inner_m` is the edge length inside each panel; outlines are cut at `outline_m`.
+GarmentMesh mesh_panels(const Pattern& pattern, double outline_m, std::span<const double> inner_m) {
   GarmentMesh garment;
   garment.name = pattern.name;
   garment.legacy_frame = pattern.legacy_frame;
-  const std::vector<std::vector<int>> pieces = pieces_of_edges(pattern, resolution_m);
+  const std::vector<std::vector<int>> pieces = pieces_of_edges(pattern, outline_m);
   std::vector<MeshedPanel> meshed;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
-    meshed.push_back(add_panel(garment, pattern.panels[p], static_cast<Index>(p), pieces[p], resolution_m));
+    meshed.push_back(add_panel(garment, pattern.panels[p], static_cast<Index>(p), pieces[p], inner_m[p]));
     for (std::size_t e = 0; e < pattern.panels[p].edges.size(); ++e) {
       const std::string& label = pattern.panels[p].edges[e].label;
       if (!label.empty()) garment.labels.push_back({label, meshed.back().edge_particles[e]});
@@ -227,6 +231,12 @@ GarmentMesh mesh_garment(const Pattern& pattern, double resolution_m) {
   return garment;
 }
 
+}  // namespace
+
+GarmentMesh mesh_garment(const Pattern& pattern, double resolution_m) {
+  return mesh_panels(pattern, resolution_m, std::vector<double>(pattern.panels.size(), resolution_m));
+}
+
 int welded_count(const GarmentMesh& garment) {
   int count = 0;
   for (std::size_t i = 0; i < garment.merged.size(); ++i) count += at(garment.merged[i]) == i ? 1 : 0;
@@ -234,24 +244,36 @@ int welded_count(const GarmentMesh& garment) {
 }
 
 CountedGarment mesh_garment_to_count(const Pattern& pattern, int particles) {
-  constexpr int least = 20, most = 2'000'000, halvings = 24;
+  constexpr int least = 20, most = 2'000'000, halvings = 20;
   constexpr double tolerance = 0.01;
   if (particles < least || particles > most)
     throw InputError("", "vertices", "a number from 20 to 2,000,000", std::to_string(particles));
-  // A lattice of edge e has a particle per e^2 sqrt(3)/2; seams and outlines have more, never half of it.
-  const double estimate = std::sqrt(summarize(pattern).area_m2 / (0.8660254037844386 * particles));
   CountedGarment best;
   int best_count = 0;
-  double low = 0.5 * estimate, high = 4 * estimate;
-  for (int k = 0; k < halvings && best_count != particles; ++k) {
-    const double middle = k == 0 ? estimate : std::sqrt(low * high);
-    GarmentMesh garment = mesh_garment(pattern, middle);
+  const auto attempt = [&](double outline_m, std::span<const double> inner_m) {
+    GarmentMesh garment = mesh_panels(pattern, outline_m, inner_m);
     const int count = welded_count(garment);
     if (best_count == 0 || std::abs(count - particles) < std::abs(best_count - particles)) {
-      best = {std::move(garment), middle};
+      best = {std::move(garment), outline_m};
       best_count = count;
     }
-    (count > particles ? low : high) = middle;  // the count falls with the edge but for a little noise
+    return count;
+  };
+  const std::size_t panels = pattern.panels.size();
+  // A lattice of edge e has a particle per e^2 sqrt(3)/2; seams and outlines add to that, by less than half as much again
+  // unless the pattern is all outline.
+  const double estimate = std::sqrt(summarize(pattern).area_m2 / (0.8660254037844386 * particles));
+  double fine = 0.5 * estimate, coarse = 4 * estimate;
+  for (int k = 0; k < halvings && best_count != particles; ++k) {
+    const double middle = k == 0 ? estimate : std::sqrt(fine * coarse);
+    (attempt(middle, std::vector<double>(panels, middle)) > particles ? fine : coarse) = middle;
+  }
+  for (const double outline_m : {fine, coarse}) {
+    std::vector<double> inner_m(panels, coarse);
+    for (std::size_t p = 0; p < panels && best_count != particles; ++p) {
+      inner_m[p] = fine;
+      attempt(outline_m, inner_m);
+    }
   }
   if (std::abs(best_count - particles) > tolerance * particles)
     throw InputError("", "vertices", "a number of particles that this pattern can be cut into, within 1 %",

@@ -54,11 +54,13 @@ MeshQuality mesh_quality(const ClothMesh& mesh);
 // nearer) or closing into a one-sided surface.
 GarmentMesh mesh_garment(const Pattern& pattern, double resolution_m);
 
-// The same with the edge length chosen such that the welded garment has `particles` particles, within 1 %.  Throws
-// InputError naming the nearest count when the pattern cannot be cut so (or for particles outside 20 ... 2,000,000).
+// The same with the edge length chosen such that the welded garment has `particles` particles, within 1 %.  Whole rows of
+// triangles make the count jump with the edge length; at a jump the first panels are meshed on its one side and the others
+// on the other.  Throws InputError naming the nearest count when that is not enough (or for particles outside
+// 20 ... 2,000,000).
 struct CountedGarment {
   GarmentMesh garment;
-  double resolution_m = 0;  // mesh_garment(pattern, resolution_m) gives this garment
+  double resolution_m = 0;  // edge length of the outlines
 };
 CountedGarment mesh_garment_to_count(const Pattern& pattern, int particles);
 

@@ -55,6 +55,7 @@ struct StitchSide {
 struct Stitch {
   StitchSide a, b;
   bool right_wrong = false;  // pairs start with start instead of end with start
+  double angle_rad = 0;      // at rest (extension "toile"); > 0: a ridge on the outer side of a's panel
 };
 
 struct Pattern {

@@ -58,6 +58,12 @@ Eigen::Matrix<double, size, 1> read_numbers(const Json& json) {
   return v;
 }
 
+double read_angle(const Json& json) {
+  if (!(std::abs(json.number()) <= largest_fold_deg))
+    json.fail("an angle between -170 and 170 degrees", json.describe());
+  return json.number() * std::numbers::pi / 180;
+}
+
 bool read_flag(const Json& json) {  // 0 or 1; JSON's own booleans as well
   if (json.type() == Json::Type::boolean) return json.boolean();
   if (!json.is_number() || (json.number() != 0 && json.number() != 1)) json.fail("0 or 1", json.describe());
@@ -104,7 +110,7 @@ class PatternReader {
     const Json& pattern = root_.at("pattern");
     if (const Json* extension = root_.find("toile")) {
       if (!extension->is_object()) extension->fail("an object with the key \"panels\"", extension->describe());
-      extension->allow_only({"panels"});
+      extension->allow_only({"panels", "stitches"});
       extension_ = extension->find("panels");
     }
     read_panels(pattern);
@@ -115,6 +121,9 @@ class PatternReader {
       }
     }
     read_stitches(pattern.at("stitches"));
+    if (const Json* extension = root_.find("toile")) {
+      if (const Json* stitches = extension->find("stitches")) read_pressed(*stitches);
+    }
     report_faults(pattern);
     pattern_.legacy_frame = is_legacy_frame();
     return std::move(pattern_);
@@ -346,10 +355,7 @@ class PatternReader {
     for (const Json& entry : folds->array()) {
       if (!entry.is_object()) entry.fail("a fold: an object", entry.describe());
       entry.allow_only({"endpoints", "curvature", "angle_deg"});
-      const Json& angle = entry.at("angle_deg");
-      if (!(std::abs(angle.number()) <= largest_fold_deg))
-        angle.fail("an angle between -170 and 170 degrees", angle.describe());
-      PanelFold fold{read_line(panel, entry), angle.number() * std::numbers::pi / 180};
+      PanelFold fold{read_line(panel, entry), read_angle(entry.at("angle_deg"))};
       const auto is_side = [&](const PanelEdge& edge) {
         return (edge.start == fold.line.start && edge.end == fold.line.end) ||
                (edge.start == fold.line.end && edge.end == fold.line.start);
@@ -378,6 +384,16 @@ class PatternReader {
         stitch.right_wrong = true;
       }
       pattern_.stitches.push_back(stitch);
+    }
+  }
+
+  // Seams that are pressed to an angle.
+  void read_pressed(const Json& stitches) {
+    for (const Json& entry : stitches.array()) {
+      if (!entry.is_object()) entry.fail("an object", entry.describe());
+      entry.allow_only({"stitch", "angle_deg"});
+      const Index stitch = read_index(entry.at("stitch"), pattern_.stitches.size(), "a stitch");
+      pattern_.stitches[at(stitch)].angle_rad = read_angle(entry.at("angle_deg"));
     }
   }
 

@@ -25,8 +25,9 @@ namespace toile {
 struct ScenePanel {  // what one panel has of its own
   std::string name;
   std::optional<Fabric> fabric;
-  std::optional<double> rest_stretch_u, rest_stretch_v;  // b of the warp and the weft, < 1 pulls together; absent: the pattern's
-  std::string where, pointer;                     // in the file, for the message that there is no such panel
+  std::optional<double> rest_stretch_u,
+      rest_stretch_v;          // b of the warp and the weft, < 1 pulls together; absent: the pattern's
+  std::string where, pointer;  // in the file, for the message that there is no such panel
 };
 
 struct ScenePin {

@@ -1,0 +1,77 @@
+// What the format has no words for: the key "toile" of a pattern file.
+#include "material/fabric.hpp"
+#include "pattern_text.hpp"
+
+#include <cmath>
+
+namespace toile {
+namespace {
+
+using namespace pattern_text;
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+std::string with(const std::string& extension, const std::string& stitches = "[]") {
+  return file("{\"front\": " + panel() + ", \"back\": " + panel(square_corners, square_edges, "[0, 80, -20]") + "}",
+              stitches, R"({"units_in_meter": 100})", "", ", \"toile\": " + extension);
+}
+
+TEST(PatternExtension, GivesPanelsTheirFabricAndRestStretch) {
+  const Pattern pattern = parse(with(R"({"panels": {"back": {"fabric": "denim", "rest_stretch_v": 0.85}}})"));
+  EXPECT_EQ(pattern.panels[0].fabric, "");
+  EXPECT_EQ(pattern.panels[0].rest_stretch, Vec2(1, 1));
+  EXPECT_EQ(pattern.panels[1].fabric, "denim");
+  EXPECT_EQ(pattern.panels[1].rest_stretch, Vec2(1, 0.85));
+}
+
+TEST(PatternExtension, DrawsFoldsFromCornerToCorner) {
+  const Pattern pattern = parse(with(R"({"panels": {"front": {"folds": [
+      {"endpoints": [0, 2], "angle_deg": -120},
+      {"endpoints": [2, 0], "angle_deg": 30, "curvature": {"type": "quadratic", "params": [[0.5, 0.1]]}}]}}})"));
+  ASSERT_EQ(pattern.panels[0].folds.size(), 2U);
+  const PanelFold &straight = pattern.panels[0].folds[0], &curved = pattern.panels[0].folds[1];
+  EXPECT_EQ(straight.line.start, 0);
+  EXPECT_EQ(straight.line.end, 2);
+  EXPECT_EQ(straight.line.kind, CurveKind::line);
+  EXPECT_NEAR(straight.angle_rad, -120 * degree, 1e-15);
+  EXPECT_EQ(curved.line.kind, CurveKind::quadratic);
+  // Half way from (0.4, 0.6) to (0, 0), and a tenth of the length to the left.
+  EXPECT_LT((curved.line.control[0] - Vec2(0.2 + 0.06, 0.3 - 0.04)).norm(), 1e-12);
+}
+
+TEST(PatternExtension, PressesSeams) {
+  const Pattern pattern =
+      parse(with(R"({"stitches": [{"stitch": 1, "angle_deg": 90}]})",
+                 std::string("[").append(stitch("front", 1, "back", 3)) + ", " + stitch("front", 3, "back", 1) + "]"));
+  EXPECT_EQ(pattern.stitches[0].angle_rad, 0);
+  EXPECT_NEAR(pattern.stitches[1].angle_rad, 90 * degree, 1e-15);
+}
+
+TEST(PatternExtension, AbsoluteFoldsMoveWithTheirPanel) {
+  std::string text =
+      with(R"({"panels": {"front": {"folds": [{"endpoints": [0, 2], "angle_deg": 9, "curvature": [20, 30]}]}}})");
+  text.replace(text.find("\"units_in_meter\": 100"), 21,
+               "\"units_in_meter\": 100, \"curvature_coords\": \"absolute\", \"normalize_panel_translation\": true");
+  const Pattern pattern = parse(text);
+  EXPECT_LT(pattern.panels[0].folds[0].line.control[0].norm(), 1e-12) << "the middle of the panel is its origin now";
+}
+
+TEST(PatternExtension, IsRefusedWhereItCannotBeMeant) {
+  expect_error(with("3"), {"/toile", "an object"});
+  expect_error(with(R"({"panel": {}})"), {"/toile", "panels"});
+  expect_error(with(R"({"panels": {"frnt": {}}})"), {"/toile/panels/frnt", "did you mean \"front\""});
+  expect_error(with(R"({"panels": {"front": {"rest_stretch": 0.9}}})"), {"rest_stretch_u"});
+  expect_error(with(R"({"panels": {"front": {"rest_stretch_u": 0.1}}})"), {"rest_stretch_u", "0.2 to 5", "0.1"});
+  expect_error(with(R"({"panels": {"front": {"fabric": "denin"}}})"), {"fabric", "denim"});
+  const auto folds = [](const std::string& fold) {
+    return with(R"({"panels": {"front": {"folds": [)" + fold + "]}}}");
+  };
+  expect_error(folds(R"({"endpoints": [0, 2]})"), {"angle_deg"});
+  expect_error(folds(R"({"endpoints": [0, 2], "angle_deg": 171})"), {"angle_deg", "-170 and 170"});
+  expect_error(folds(R"({"endpoints": [0, 4], "angle_deg": 10})"), {"endpoints", "0 to 3"});
+  expect_error(folds(R"({"endpoints": [1, 0], "angle_deg": 10})"), {"/folds/0", "a side of its outline"});
+  expect_error(with(R"({"stitches": [{"stitch": 0, "angle_deg": 10}]})"), {"/toile/stitches/0/stitch"});
+}
+
+}  // namespace
+}  // namespace toile
