@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Drafts our garments for the man and the dancer and writes their pattern files.
 
-Usage: draft.py [FOLDER]        FOLDER is where this file is, if not given
+Usage: draft.py [--check]        writes beside this file; --check only compares, and fails where a file differs
 
 Centimetres, y up, bodies on the floor facing +z: docs/patterns.md.  Panels are drawn as they hang: fronts before the
 body, backs behind it, sleeves along the arms; the left side is drawn and the right one is its mirror image.  Fronts run
@@ -238,10 +238,10 @@ def dart(panel, a, b, share, width, long, toward, name):
     panel.to(*at(share * full + width / 2), name=name + "_leg_b").to(*b, name=name + "_after")
 
 
-def skirt(name, body, length_cm, band, ease, angle, darts=0):
-    """Two sectors of `angle` degrees whose upper edges, `ease` times the band, are drawn into an elastic band."""
+def skirt(name, body, length_cm, band, ease, angle, slit=0):
+    """Two sectors of `angle` degrees whose upper edges, `ease` times the band, are drawn into an elastic band; sides open below."""
     garment = Garment(name)
-    top = ease * band / 2 + 2 * darts
+    top = ease * band / 2
     radius = top / math.radians(angle)
     y = body["waist_y"] - 1.5
     for which, z in (("front", FRONT), ("back", BACK)):
@@ -249,8 +249,15 @@ def skirt(name, body, length_cm, band, ease, angle, darts=0):
         inner = arc(radius, -90 + angle / 2, -90 - angle / 2, centre)   # from the left end (x > 0) to the right one
         outer = arc(radius + length_cm, -90 - angle / 2, -90 + angle / 2, centre)
         panel = Panel(which, "leg", (0, y, z), start=outer[0])
-        panel.to(*outer[3], *outer[1:3], name="hem").to(*inner[0], name="left_side")
-        panel.to(*inner[3], *inner[1:3], name="waist").to(*outer[0], name="right_side")
+        between = lambda p, q: tuple(a + slit / length_cm * (b - a) for a, b in zip(p, q))
+        panel.to(*outer[3], *outer[1:3], name="hem")
+        if slit:
+            panel.to(*between(outer[3], inner[0]), name="left_slit")
+        panel.to(*inner[0], name="left_side").to(*inner[3], *inner[1:3], name="waist")
+        if slit:
+            panel.to(*between(outer[0], inner[3]), name="right_side").to(*outer[0], name="right_slit")
+        else:
+            panel.to(*outer[0], name="right_side")
         garment.add(panel)
     garment.sew_sides("front/left_side", "back/left_side")
     waistband(garment, band, y + radius * (1 - math.cos(math.radians(angle / 2))), 3.0, ([], []), 0.86)
@@ -422,14 +429,25 @@ def garments():
     return [
         shirt,
         pants("man_pants", MAN, 8, 88, 4, 0.86, 104, 9.5, (22, 24)),
-        skirt("short_skirt", DANCER, 31, 72, 1.04, 105),
+        skirt("short_skirt", DANCER, 38, 72, 1.04, 46, slit=15),
         skirt("long_skirt", DANCER, 84, 72, 1.15, 90),
         top("blouse", DANCER, (26.2, 25.6), (27, 26.5), 119.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve, 0.5),
     ]
 
 
-if __name__ == "__main__":
-    folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
-    folder = folder if folder.is_dir() else folder.parent
+def main():
+    folder = pathlib.Path(__file__).resolve().parent
+    stale = []
     for garment in garments():
-        (folder / (garment.name + ".json")).write_text(garment.text())
+        path = folder / (garment.name + ".json")
+        if sys.argv[1:] != ["--check"]:
+            path.write_text(garment.text())
+        elif not path.exists() or path.read_text() != garment.text():
+            stale.append(path.name)
+    if stale:
+        print("differ from what patterns/draft.py draws:", ", ".join(stale))
+    return 1 if stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""Our own garments, each dressed on the mannequin it is drawn for, run with the program as a user would.
+
+Usage: garments_test.py TOILE PATTERNS_FOLDER
+
+Ends still, no crossing in the last frame, p99 stretch outside elastic at most 5 %, largest at most 10 % (the verdict); seams closed where the
+garment hangs (no shift); and what is held by elastic is where it was a second before.
+"""
+import json
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+
+# pattern, body, edge length (cm) of the counts in docs/patterns.md, height of the upper edge (m): least and most
+GARMENTS = (("man_shirt", "man", "1.4", 1.45, 1.60), ("man_pants", "man", "1.163", 1.02, 1.12), ("short_skirt", "woman", "1.526", 1.03, 1.12),
+            ("long_skirt", "woman", "2.18", 1.03, 1.12), ("blouse", "woman", "1.425", 1.40, 1.50))
+
+
+def frames(path):
+    data = path.read_bytes()
+    _, points, _, _, samples = struct.unpack_from("<iiffi", data, 12)
+    for k in range(samples):
+        yield struct.unpack_from(f"<{3 * points}f", data, 32 + 12 * points * k)
+
+
+def main():
+    toile, patterns = sys.argv[1], pathlib.Path(sys.argv[2])
+    faults = []
+    with tempfile.TemporaryDirectory() as folder:
+        for name, body, resolution, low, high in GARMENTS:
+            out, scene = pathlib.Path(folder) / name, pathlib.Path(folder) / (name + ".json")
+            scene.write_text(json.dumps({
+                "name": name,
+                "cloth": [{"pattern": str(patterns / (name + ".json")), "resolution_cm": float(resolution), "fabric": "cotton"}],
+                "body": {"mannequin": body}, "time": {"fps": 30, "seconds": 10, "until_still": True}}))
+            done = subprocess.run([toile, "run", str(scene), "--quiet", "--no-preview", "--out", str(out)], capture_output=True, text=True)
+            if done.returncode != 0:
+                faults.append(f"{name}: exit {done.returncode}: {done.stderr.strip()}")
+                continue
+            report = json.loads((out / "report.json").read_text())
+            print(name, report["ended"], report["frames"], report["stretch"], report["penetrations"])
+            if report["ended"] != "still" or report["verdict"] != "pass":
+                faults.append(f"{name}: {report['ended']}, {report['reasons']}")
+            tops = [max(f[1::3]) for f in frames(out / "cloth.pc2")]
+            print(f"{name}: upper edge at {tops[-1]:.3f} m, a second before at {tops[max(0, len(tops) - 31)]:.3f} m")
+            if not low < tops[-1] < high:
+                faults.append(f"{name}: its upper edge is at {tops[-1]:.3f} m")
+            if abs(tops[-1] - tops[max(0, len(tops) - 31)]) > 0.01:
+                faults.append(f"{name}: it slides")
+    for fault in faults:
+        print("FAILED", fault)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

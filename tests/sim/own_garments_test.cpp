@@ -1,0 +1,80 @@
+// The garments that patterns/draft.py draws, hung around the bodies they are drawn for: clear of them, with every thread
+// beside them, where they stand.
+#include "body/mannequin.hpp"
+#include "garment/placement.hpp"
+#include "sim/setup.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace toile {
+namespace {
+
+BodySurface& body(MannequinKind kind) {
+  static std::map<MannequinKind, BodySurface> made;
+  auto found = made.find(kind);
+  if (found == made.end()) {
+    Mannequin m = make_mannequin(kind);
+    found = made.try_emplace(kind, std::move(m.positions), std::move(m.triangles)).first;
+  }
+  return found->second;
+}
+
+struct Worn {
+  const char* name;
+  MannequinKind by;
+};
+
+class OwnGarmentOnItsBody : public testing::TestWithParam<Worn> {};
+INSTANTIATE_TEST_SUITE_P(All, OwnGarmentOnItsBody,
+                         testing::Values(Worn{"man_shirt", MannequinKind::man}, Worn{"man_pants", MannequinKind::man},
+                                         Worn{"short_skirt", MannequinKind::dancer},
+                                         Worn{"long_skirt", MannequinKind::dancer},
+                                         Worn{"blouse", MannequinKind::dancer}, Worn{"blouse", MannequinKind::woman}),
+                         [](const auto& which) {
+                           return std::string(which.param.name) + "_" + std::string(to_string(which.param.by));
+                         });
+
+TEST_P(OwnGarmentOnItsBody, StartsClearOfItWithEveryThreadBesideIt) {
+  GarmentMesh garment =
+      mesh_garment(load_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/" + GetParam().name + ".json"), 0.02);
+  const Placement placement = place_garment(garment, body(GetParam().by));
+  EXPECT_EQ(placement.shift_m, Vec3(0, 0, 0)) << "it stands where it should be drawn";
+  EXPECT_EQ(placement.blocked, 0);
+  EXPECT_EQ(placement.panel_crossings, 0);
+}
+
+// Whether p lies in the triangle, both in the plane z = const.
+bool covers(const Vec3s& x, const Triangle& t, const Vec3& p) {
+  int left = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 &a = x[static_cast<std::size_t>(t[k])], &b = x[static_cast<std::size_t>(t[(k + 1) % 3])];
+    left += (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x()) >= 0 ? 1 : -1;
+  }
+  return left == 3 || left == -3;
+}
+
+TEST_P(OwnGarmentOnItsBody, NoPanelIsDrawnOverAnother) {
+  // In one plane overlapping panels are no crossing of edges and triangles, so nothing later would see it.
+  const GarmentMesh garment =
+      mesh_garment(load_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/" + GetParam().name + ".json"), 0.02);
+  const ClothMesh& mesh = garment.mesh;
+  std::vector<Index> panel_of(garment.x.size(), -1);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const Index i : mesh.triangles[t]) panel_of[static_cast<std::size_t>(i)] = mesh.panel[t];
+  }
+  for (std::size_t i = 0; i < garment.x.size(); ++i) {
+    const Vec3& p = garment.x[i];
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (mesh.panel[t] == panel_of[i]) continue;
+      if (std::abs(garment.x[static_cast<std::size_t>(mesh.triangles[t][0])].z() - p.z()) > 5e-3) continue;
+      ASSERT_FALSE(covers(garment.x, mesh.triangles[t], p))
+          << mesh.panel_names[static_cast<std::size_t>(panel_of[i])] << " over "
+          << mesh.panel_names[static_cast<std::size_t>(mesh.panel[t])];
+    }
+  }
+}
+
+}  // namespace
+}  // namespace toile
