@@ -350,7 +350,7 @@ def collar(garment, body, stand, fall, angle_deg, fabric):
                 panel.to(lower, 0, name="neck").to(lower, stand, name="side").to(0, low, name="top")
             else:
                 panel.start = (0, -(stand - low))
-                flare, point = (2.0, 2.0) if name == "front" else (2.0, 0)
+                flare, point = (2.5, 2.0) if name == "front" else (2.5, 0)
                 panel.to(-point, -(stand - low) - fall - point, name="middle" if name == "back" else "point")
                 panel.to(lower + flare, -fall, name="edge").to(lower, 0, name="side")
                 panel.to(0, -(stand - low), name="top")
@@ -383,7 +383,7 @@ def pants(name, body, ease, band, band_height, band_b, waist_y, hem_y, hem):
         inner, outer = middle - hem_width / 2, middle + hem_width / 2
         top_long = gather * quarter_band + dart_width
         side_top = slant + math.sqrt(top_long ** 2 - rise ** 2)
-        panel = Panel("left_" + which, "leg", (fork + 1, 0, z), start=(inner, hem_y)).to(outer, hem_y, name="hem")
+        panel = Panel("left_" + which, "leg", (fork + 0.5, 0, z), start=(inner, hem_y)).to(outer, hem_y, name="hem")
         panel.to(width, hip_y, (outer, hem_y + 30), (width + 0.3, hip_y - 22), name="side_low")
         panel.to(side_top, waist_y, (width - 0.1, hip_y + 0.45 * (waist_y - hip_y)), name="side_high")
         centre = (slant, waist_y + rise)
@@ -425,7 +425,7 @@ def garments():
     blouse_sleeve = dict(half_arm=9.5, cap=12, sleeve_end=48.5, wrist=14, cuff=11.5, cuff_height=4, cuff_b=0.76)
     shirt_sleeve = dict(half_arm=11, cap=13, sleeve_end=54.5, wrist=13, cuff=12, cuff_height=5, cuff_b=1)
     shirt = top("man_shirt", MAN, (28.0, 27.6), (26.8, 26.4), 126, 85, (9.0, 9.5, 1.5), 0, shirt_sleeve, 1.5)
-    collar(shirt, MAN, 3.0, 5.0, -150, None)
+    collar(shirt, MAN, 3.0, 5.0, -120, None)
     return [
         shirt,
         pants("man_pants", MAN, 8, 88, 4, 0.86, 104, 9.5, (22, 24)),
