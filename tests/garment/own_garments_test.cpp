@@ -146,6 +146,18 @@ TEST(MeshToCount, IsTheSameAsThatEdgeLengthOrNearItAndSaysWhatItCannotReach) {
   EXPECT_NE(first.find("; the nearest found is "), std::string::npos) << first;
 }
 
+TEST(MeshToCount, ReachesCountsBetweenTheJumpsOfTwoEqualPanels) {
+  const Pattern tube = test::tube_pattern(0.3, 0.2, 0.1);
+  int reached = 0;
+  for (int particles = 500; particles < 540; ++particles) {
+    try {
+      reached += welded_count(mesh_garment_to_count(tube, particles).garment) > 0 ? 1 : 0;
+    } catch (const InputError&) {
+    }
+  }
+  EXPECT_GE(reached, 30) << "of 40; fewer without the mixture";
+}
+
 TEST(MeshToCount, GivesTheSameBitsTwice) {
   const Pattern blouse = load("blouse");
   const CountedGarment a = mesh_garment_to_count(blouse, 700), b = mesh_garment_to_count(blouse, 700);
