@@ -40,12 +40,13 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
         std::swap(state, candidate_);
         now += step_ticks;
         ++report.steps;
+        report.steps_s.push_back(h);
         report.corrected += report.last.filter.corrected;
         report.truncated += report.last.filter.truncated;
         report.step_min_s = report.steps == 1 ? h : std::min(report.step_min_s, h);
         report.step_max_s = std::max(report.step_max_s, h);
         report.cg_max = std::max(report.cg_max, report.last.cg_iterations);
-        if (growing_) patience_ = 2;  // the increase held
+        if (growing_) patience_ = wait_ = 2;  // the increase held: the next may follow after two
         growing_ = false;
         ++successes_;
         break;

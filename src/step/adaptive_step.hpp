@@ -31,6 +31,7 @@ struct FrameReport {
   bool interrupted = false;  // by `stop`: the state is somewhere within the frame
   int steps = 0, rejected = 0;
   double step_min_s = 0, step_max_s = 0;
+  std::vector<double> steps_s;        // the accepted steps, in order
   int cg_iterations = 0, cg_max = 0;  // summed over steps; the largest of one step
   int passes = 0;
   int corrected = 0,
