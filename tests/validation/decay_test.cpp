@@ -1,0 +1,104 @@
+// How fast a small oscillation dies by the integrator alone: backward Euler's own damping, and no other.
+//
+//   a mode of angular frequency w:  amplitude after N steps of h = (1 + w^2 h^2)^(-N/2)
+//
+// The mode is the first of a strip held at one end, without gravity and damping; its amplitude is the root of its energy.
+#include "support/run_cloth.hpp"
+#include "validation/figures.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace toile {
+namespace {
+
+using test::ClothRun;
+using test::Figures;
+using test::Sheet;
+
+constexpr double pi = 3.14159265358979323846;
+
+struct Mode {
+  double omega;           // rad/s
+  std::vector<double> y;  // [particle] of largest entry 1
+};
+
+// The lowest mode out of the plane: K = sum of kappa g g^T over the hinges, lumped masses.
+Mode lowest_mode(const ClothRun& run) {
+  const auto n = static_cast<Eigen::Index>(run.state.x.size());
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), M = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t h = 0; h < run.model.bend.size(); ++h) {
+    const auto& particle = run.model.topology.hinges[h].particle;
+    std::array<Vec3, 4> x;
+    for (std::size_t i = 0; i < 4; ++i) x[i] = run.state.x[static_cast<std::size_t>(particle[i])];
+    const std::array<Vec3, 4> g = hinge_angle_gradient(x);
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < 4; ++j)
+        K(particle[i], particle[j]) += run.model.bend[h].kappa_N_m * g[i].y() * g[j].y();
+    }
+  }
+  for (Eigen::Index i = 0; i < n; ++i) M(i, i) = run.model.mass_kg[static_cast<std::size_t>(i)];
+  const double stiff = 1e6 * K.diagonal().maxCoeff();
+  for (const Pin& pin : run.world.pins) K(pin.particle, pin.particle) += stiff;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solved(K, M);
+  const Eigen::VectorXd shape = solved.eigenvectors().col(0) / solved.eigenvectors().col(0).cwiseAbs().maxCoeff();
+  return {std::sqrt(solved.eigenvalues()[0]), {shape.data(), shape.data() + n}};
+}
+
+ClothRun strip(double D) {
+  Fabric fabric;
+  fabric.bend_u_N_m = fabric.bend_v_N_m = D;
+  fabric.stretch_damping_s = fabric.shear_damping_s = fabric.bend_damping_s = 0;
+  ModelOptions options;
+  options.gravity_m_per_s2.setZero();
+  ClothRun run(test::equilateral_sheet(0.04, 0.16, 0.01), fabric, options);
+  run.step.rows.cloth_cloth = false;
+  for (std::size_t i = 0; i < run.state.x.size(); ++i) {
+    if (-run.state.x[i].z() < 0.01) run.pin(static_cast<Index>(i));
+  }
+  return run;
+}
+
+double amplitude_after_one_period(double period_s, double h_s) {
+  const double omega_at_one = lowest_mode(strip(1)).omega;
+  ClothRun run = strip(std::pow(2 * pi / period_s / omega_at_one, 2));
+  const Mode mode = lowest_mode(run);
+  // Small against D: the sideways move stretches the strip by its square, and that energy is none of the mode's.
+  const double size = 2e-5 / period_s;
+  for (std::size_t i = 0; i < run.state.x.size(); ++i) run.state.x[i].y() += size * mode.y[i];
+  for (const Pin& pin : run.world.pins) run.state.x[static_cast<std::size_t>(pin.particle)].y() = 0;
+  Elements elements(run.model);
+  const auto energy = [&] {
+    elements.evaluate(run.model, run.state);
+    double sum = elements.energy_J();
+    for (std::size_t i = 0; i < run.state.v.size(); ++i)
+      sum += 0.5 * run.model.mass_kg[i] * run.state.v[i].squaredNorm();
+    return sum;
+  };
+  const double start = energy();
+  for (long step = 0; step < std::lround(period_s / h_s); ++step) EXPECT_EQ(run.frame(h_s).steps, 1);
+  EXPECT_NEAR(mode.omega * period_s / (2 * pi), 1, 1e-7);
+  return std::sqrt(energy() / start);
+}
+
+TEST(Decay, ASmallModeDiesAsBackwardEulerSays) {
+  struct Row {
+    double period_s, amplitude[3];  // at steps of 1/60, 1/120, 1/240 s
+  };
+  Figures figures("decay");
+  for (const Row& row : {Row{2, {0.85, 0.92, 0.96}}, Row{1, {0.72, 0.85, 0.92}}, Row{0.5, {0.53, 0.72, 0.85}},
+                         Row{0.25, {0.30, 0.53, 0.72}}, Row{0.1, {0.11, 0.23, 0.45}}, Row{0.05, {0.08, 0.11, 0.23}}}) {
+    for (const int k : {0, 1, 2}) {
+      const double h = 1.0 / (60 << k), omega = 2 * pi / row.period_s;
+      const double exact = std::pow(1 + omega * omega * h * h, -0.5 * std::round(row.period_s / h));
+      EXPECT_NEAR(exact, row.amplitude[k], 0.006);  // the table, two digits
+      const double measured = amplitude_after_one_period(row.period_s, h);
+      char name[48];
+      std::snprintf(name, sizeof name, "period %g s, h = 1/%d s", row.period_s, 60 << k);
+      figures.add(name, "equilateral 10 mm", "amplitude", exact, measured);
+      EXPECT_NEAR(measured / exact, 1, 0.02) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace toile
