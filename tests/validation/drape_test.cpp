@@ -1,0 +1,134 @@
+// The drape test of the textile laboratory, on the preset fabrics.
+//
+// The disc of cloth starts level, and its weight comes on over five seconds: dropped, it breaks into more folds than it needs and
+// keeps them.  Bands of the drape coefficient: docs/validation.md#drape.
+#include "validation/drape.hpp"
+#include "validation/figures.hpp"
+
+namespace toile {
+namespace {
+
+using test::ClothRun;
+using test::Disc;
+using test::Figures;
+
+struct Drape {
+  double percent;  // drape coefficient
+  int folds;
+};
+
+Drape drape(const Fabric& fabric, double edge_m, std::uint64_t seed = 1) {
+  const Disc disc = test::cusick_disc(edge_m);
+  ClothRun run(disc.sheet, fabric);
+  run.step.rows.cloth_cloth = false;  // the folds of these fabrics do not meet
+  test::Random random(seed);          // a perfectly flat disc could not choose where to fold
+  for (Vec3& p : run.state.x) p.y() += 1e-4 * random(-1, 1);
+  for (const Index i : disc.held) {
+    run.state.x[static_cast<std::size_t>(i)].y() = 0;
+    run.pin(i);
+  }
+  constexpr int ramp_frames = 150, most_frames = 900;
+  double before = 1;
+  for (int f = 1; f <= most_frames; ++f) {
+    run.model.gravity_m_per_s2 = Vec3(0, -9.81 * std::min(1.0, static_cast<double>(f) / ramp_frames), 0);
+    if (!run.frame().ok) break;
+    if (f <= ramp_frames || f % 30 != 0) continue;
+    const double now = test::drape_coefficient(disc, run.state.x);
+    if (std::abs(now - before) < 2e-4 && run.fastest() < 2e-3) return {100 * now, test::fold_count(disc, run.state.x)};
+    before = now;
+  }
+  ADD_FAILURE() << fabric.name << " does not come to rest";
+  return {100 * before, test::fold_count(disc, run.state.x)};
+}
+
+std::string mm(double edge_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g mm", 1e3 * edge_m);
+  return text;
+}
+
+TEST(DrapeShadow, IsTheAreaCoveredFromAbove) {
+  constexpr double pi = 3.14159265358979323846;
+  // Two unit squares, one over the other by half, heights apart.
+  const std::vector<Vec3> x = {{0, 0, 0},     {1, 0, 0},     {1, 0, 1},     {0, 0, 1},
+                               {0.5, 0.2, 0}, {1.5, 0.2, 0}, {1.5, 0.2, 1}, {0.5, 0.2, 1}};
+  const std::vector<Triangle> squares = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}};
+  EXPECT_NEAR(test::shadow_m2(squares, x, 0), 1.5, 1e-3);
+  // A disc of radius 0.2 at the corner: three quarters of it stick out.
+  EXPECT_NEAR(test::shadow_m2(squares, x, 0.2), 1.5 + 0.75 * pi * 0.04, 1e-3);
+  const Disc disc = test::cusick_disc(0.01);
+  EXPECT_NEAR(test::drape_coefficient(disc, disc.sheet.x), 1, 2e-3);  // a polygon of 94 sides
+  Vec3s fallen = disc.sheet.x;
+  for (Vec3& p : fallen) {
+    const double r = std::hypot(p.x(), p.z());
+    if (r > 0.09) p = Vec3(p.x() * 0.09 / r, 0.09 - r, p.z() * 0.09 / r);
+  }
+  EXPECT_NEAR(test::drape_coefficient(disc, fallen), 0, 2e-3);
+}
+
+TEST(DrapeShadow, FoldsAreCountedOnceEach) {
+  const Disc disc = test::cusick_disc(0.01);
+  for (const int folds : {2, 5, 9}) {
+    Vec3s x = disc.sheet.x;
+    for (Vec3& p : x) p.y() = 0.02 * std::cos(folds * std::atan2(-p.z(), p.x())) + 0.001 * std::sin(1000 * p.x());
+    EXPECT_EQ(test::fold_count(disc, x), folds);
+  }
+  EXPECT_EQ(test::fold_count(disc, disc.sheet.x), 0);
+}
+
+TEST(Drape, CottonIsThatOfPlainWovenCottonOnTwoMeshes) {
+  Figures figures("drape_cotton");
+  double percent[2];
+  int k = 0;
+  for (const double edge : {0.01, 0.007}) {
+    const Drape d = drape(Fabric{}, edge);
+    figures.add("cotton", mm(edge), "DC %", 68.4, d.percent);
+    EXPECT_GT(d.percent, 60);
+    EXPECT_LT(d.percent, 76);
+    EXPECT_GE(d.folds, 5);
+    EXPECT_LE(d.folds, 8);
+    percent[k++] = d.percent;
+  }
+  EXPECT_LT(std::abs(percent[1] - percent[0]), 4);
+}
+
+TEST(DrapeLong, EveryFabricFallsAsItsKindDoesOnTwoMeshes) {
+  struct Band {
+    const char* fabric;
+    double low, high;
+  };
+  Figures figures("drape");
+  for (const Band& band : {Band{"silk", 0, 100}, Band{"cotton", 60, 76}, Band{"wool", 40, 70}, Band{"denim", 70, 90},
+                           Band{"knit", 0, 100}}) {
+    Drape last{};
+    for (const double edge : {0.01, 0.007, 0.005, 0.0035}) {
+      const Drape d = drape(fabric_preset(band.fabric, "", ""), edge);
+      figures.add(band.fabric, mm(edge), "DC %", Figures::no_reference, d.percent);
+      figures.add(band.fabric, mm(edge), "folds", Figures::no_reference, d.folds);
+      if (edge < 0.006) {  // fine enough for every fabric: two cells and more per bending length
+        EXPECT_GE(d.percent, band.low) << band.fabric << " at " << edge;
+        EXPECT_LE(d.percent, band.high) << band.fabric << " at " << edge;
+      }
+      if (edge < 0.004) {
+        EXPECT_LT(std::abs(d.percent - last.percent), 4) << band.fabric;
+        EXPECT_LE(std::abs(d.folds - last.folds), 2) << band.fabric;  // the count settles
+      }
+      last = d;
+    }
+  }
+}
+
+TEST(DrapeLong, DependsLittleOnWhereTheFoldsBegin) {
+  Figures figures("drape_seeds");
+  double low = 100, high = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const Drape d = drape(Fabric{}, 0.007, seed);
+    figures.add("cotton, start " + std::to_string(seed), mm(0.007), "DC %", Figures::no_reference, d.percent);
+    figures.add("cotton, start " + std::to_string(seed), mm(0.007), "folds", Figures::no_reference, d.folds);
+    low = std::min(low, d.percent), high = std::max(high, d.percent);
+  }
+  EXPECT_LT(high - low, 4);
+}
+
+}  // namespace
+}  // namespace toile
