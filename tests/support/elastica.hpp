@@ -17,7 +17,7 @@ struct Elastica {
 
 inline Elastica elastica(double gamma) {
   constexpr double pi = 3.14159265358979323846;
-  constexpr int steps = 4000;
+  constexpr int steps = 1000;
   // delta, delta', H, W along t; delta at the clamp.
   const auto shoot = [&](double delta_0, Elastica& out) {
     std::array<double, 4> y = {delta_0, 0, 0, 0};
@@ -42,7 +42,7 @@ inline Elastica elastica(double gamma) {
   };
   Elastica found{};
   double low = -60, high = std::log(pi / 2);
-  for (int n = 0; n < 80; ++n) {
+  for (int n = 0; n < 60; ++n) {
     const double middle = 0.5 * (low + high);
     (shoot(std::exp(middle), found) < pi / 2 ? low : high) = middle;
   }
@@ -52,7 +52,7 @@ inline Elastica elastica(double gamma) {
 // The Gamma at which the strip's chord falls by H/W: the inverse of the above, which rises with Gamma.
 inline double gamma_of_chord(double H_over_W) {
   double low = -8, high = 9;
-  for (int n = 0; n < 50; ++n) {
+  for (int n = 0; n < 40; ++n) {
     const double middle = 0.5 * (low + high);
     const Elastica at = elastica(std::exp(middle));
     (at.H < H_over_W * at.W ? low : high) = middle;

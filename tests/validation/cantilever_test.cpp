@@ -41,7 +41,7 @@ TEST(Elastica, IsThatOfTheTable) {
     EXPECT_NEAR(e.H, H, 1.1e-5) << gamma;
     EXPECT_NEAR(e.W, W, 1.1e-5) << gamma;
     EXPECT_NEAR(e.tip_rad * 180 / 3.14159265358979323846, tip_deg, 6e-3) << gamma;
-    EXPECT_NEAR(gamma_of_chord(e.H / e.W) / gamma, 1, 1e-6);
+    EXPECT_NEAR(gamma_of_chord(e.H / e.W) / gamma, 1, 1e-6) << gamma;
   }
   EXPECT_NEAR(elastica(1e-3).H, 1e-3 / 8, 1e-9);
 }

@@ -15,6 +15,7 @@ using test::Figures;
 struct Drape {
   double percent;  // drape coefficient
   int folds;
+  std::vector<Vec3> rim;
 };
 
 Drape drape(const Fabric& fabric, double edge_m, std::uint64_t seed = 1) {
@@ -34,11 +35,15 @@ Drape drape(const Fabric& fabric, double edge_m, std::uint64_t seed = 1) {
     if (!run.frame().ok) break;
     if (f <= ramp_frames || f % 30 != 0) continue;
     const double now = test::drape_coefficient(disc, run.state.x);
-    if (std::abs(now - before) < 2e-4 && run.fastest() < 2e-3) return {100 * now, test::fold_count(disc, run.state.x)};
+    if (std::abs(now - before) < 2e-4 && run.fastest() < 2e-3) {
+      Drape found{100 * now, test::fold_count(disc, run.state.x), {}};
+      for (const Index i : disc.rim) found.rim.push_back(run.state.x[static_cast<std::size_t>(i)]);
+      return found;
+    }
     before = now;
   }
   ADD_FAILURE() << fabric.name << " does not come to rest";
-  return {100 * before, test::fold_count(disc, run.state.x)};
+  return {100 * before, test::fold_count(disc, run.state.x), {}};
 }
 
 std::string mm(double edge_m) {
@@ -112,6 +117,8 @@ TEST(DrapeLong, EveryFabricFallsAsItsKindDoesOnTwoMeshes) {
       if (edge < 0.004) {
         EXPECT_LT(std::abs(d.percent - last.percent), 4) << band.fabric;
         EXPECT_LE(std::abs(d.folds - last.folds), 2) << band.fabric;  // the count settles
+        std::ofstream rim(std::string(TOILE_VALIDATION_FOLDER) + "/drape_rim_" + band.fabric + ".txt");
+        for (const Vec3& p : d.rim) rim << p.x() << ' ' << p.z() << '\n';
       }
       last = d;
     }

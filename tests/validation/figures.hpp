@@ -28,7 +28,7 @@ class Figures {
       std::snprintf(numbers, sizeof numbers, ",%.6g", measured);
     else
       std::snprintf(numbers, sizeof numbers, "%.6g,%.6g", reference, measured);
-    file_ << name_ << ',' << what << ',' << mesh << ',' << quantity << ',' << numbers << '\n';
+    file_ << name_ << ",\"" << what << "\",\"" << mesh << "\",\"" << quantity << "\"," << numbers << '\n';
     std::printf("%s %s, %s: %s %s\n", name_.c_str(), what.c_str(), mesh.c_str(), quantity.c_str(), numbers);
   }
 
