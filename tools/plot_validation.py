@@ -128,7 +128,7 @@ def plots(figures, folder):
     def save(figure, name):
         images.mkdir(exist_ok=True)
         figure.tight_layout()
-        figure.savefig(images / f"{name}.png", dpi=100)
+        figure.savefig(images / f"{name}.png", dpi=90)
         plt.close(figure)
 
     rows = figures["cantilever_curve"]
@@ -160,7 +160,7 @@ def plots(figures, folder):
             axes.plot(place + 0.16 * (k - 1.5), value[0], "os^D"[k], ms=4, color=f"C{k}", label=mesh if place == 0 else None)
     axes.set_xticks(range(len(fabrics)), fabrics)
     axes.set(ylabel="drape coefficient, %", ylim=(0, 100))
-    axes.legend(frameon=False, fontsize=7, ncols=2, loc="lower left")
+    axes.legend(frameon=False, fontsize=7, ncols=2, loc="lower right")
     for fabric in fabrics:
         path = folder / f"drape_rim_{fabric}.txt"
         if path.exists():
@@ -168,7 +168,7 @@ def plots(figures, folder):
             points.append(points[0])
             shadow.plot([100 * p[0] for p in points], [-100 * p[1] for p in points], lw=1, label=fabric)
     shadow.add_patch(plt.Circle((0, 0), 9, fill=False, ls=":", color="k", lw=0.8))
-    shadow.set(aspect="equal", xlabel="rim from above, cm")
+    shadow.set(aspect="equal", xlabel="rim from above, cm", xlim=(-16, 16), ylim=(-16, 16))
     if shadow.get_lines():
         shadow.legend(frameon=False, fontsize=7, loc="center")
     save(figure, "validation_drape")
