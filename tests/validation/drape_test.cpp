@@ -103,7 +103,7 @@ TEST(DrapeLong, EveryFabricFallsAsItsKindDoesOnTwoMeshes) {
     double low, high;
   };
   Figures figures("drape");
-  for (const Band& band : {Band{"silk", 0, 100}, Band{"cotton", 60, 76}, Band{"wool", 40, 70}, Band{"denim", 70, 90},
+  for (const Band& band : {Band{"silk", 20, 40}, Band{"cotton", 60, 76}, Band{"wool", 40, 70}, Band{"denim", 70, 90},
                            Band{"knit", 0, 100}}) {
     Drape last{};
     for (const double edge : {0.01, 0.007, 0.005, 0.0035}) {
