@@ -59,7 +59,7 @@ std::string Dressing::explain() const {
                                 ? words("too small: the cloth beside it is stretched by %.0f %%", 100 * gap.stretch)
                                 : std::string("the body is in the way");
     text += (open == 1 ? "" : "; ") + ("seam " + panels_.seams[static_cast<std::size_t>(gap.seam)].name) +
-            words(" is open by %.1f mm near (%.2f, %.2f, %.2f) m, ", 1e3 * gap.gap_m, gap.where.x(), gap.where.y(),
+            words(" is open by %.1f cm near (%.2f, %.2f, %.2f) m, ", 1e2 * gap.gap_m, gap.where.x(), gap.where.y(),
                   gap.where.z()) +
             why;
   }

@@ -26,6 +26,12 @@ GarmentMesh over(const Outfit& outfit, const GarmentMesh& garment) {
   for (const Index panel : garment.mesh.panel) both.mesh.panel.push_back(panel + panels);
   both.mesh.panel_names.insert(both.mesh.panel_names.end(), garment.mesh.panel_names.begin(),
                                garment.mesh.panel_names.end());
+  both.mesh.panel_cloth.resize(static_cast<std::size_t>(panels));  // a grid has none
+  both.mesh.panel_cloth.insert(both.mesh.panel_cloth.end(), garment.mesh.panel_cloth.begin(),
+                               garment.mesh.panel_cloth.end());
+  both.mesh.panel_cloth.resize(both.mesh.panel_names.size());
+  for (const FoldedEdge& fold : garment.mesh.folds)
+    both.mesh.folds.push_back({fold.a + worn, fold.b + worn, fold.angle_rad});
   both.x = outfit.state.x;
   both.x.insert(both.x.end(), garment.x.begin(), garment.x.end());
   for (SeamPair& pair : both.pairs) {

@@ -57,6 +57,7 @@ void OutfitRun::set_rest_stretch(double share) {
     model_.membrane[t].b_u = 1 + share * (b.x() - 1);
     model_.membrane[t].b_v = 1 + share * (b.y() - 1);
   }
+  set_folds(model_, share);
 }
 
 void OutfitRun::settle() {

@@ -14,8 +14,8 @@ import sys
 import tempfile
 
 # pattern, body, edge length (cm) of the counts in docs/patterns.md, height of the upper edge (m): least and most
-GARMENTS = (("man_shirt", "man", "1.4", 1.45, 1.60), ("man_pants", "man", "1.163", 1.02, 1.12), ("short_skirt", "woman", "1.526", 1.03, 1.12),
-            ("long_skirt", "woman", "2.18", 1.03, 1.12), ("blouse", "woman", "1.425", 1.40, 1.50))
+GARMENTS = (("man_shirt", "man", "1.383", 1.45, 1.60), ("man_pants", "man", "1.163", 1.02, 1.12), ("short_skirt", "dancer", "1.521", 1.03, 1.12),
+            ("long_skirt", "dancer", "2.182", 1.03, 1.12), ("blouse", "dancer", "1.406", 1.40, 1.50))
 
 
 def frames(path):
@@ -30,12 +30,9 @@ def main():
     faults = []
     with tempfile.TemporaryDirectory() as folder:
         for name, body, resolution, low, high in GARMENTS:
-            out, scene = pathlib.Path(folder) / name, pathlib.Path(folder) / (name + ".json")
-            scene.write_text(json.dumps({
-                "name": name,
-                "cloth": [{"pattern": str(patterns / (name + ".json")), "resolution_cm": float(resolution), "fabric": "cotton"}],
-                "body": {"mannequin": body}, "time": {"fps": 30, "seconds": 10, "until_still": True}}))
-            done = subprocess.run([toile, "run", str(scene), "--quiet", "--no-preview", "--out", str(out)], capture_output=True, text=True)
+            out = pathlib.Path(folder) / name
+            done = subprocess.run([toile, "dress", str(patterns / (name + ".json")), "--body", body, "--resolution", resolution, "--fabric",
+                                   "cotton", "--quiet", "--no-preview", "--out", str(out)], capture_output=True, text=True)
             if done.returncode != 0:
                 faults.append(f"{name}: exit {done.returncode}: {done.stderr.strip()}")
                 continue

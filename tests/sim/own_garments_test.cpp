@@ -2,6 +2,7 @@
 // beside them, where they stand.
 #include "body/mannequin.hpp"
 #include "garment/placement.hpp"
+#include "sim/outfit.hpp"
 #include "sim/setup.hpp"
 
 #include <gtest/gtest.h>
@@ -73,6 +74,42 @@ TEST_P(OwnGarmentOnItsBody, NoPanelIsDrawnOverAnother) {
           << mesh.panel_names[static_cast<std::size_t>(panel_of[i])] << " over "
           << mesh.panel_names[static_cast<std::size_t>(mesh.panel[t])];
     }
+  }
+}
+
+TEST(OwnGarmentsTogether, KeepTheirElasticAndTheFoldsOfTheCollar) {
+  const auto load = [](const char* name) {
+    return mesh_garment(load_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/" + name + ".json"), 0.03);
+  };
+  GarmentMesh pants = load("man_pants");
+  const GarmentMesh shirt = load("man_shirt");
+  ASSERT_FALSE(shirt.mesh.folds.empty());
+  Outfit outfit;
+  put_behind(outfit, pants, std::vector<Fabric>(pants.mesh.panel_names.size()), rest_stretch_of({}, pants.mesh));
+  const ClothMesh both = over(outfit, shirt).mesh;
+  ASSERT_EQ(both.panel_cloth.size(), both.panel_names.size());
+  for (std::size_t p = 0; p < both.panel_names.size(); ++p)
+    EXPECT_EQ(both.panel_cloth[p].rest_stretch.y() < 1, both.panel_names[p].starts_with("waistband"));
+  ASSERT_EQ(both.folds.size(), shirt.mesh.folds.size());
+  for (std::size_t f = 0; f < both.folds.size(); ++f) {
+    EXPECT_EQ(both.folds[f].a, shirt.mesh.folds[f].a + pants.mesh.particle_count);
+    EXPECT_EQ(both.folds[f].b, shirt.mesh.folds[f].b + pants.mesh.particle_count);
+  }
+}
+
+TEST(OwnGarmentsTogether, AScenesPanelKeepsWhatItDoesNotName) {
+  const GarmentMesh pants =
+      mesh_garment(load_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/man_pants.json"), 0.03);
+  SceneCloth cloth;
+  ScenePanel panel;
+  panel.name = "waistband_front";
+  panel.rest_stretch_u = 0.9;
+  cloth.panels.push_back(panel);
+  const std::vector<Vec2> b = rest_stretch_of(cloth, pants.mesh);
+  for (std::size_t p = 0; p < b.size(); ++p) {
+    const std::string& name = pants.mesh.panel_names[p];
+    EXPECT_EQ(b[p].x(), name == "waistband_front" ? 0.9 : 1.0) << name;
+    EXPECT_EQ(b[p].y() < 1, name.starts_with("waistband")) << name;
   }
 }
 
