@@ -430,7 +430,7 @@ def garments():
         shirt,
         pants("man_pants", MAN, 8, 88, 4, 0.86, 104, 9.5, (22, 24)),
         skirt("short_skirt", DANCER, 38, 72, 1.04, 46, slit=15),
-        skirt("long_skirt", DANCER, 84, 72, 1.15, 90),
+        skirt("long_skirt", DANCER, 84, 72, 1.12, 84),
         top("blouse", DANCER, (26.2, 25.6), (27, 26.5), 119.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve, 1.5),
     ]
 

@@ -77,39 +77,42 @@ TEST_P(OwnGarmentOnItsBody, NoPanelIsDrawnOverAnother) {
   }
 }
 
+// Of a scene with this cloth, at 3 cm.
+LoadedCloth loaded(const std::string& name, const std::string& more = "") {
+  const std::string path = std::string(TOILE_SOURCE_DIR) + "/patterns/" + name + ".json";
+  const Scene scene = parse_scene(
+      R"({"cloth": [{"pattern": ")" + path + R"(", "resolution_cm": 3)" + more + R"(}], "body": {"mannequin": "man"}})",
+      "s.json");
+  Hash inputs;
+  return load_cloth(scene, scene.cloth.front(), read_text_file, inputs);
+}
+
+bool is_waistband(const std::string& panel) { return panel.find("waistband") != std::string::npos; }
+
 TEST(OwnGarmentsTogether, KeepTheirElasticAndTheFoldsOfTheCollar) {
-  const auto load = [](const char* name) {
-    return mesh_garment(load_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/" + name + ".json"), 0.03);
-  };
-  GarmentMesh pants = load("man_pants");
-  const GarmentMesh shirt = load("man_shirt");
-  ASSERT_FALSE(shirt.mesh.folds.empty());
+  const LoadedCloth pants = loaded("man_pants"), shirt = loaded("man_shirt");
+  ASSERT_FALSE(shirt.garment.mesh.folds.empty());
   Outfit outfit;
-  put_behind(outfit, pants, std::vector<Fabric>(pants.mesh.panel_names.size()), rest_stretch_of({}, pants.mesh));
-  const ClothMesh both = over(outfit, shirt).mesh;
+  put_behind(outfit, pants.garment, pants.fabrics, pants.rest_stretch);
+  const ClothMesh both = over(outfit, shirt.garment).mesh;
   ASSERT_EQ(both.panel_cloth.size(), both.panel_names.size());
   for (std::size_t p = 0; p < both.panel_names.size(); ++p)
-    EXPECT_EQ(both.panel_cloth[p].rest_stretch.y() < 1, both.panel_names[p].starts_with("waistband"));
-  ASSERT_EQ(both.folds.size(), shirt.mesh.folds.size());
+    EXPECT_EQ(both.panel_cloth[p].rest_stretch.y() < 1, is_waistband(both.panel_names[p])) << both.panel_names[p];
+  ASSERT_EQ(both.folds.size(), shirt.garment.mesh.folds.size());
   for (std::size_t f = 0; f < both.folds.size(); ++f) {
-    EXPECT_EQ(both.folds[f].a, shirt.mesh.folds[f].a + pants.mesh.particle_count);
-    EXPECT_EQ(both.folds[f].b, shirt.mesh.folds[f].b + pants.mesh.particle_count);
+    EXPECT_EQ(both.folds[f].a, shirt.garment.mesh.folds[f].a + pants.garment.mesh.particle_count);
+    EXPECT_EQ(both.folds[f].b, shirt.garment.mesh.folds[f].b + pants.garment.mesh.particle_count);
   }
 }
 
 TEST(OwnGarmentsTogether, AScenesPanelKeepsWhatItDoesNotName) {
-  const GarmentMesh pants =
-      mesh_garment(load_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/man_pants.json"), 0.03);
-  SceneCloth cloth;
-  ScenePanel panel;
-  panel.name = "waistband_front";
-  panel.rest_stretch_u = 0.9;
-  cloth.panels.push_back(panel);
-  const std::vector<Vec2> b = rest_stretch_of(cloth, pants.mesh);
-  for (std::size_t p = 0; p < b.size(); ++p) {
-    const std::string& name = pants.mesh.panel_names[p];
-    EXPECT_EQ(b[p].x(), name == "waistband_front" ? 0.9 : 1.0) << name;
-    EXPECT_EQ(b[p].y() < 1, name.starts_with("waistband")) << name;
+  const LoadedCloth pants =
+      loaded("man_pants", R"(, "panels": {"waistband_front": {"rest_stretch_u": 0.9, "fabric": "denim"}})");
+  for (std::size_t p = 0; p < pants.rest_stretch.size(); ++p) {
+    const std::string& name = pants.garment.mesh.panel_names[p];
+    EXPECT_EQ(pants.rest_stretch[p].x(), name == "waistband_front" ? 0.9 : 1.0) << name;
+    EXPECT_EQ(pants.rest_stretch[p].y() < 1, is_waistband(name)) << name;
+    EXPECT_EQ(pants.fabrics[p].name, name == "waistband_front" ? "denim" : "cotton") << name;
   }
 }
 
