@@ -206,7 +206,7 @@ TEST(Golden, StateHashesOfThreeScenes) {
   };
   EXPECT_EQ(hanging(), "06cd67aa6deb5e59");
   EXPECT_EQ(folding(), "e314f1a036ad5a72");
-  EXPECT_EQ(drop(1), "094f4ed2911e79bf");
+  EXPECT_EQ(drop(1), "5a313fd073fb3fc4");
 }
 
 }  // namespace
