@@ -21,10 +21,17 @@ namespace {
 struct Demo {
   std::string_view name, what;
 };
-constexpr std::array<Demo, 4> demos = {{{"tshirt", "a T-shirt sewn around the mannequin (the default)"},
-                                        {"skirt", "an A-line skirt on the mannequin"},
-                                        {"cylinder", "a square cloth falls over a cylinder [BW98, figure 1]"},
-                                        {"sheet", "the same cloth, held by two corners"}}};
+constexpr std::array<Demo, 10> demos = {
+    {{"tshirt", "a T-shirt sewn around the mannequin (the default)"},
+     {"skirt", "an A-line skirt on the mannequin"},
+     {"cylinder", "a square cloth falls over a cylinder"},
+     {"sheet", "the same cloth, held by two corners"},
+     {"fig1-drape", "figure 1 of the paper: cloth draping on a cylinder, frames 8, 13 and 35"},
+     {"fig2-sheet", "figure 2: a sheet held at two corners, frames 10, 29 and 67"},
+     {"fig3-twist", "figure 3: a shirt on a twisting man, frames 1, 24 and 46"},
+     {"fig4-walk", "figure 4: shirt and pants on a walking man, frames 30, 45 and 58"},
+     {"fig5-short-skirt", "figure 5: short skirt and blouse on a dancer, frames 110, 136 and 155"},
+     {"fig6-long-skirt", "figure 6: long skirt and blouse on a dancer, frames 185, 215 and 236"}}};
 
 std::string embedded_text(const std::string& path) {
   for (const EmbeddedFile& file : embedded_files())
@@ -50,7 +57,7 @@ ExitCode list_demos(const CommandLine& line) {
     json.member("name", demo.name);
     json.member("description", demo.what);
     json.end_object();
-    text += std::string(demo.name) + std::string(12 - demo.name.size(), ' ') + std::string(demo.what) + '\n';
+    text += std::string(demo.name) + std::string(18 - demo.name.size(), ' ') + std::string(demo.what) + '\n';
   }
   json.end_array();
   json.end_object();
@@ -150,6 +157,7 @@ void set_quality(const std::string& quality, Scene& scene) {
     if (q.name != quality) continue;
     for (SceneCloth& cloth : scene.cloth) {
       cloth.resolution_m = q.resolution_m;
+      cloth.vertices.reset();
       if (cloth.grid) cloth.grid->edge_m = q.resolution_m;
     }
     scene.step_max_s = q.step_max_s;
@@ -173,12 +181,18 @@ Scene scene_of(const CommandLine& line) {
   set_quality(line.quality, scene);
   for (SceneCloth& cloth : scene.cloth) {
     if (line.fabric) cloth.fabric = fabric_preset(*line.fabric, "", "--fabric");
-    if (line.resolution_cm) cloth.resolution_m = 0.01 * *line.resolution_cm;
+    if (line.resolution_cm) {
+      cloth.resolution_m = 0.01 * *line.resolution_cm;
+      cloth.vertices.reset();
+    }
     if (line.resolution_cm && cloth.grid) cloth.grid->edge_m = 0.01 * *line.resolution_cm;
   }
   if (!line.start.empty()) scene.start = line.start;
   if (line.fps) scene.fps = *line.fps;
-  if (line.seconds) scene.seconds = *line.seconds;
+  if (line.seconds) {
+    scene.seconds = *line.seconds;
+    scene.seconds_given = true;
+  }
   return scene;
 }
 

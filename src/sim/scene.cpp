@@ -120,8 +120,8 @@ ScenePin read_pin(const Json& value) {
 }
 
 SceneCloth read_cloth(const Json& value, const std::string& file) {
-  value.allow_only(
-      {"name", "pattern", "grid", "resolution_cm", "fabric", "panels", "placement", "pins", "label_heights_m"});
+  value.allow_only({"name", "pattern", "grid", "resolution_cm", "vertices", "fabric", "panels", "placement", "pins",
+                    "label_heights_m"});
   SceneCloth cloth;
   cloth.name = value.string_or("name", "");
   const Json *pattern = value.find("pattern"), *grid = value.find("grid");
@@ -141,6 +141,11 @@ SceneCloth read_cloth(const Json& value, const std::string& file) {
     if (cloth.name.empty()) cloth.name = "sheet";
   }
   read_number(value, "resolution_cm", cloth.resolution_m, 0.01, 0.1, 20);
+  if (const Json* vertices = value.find("vertices")) {
+    if (pattern == nullptr) vertices->fail("a pattern beside it: a grid has an edge_m", "a number of vertices");
+    if (const Json* both = value.find("resolution_cm")) both->fail("either \"resolution_cm\" or \"vertices\"", "both");
+    cloth.vertices = static_cast<int>(number_in(*vertices, 20, 2e6));
+  }
   if (const Json* fabric = value.find("fabric")) cloth.fabric = read_fabric(*fabric);
   if (const Json* panels = value.find("panels")) {
     for (const auto& [name, panel] : panels->object()) {
@@ -179,13 +184,23 @@ SceneMotion read_motion(const Json& value, bool mannequin, const std::string& fi
   motion.pointer = value.pointer();
   const Json* path = &value;
   if (value.is_object()) {
-    value.allow_only({"file", "fps", "blend_in_s"});
+    value.allow_only({"name", "file", "fps", "lead_in_s"});
+    read_number(value, "lead_in_s", motion.lead_in_s, 1, 0, 10);
+    if (const Json* name = value.find("name")) {
+      if (!mannequin) name->fail("a mannequin, or \"file\" for a mesh", "the name of a motion");
+      if (value.find("file") != nullptr) name->fail("either \"name\" or \"file\"", "both");
+      motion.name = motion_names()[one_of(*name, motion_names())];
+      return motion;
+    }
     path = &value.at("file");
     read_number(value, "fps", motion.fps, 1, 1, most_fps);
-    read_number(value, "blend_in_s", motion.blend_in_s, 1, 0, 60);
   } else if (mannequin) {
-    motion.name = motion_names()[one_of(value, motion_names())];
-    return motion;
+    const std::string& name = value.string();
+    const bool from_file = name.ends_with(".pc2") || name.find('/') != std::string::npos;
+    if (!from_file) {
+      motion.name = motion_names()[one_of(value, motion_names())];
+      return motion;
+    }
   }
   motion.path = resolve(file, *path);
   return motion;
@@ -246,6 +261,7 @@ void read_time(const Json& value, Scene& scene) {
   value.allow_only({"fps", "seconds", "drape_seconds", "step_max_ms", "integrator", "until_still"});
   read_number(value, "fps", scene.fps, 1, 1, most_fps);
   read_number(value, "seconds", scene.seconds, 1, 0, most_seconds, true);
+  scene.seconds_given = value.find("seconds") != nullptr;
   read_number(value, "drape_seconds", scene.drape_seconds, 1, 0, most_seconds);
   read_number(value, "step_max_ms", scene.step_max_s, 1e-3, 0.01, 1000);
   scene.until_still = value.boolean_or("until_still", scene.until_still);

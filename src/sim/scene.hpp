@@ -50,6 +50,7 @@ struct SceneCloth {
   std::string pattern;            // path, resolved; empty for a grid
   std::optional<SceneGrid> grid;  // drawn in the plane z = 0 around the origin, facing +z, before it is placed
   double resolution_m = 0.01;
+  std::optional<int> vertices;  // of the welded garment: then resolution_m does not count
   Fabric fabric;
   std::vector<ScenePanel> panels;
   Vec3 translation_m{0, 0, 0};
@@ -64,10 +65,10 @@ struct SceneCylinder {  // an upright solid whose rims are rounded: sim/cylinder
 };
 
 struct SceneMotion {
-  std::string name;       // of the mannequin's own: walk, twist, dance ...; empty: from a file
-  std::string path;       // resolved: .pc2, or a folder of OBJ files
-  double fps = 30;        // of the file
-  double blend_in_s = 1;  // from the body's own pose to the first sample
+  std::string name;      // of the mannequin's own: walk, twist, dance ...; empty: from a file
+  std::string path;      // resolved: .pc2, or a folder of OBJ files
+  double fps = 30;       // of the file
+  double lead_in_s = 1;  // from the body's own pose into the motion
   std::string where, pointer;
 };
 
@@ -91,6 +92,7 @@ struct Scene {
   AirOptions air;  // density 0: none, unless a wind or a density is given
 
   double fps = 30, seconds = 5;      // of the motion, where the body moves; otherwise of the drape
+  bool seconds_given = false;        // false: a motion from a file runs to its end
   double drape_seconds = 10;         // before the motion, and of garments that others go over: a limit
   std::optional<double> step_max_s;  // absent: 1/60 s for patterns, a frame for grids
   bool until_still = false;          // stop when at rest; then `seconds` is a limit, and moving at the end a failure

@@ -1,8 +1,7 @@
 #include "sim/setup.hpp"
 
+#include "body/body_motion.hpp"
 #include "body/measure.hpp"
-#include "body/motion.hpp"
-#include "body/pose.hpp"
 #include "core/error.hpp"
 #include "garment/triangulate.hpp"
 #include "io/file.hpp"
@@ -12,6 +11,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <string_view>
 
 namespace toile {
@@ -64,11 +64,20 @@ void add(Hash& hash, const Fabric& f) {
     add(hash, x);
 }
 
-BodyMovement movement_of(const Mannequin& mannequin, const SceneBody& body) {
-  const Motion motion = Motion::named(body.motion->name, body.mannequin);
-  const SkinnedBody skinned(mannequin);
-  return {[motion, skinned](double t_s, std::span<Vec3> x) { skinned.positions(motion.at(t_s), x); },
-          body.motion->name};
+BodyMovement movement_of(BodyMotion motion, std::string name, Hash& inputs) {
+  motion.add_to(inputs);
+  const double duration_s = motion.duration_s();
+  return {[motion = std::move(motion)](double t_s, std::span<Vec3> x) { motion.positions(t_s, x); }, std::move(name),
+          duration_s};
+}
+
+BodyMovement movement_from_file(const SceneBody& body, const CollisionBody& standing, Hash& inputs) {
+  SampleOptions samples;
+  samples.rate_hz = body.motion->fps;
+  samples.unit = body.unit;
+  samples.lead_in_s = body.motion->lead_in_s;
+  return movement_of(BodyMotion::from_files(body.motion->path, standing, samples),
+                     std::filesystem::path(body.motion->path).filename().string(), inputs);
 }
 
 // Flat sheet, placed; one panel with the cloth's name.
@@ -96,14 +105,21 @@ GarmentMesh make_grid(const SceneCloth& cloth) {
 }
 
 // The pattern of the cloth, meshed and moved as `placement` says.
-GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& inputs) {
+GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& inputs,
+                         std::optional<double>& counted_edge_m) {
   const std::string text = read(cloth.pattern);
   inputs.add_bytes(text.data(), text.size());
   const std::string file = printable(cloth.pattern);
   const Pattern pattern = parse_pattern(text, file);
   GarmentMesh garment;
   try {
-    garment = mesh_garment(pattern, cloth.resolution_m);
+    if (cloth.vertices) {
+      CountedGarment counted = mesh_garment_to_count(pattern, *cloth.vertices);
+      garment = std::move(counted.garment);
+      counted_edge_m = counted.resolution_m;
+    } else {
+      garment = mesh_garment(pattern, cloth.resolution_m);
+    }
   } catch (const InputError& error) {
     throw Error(error.code(), file + ": " + error.what());
   }
@@ -188,8 +204,14 @@ LoadedBody load_body(const SceneBody& body, Hash& inputs) {
       break;
     case SceneBody::Kind::mannequin: {
       const Mannequin mannequin = make_mannequin(body.mannequin);
-      if (body.motion && !body.motion->name.empty()) loaded.movement = movement_of(mannequin, body);
       CollisionBody made = from_mannequin(mannequin);
+      if (body.motion && body.motion->name.empty()) {
+        loaded.movement = movement_from_file(body, made, inputs);
+      } else if (body.motion) {
+        Motion motion = Motion::named(body.motion->name, body.mannequin);
+        motion.set_lead_in_s(body.motion->lead_in_s);
+        loaded.movement = movement_of(BodyMotion::of_mannequin(mannequin, motion), body.motion->name, inputs);
+      }
       loaded.solid = {std::move(made.positions), std::move(made.triangles)};
       break;
     }
@@ -198,6 +220,7 @@ LoadedBody load_body(const SceneBody& body, Hash& inputs) {
       inputs.add_bytes(text.data(), text.size());
       CollisionBody read = make_collision_body(parse_obj(text, printable(body.mesh)), printable(body.mesh), body.unit);
       check_areas(printable(body.mesh), read.positions, read.triangles);
+      if (body.motion) loaded.movement = movement_from_file(body, read, inputs);
       loaded.solid = {std::move(read.positions), std::move(read.triangles)};
       break;
     }
@@ -207,10 +230,12 @@ LoadedBody load_body(const SceneBody& body, Hash& inputs) {
 
 LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read, Hash& inputs) {
   LoadedCloth loaded;
-  loaded.garment = cloth.grid ? make_grid(cloth) : load_garment(cloth, read, inputs);
+  std::optional<double> counted_edge_m;
+  loaded.garment = cloth.grid ? make_grid(cloth) : load_garment(cloth, read, inputs, counted_edge_m);
   loaded.fabrics = fabrics_of(scene, cloth, loaded.garment.mesh);
   loaded.rest_stretch = rest_stretch_of(cloth, loaded.garment.mesh);
   loaded.pins = pins_of(cloth, loaded.garment.x);
+  loaded.edge_m = cloth.grid ? cloth.grid->edge_m : counted_edge_m.value_or(cloth.resolution_m);
   if (scene.cloth.size() > 1)  // two garments may both have a "front"
     for (std::string& panel : loaded.garment.mesh.panel_names) panel.insert(0, loaded.garment.name + '/');
   return loaded;
@@ -263,13 +288,11 @@ std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const Garment
 
 double default_offset_m(double edge_m) { return std::clamp(0.2 * edge_m, 1.5e-3, 2.5e-3); }
 
-StepOptions step_options(const Scene& scene, const Fabric& fabric) {
+StepOptions step_options(const Scene& scene, const Fabric& fabric, double edge_m) {
   StepOptions step;
   if (scene.preconditioner) step.pcg.preconditioner = *scene.preconditioner;
   step.pcg.tolerance = scene.tolerance;
   step.rows.cloth_cloth = scene.self_contact;
-  double edge_m = 0;
-  for (const SceneCloth& one : scene.cloth) edge_m = std::max(edge_m, one.grid ? one.grid->edge_m : one.resolution_m);
   step.body.offset_m = scene.body.offset_m.value_or(default_offset_m(edge_m));
   step.body.friction = scene.body.friction.value_or(fabric.friction);
   return step;
@@ -280,6 +303,7 @@ void add_to_hash(const Scene& scene, Hash& hash) {
     if (cloth.grid)
       for (const double x : {cloth.grid->width_m, cloth.grid->height_m, cloth.grid->edge_m}) add(hash, x);
     add(hash, cloth.resolution_m);
+    add(hash, static_cast<double>(cloth.vertices.value_or(0)));
     add(hash, cloth.fabric);
     for (const ScenePanel& panel : cloth.panels) {
       add(hash, std::string_view(panel.name));
@@ -309,7 +333,7 @@ void add_to_hash(const Scene& scene, Hash& hash) {
   if (body.motion) {
     add(hash, std::string_view(body.motion->name));
     add(hash, body.motion->fps);
-    add(hash, body.motion->blend_in_s);
+    add(hash, body.motion->lead_in_s);
   }
   if (body.kind == SceneBody::Kind::cylinder) {
     add(hash, body.cylinder.radius_m);

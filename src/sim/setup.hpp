@@ -16,6 +16,7 @@ namespace toile {
 struct BodyMovement {
   BodyAt at;  // at(0) is where the body stands before it moves
   std::string name;
+  double duration_s = 0;  // until the body holds still; infinite for what repeats
 };
 
 struct LoadedBody {
@@ -36,6 +37,7 @@ struct LoadedCloth {
   std::vector<Fabric> fabrics;     // [panel] with the scene's contact overrides
   std::vector<Vec2> rest_stretch;  // [panel] (b_u, b_v)
   std::vector<Pin> pins;           // on the particles of `garment`
+  double edge_m = 0;               // that its triangles were asked to have
 };
 // `read` gives the text of a pattern, which is added to `inputs`.  Errors of the mesher are given the name of the file.
 // Throws InputError for a panel that the cloth does not have.
@@ -51,7 +53,7 @@ std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const Garment
                                           std::vector<std::string>& warnings);
 // How far above the body cloth of this edge length rests when nobody says: edges cut corners of the body, by e^2 / 8R.
 double default_offset_m(double edge_m);
-StepOptions step_options(const Scene& scene, const Fabric& fabric);
+StepOptions step_options(const Scene& scene, const Fabric& fabric, double edge_m);
 
 // Every number of the scene that changes the result; not its name, output or number of threads.
 void add_to_hash(const Scene& scene, Hash& hash);

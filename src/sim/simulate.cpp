@@ -66,7 +66,9 @@ class Run {
     body_x_ = solid.positions;
     body_triangles_ = solid.triangles;
     if (!body_triangles_.empty()) body_.emplace(std::move(solid.positions), std::move(solid.triangles));
-    step_ = step_options(scene_, cloth_.front().fabrics.front());
+    double edge_m = 0;
+    for (const LoadedCloth& cloth : cloth_) edge_m = std::max(edge_m, cloth.edge_m);
+    step_ = step_options(scene_, cloth_.front().fabrics.front(), edge_m);
 
     report_.name = scene_.name;
     report_.command = options_.command;
@@ -276,7 +278,8 @@ class Run {
     report_.motion_name = motion_->name;
     report_.motion_first_frame = writer_->cloth_frames() - 1;
     const PhaseSeconds before = run.seconds();
-    const int frames = frames_in(scene_.seconds);
+    const bool whole = !scene_.seconds_given && std::isfinite(motion_->duration_s);
+    const int frames = frames_in(whole ? motion_->duration_s : scene_.seconds);
     Stopwatch watch;
     for (int k = 1; k <= frames; ++k) {
       motion_->at(static_cast<double>(k) * frame_s(), body_x_);

@@ -236,13 +236,14 @@ TEST(Run, TheTShirtIsSewnWithoutACrossingWhereFourPanelsMeet) {
 TEST(Setup, LongerEdgesRestFartherFromTheBodyUnlessTheSceneSays) {
   Scene scene = parse_scene(
       R"({"cloth": [{"grid": {"edge_m": 0.01}}], "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.5}}})", "s.json");
-  EXPECT_DOUBLE_EQ(step_options(scene, Fabric{}).body.offset_m, 2e-3);
-  scene.cloth.front().grid->edge_m = 0.03;
-  EXPECT_DOUBLE_EQ(step_options(scene, Fabric{}).body.offset_m, 2.5e-3);
-  scene.cloth.front().grid->edge_m = 0.002;
-  EXPECT_DOUBLE_EQ(step_options(scene, Fabric{}).body.offset_m, 1.5e-3);
+  double edge_m = 0.01;
+  EXPECT_DOUBLE_EQ(step_options(scene, Fabric{}, edge_m).body.offset_m, 2e-3);
+  edge_m = 0.03;
+  EXPECT_DOUBLE_EQ(step_options(scene, Fabric{}, edge_m).body.offset_m, 2.5e-3);
+  edge_m = 0.002;
+  EXPECT_DOUBLE_EQ(step_options(scene, Fabric{}, edge_m).body.offset_m, 1.5e-3);
   scene.body.offset_m = 4e-3;
-  EXPECT_DOUBLE_EQ(step_options(scene, Fabric{}).body.offset_m, 4e-3);
+  EXPECT_DOUBLE_EQ(step_options(scene, Fabric{}, edge_m).body.offset_m, 4e-3);
 }
 
 TEST(Setup, LabelHeightsComeFromTheSceneAndTheWaistFromTheBody) {
