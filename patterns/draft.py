@@ -295,12 +295,11 @@ def sleeves(garment, body, fronts, half_arm, cap, sleeve_end, wrist, cuff, cuff_
     c = math.cos(math.radians(turn))
     joint = body["joint"]
     out = lambda d: (round(joint[0] + d * c, 3), round(joint[1] - d * c, 3))
-    for which, z, panel in (("front", 13, fronts[0]), ("back", -18, fronts[1])):
-        def line(low):
-            span = half_arm + low
-            return (0, half_arm), (0, half_arm - 0.55 * span), (cap - 0.27, -low + 0.4 * span), (cap, -low)
-        low = solved(ease * panel.edge_length("left_armhole"), lambda x: length(*line(x)), 1, 30)
-        p = line(low)
+    cap_line = lambda top, low: ((0, top), (0, top - 0.55 * (top + low)), (cap - 0.27, -low + 0.4 * (top + low)), (cap, -low))
+    spans = [solved(ease * panel.edge_length("left_armhole"), lambda x: length(*cap_line(x, 0)), 5, 60) for panel in fronts]
+    low = sum(spans) / 2 - half_arm  # of both halves: what the front's armhole is longer lies above the arm
+    for which, z, span in (("front", 13, spans[0]), ("back", -18, spans[1])):
+        p = cap_line(span - low, low)
         sleeve = Panel("left_sleeve_" + which, "arm", (*out(5), z), turn, start=p[0])
         sleeve.to(*p[3], *p[1:3], name="cap").to(sleeve_end, -wrist / 2, name="under").to(sleeve_end, wrist / 2, name="wrist")
         sleeve.to(*p[0], name="over")
@@ -424,14 +423,14 @@ def pants(name, body, ease, band, band_height, band_b, waist_y, hem_y, hem):
 def garments():
     blouse_sleeve = dict(half_arm=9.5, cap=12, sleeve_end=48.5, wrist=14, cuff=11.5, cuff_height=4, cuff_b=0.76)
     shirt_sleeve = dict(half_arm=11, cap=13, sleeve_end=54.5, wrist=13, cuff=12, cuff_height=5, cuff_b=1)
-    shirt = top("man_shirt", MAN, (28.0, 27.6), (26.8, 26.4), 126, 85, (9.0, 9.5, 1.5), 0, shirt_sleeve, 1.5)
+    shirt = top("man_shirt", MAN, (28.0, 27.6), (26.8, 26.4), 128, 85, (9.0, 9.5, 1.5), 0, shirt_sleeve, 1.5)
     collar(shirt, MAN, 3.0, 5.0, -120, None)
     return [
         shirt,
         pants("man_pants", MAN, 8, 88, 4, 0.86, 104, 9.5, (22, 24)),
         skirt("short_skirt", DANCER, 38, 72, 1.04, 46, slit=15),
         skirt("long_skirt", DANCER, 84, 72, 1.12, 84),
-        top("blouse", DANCER, (26.2, 25.6), (27, 26.5), 119.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve, 1.5),
+        top("blouse", DANCER, (26.2, 25.6), (27, 26.5), 120.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve, 1.5),
     ]
 
 
