@@ -1,5 +1,7 @@
 #include "assembly/cloth_model.hpp"
 
+#include "core/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -35,6 +37,12 @@ BendRest hinge_rest(const ClothModel& model, std::span<const Fabric> fabrics, co
   rest.kappa_N_m = paper_scaling ? rigidity : rigidity * bend_weight(length, area[0], area[1]);
   rest.tau_s = tau;
   return rest;
+}
+
+void check_rest_stretch(const Vec2& b) {
+  if (b.allFinite() && b.minCoeff() > 0) return;
+  throw InputError("cloth", "rest stretch", "two numbers above zero",
+                   std::to_string(b.x()) + ", " + std::to_string(b.y()));
 }
 
 }  // namespace
@@ -89,6 +97,31 @@ void set_folds(ClothModel& model, double share) {
     if (hinge != hinges.end() && edge_of(*hinge) == edge)
       model.bend[static_cast<std::size_t>(hinge - hinges.begin())].theta_0 = share * fold.angle_rad;
   }
+}
+
+void set_rest_stretch(ClothModel& model, Index triangle, const Vec2& b) {
+  if (triangle < 0 || static_cast<std::size_t>(triangle) >= model.membrane.size())
+    throw InputError("cloth", "rest stretch", "a triangle below " + std::to_string(model.membrane.size()),
+                     std::to_string(triangle));
+  check_rest_stretch(b);
+  MembraneRest& rest = model.membrane[static_cast<std::size_t>(triangle)];
+  rest.b_u = b.x();
+  rest.b_v = b.y();
+  ++model.rest_version;
+}
+
+void set_panel_rest_stretch(ClothModel& model, Index panel, const Vec2& b) {
+  if (panel < 0 || static_cast<std::size_t>(panel) >= model.mesh.panel_names.size())
+    throw InputError("cloth", "rest stretch", "a panel below " + std::to_string(model.mesh.panel_names.size()),
+                     std::to_string(panel));
+  check_rest_stretch(b);
+  for (std::size_t t = 0; t < model.membrane.size(); ++t) {
+    if (model.mesh.panel[t] == panel) {
+      model.membrane[t].b_u = b.x();
+      model.membrane[t].b_v = b.y();
+    }
+  }
+  ++model.rest_version;
 }
 
 }  // namespace toile

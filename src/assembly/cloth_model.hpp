@@ -36,6 +36,7 @@ struct ClothModel {
   Vec3 gravity_m_per_s2{0, -9.81, 0};
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   double drag_per_s = 0;
+  int rest_version = 0;  // counts changes of b, so that what depends on rest lengths knows
 
   Index particle_count() const { return mesh.particle_count; }
 };
@@ -46,5 +47,11 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabric_of_panel, 
 
 // Rest angles = share * mesh.folds: panels are sewn flat (0) and then folded.  Folds on a free edge have no hinge and no effect.
 void set_folds(ClothModel& model, double share);
+
+// Changes the rest stretch (b_u, b_v) of a triangle or of a panel's triangles; 1 is as cut, 0.8 pulls together by a fifth.  Allowed
+// between any two steps: forces, the step control and contact distances follow.  Bend keeps its weight, that of the cloth as cut.
+// Throws InputError for an index that the mesh does not have, and for b that is not above zero and finite.
+void set_rest_stretch(ClothModel& model, Index triangle, const Vec2& b);
+void set_panel_rest_stretch(ClothModel& model, Index panel, const Vec2& b);
 
 }  // namespace toile

@@ -31,20 +31,32 @@ ContactRows::ContactRows(const ClothModel& model, const BodySurface* body, std::
       options_(options),
       reach_m_(model.thickness_m),
       topology_(model.mass_kg.size(), model.mesh.triangles, model.topology, merged_particle) {
+  scale_.assign(reach_m_.size(), 1);
+  measure_reach();
+}
+
+void ContactRows::measure_reach() {
+  rest_version_ = model_->rest_version;
   std::vector<double> shortest(reach_m_.size(), std::numeric_limits<double>::infinity());
-  const ClothMesh& mesh = model.mesh;
+  const ClothMesh& mesh = model_->mesh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec2 b(model_->membrane[t].b_u, model_->membrane[t].b_v);
     for (std::size_t k = 0; k < 3; ++k) {
-      const double length = (mesh.uv[t][(k + 1) % 3] - mesh.uv[t][k]).norm();
+      const double length = b.cwiseProduct(mesh.uv[t][(k + 1) % 3] - mesh.uv[t][k]).norm();
       for (const Index corner : mesh.triangles[t]) shortest[at(corner)] = std::min(shortest[at(corner)], length);
     }
   }
-  for (std::size_t i = 0; i < reach_m_.size(); ++i) reach_m_[i] = std::min(reach_m_[i], rest_share * shortest[i]);
-  contact_m_ = reach_m_;
+  for (std::size_t i = 0; i < reach_m_.size(); ++i)
+    reach_m_[i] = std::min(model_->thickness_m[i], rest_share * shortest[i]);
+  set_thickness_scale(std::vector<double>(scale_));
 }
 
 void ContactRows::set_thickness_scale(std::span<const double> scale) {
-  for (std::size_t i = 0; i < reach_m_.size(); ++i) contact_m_[i] = (scale.empty() ? 1 : scale[i]) * reach_m_[i];
+  contact_m_.resize(reach_m_.size());
+  for (std::size_t i = 0; i < reach_m_.size(); ++i) {
+    scale_[i] = scale.empty() ? 1 : scale[i];
+    contact_m_[i] = scale_[i] * reach_m_[i];
+  }
 }
 
 Vec3 ContactRows::relative_velocity(const Pair& pair, const Vec3s& v, double h_s) const {
@@ -58,6 +70,7 @@ Vec3 ContactRows::relative_velocity(const Pair& pair, const Vec3s& v, double h_s
 void ContactRows::detect(const ClothState& state, double h_s) {
   pairs_.clear();
   h_s_ = h_s;
+  if (rest_version_ != model_->rest_version) measure_reach();
   if (tree_.triangle_count() == 0) tree_ = TriangleTree(state.x, model_->mesh.triangles);
   // How far ahead pairs are watched does not shrink with a thinned r: how fast they close has nothing to do with it.
   double thickest = 0;

@@ -84,6 +84,7 @@ class ContactRows {
     Vec3 slip_m_per_s;
   };
   Vec3 relative_velocity(const Pair& pair, const Vec3s& v, double h_s) const;
+  void measure_reach();
 
   const ClothModel* model_;
   const BodySurface* body_;
@@ -91,6 +92,8 @@ class ContactRows {
   ContactRowOptions options_;
   std::vector<double> reach_m_;    // [particle] thickness, at most 0.45 of the shortest rest edge around it
   std::vector<double> contact_m_;  // [particle] the same, scaled
+  std::vector<double> scale_;      // [particle]
+  int rest_version_ = 0;           // of the model, when reach_m_ was measured
   ClothTopology topology_;
   TriangleTree tree_;
   ProximityWorkspace workspace_;
