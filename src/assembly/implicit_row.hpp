@@ -40,12 +40,17 @@ inline double along(const LinearSpring& spring, std::span<const Vec3> u) {
   return spring.direction.dot(sum);
 }
 
-inline ImplicitRow implicit_row(const LinearSpring& s, double h_s, std::span<const Vec3> v, std::span<const Vec3> y) {
+// `y` is what moves the particles besides h v'.  Where the body's motion is over another time than h (BDF2), that is body_s.
+inline ImplicitRow implicit_row(const LinearSpring& s, double h_s, std::span<const Vec3> v, std::span<const Vec3> y,
+                                double body_s) {
   const double speed = along(s, v);
   const double travel = h_s * speed + along(s, y) - s.body_displacement_m;
   const double force =
-      s.force_N - s.stiffness_N_per_m * travel - s.damping_N_s_per_m * (speed - s.body_displacement_m / h_s);
+      s.force_N - s.stiffness_N_per_m * travel - s.damping_N_s_per_m * (speed - s.body_displacement_m / body_s);
   return {s.particle, s.weight, s.direction, h_s * h_s * s.stiffness_N_per_m + h_s * s.damping_N_s_per_m, h_s * force};
+}
+inline ImplicitRow implicit_row(const LinearSpring& s, double h_s, std::span<const Vec3> v, std::span<const Vec3> y) {
+  return implicit_row(s, h_s, v, y, h_s);
 }
 
 }  // namespace toile

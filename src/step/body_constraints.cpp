@@ -61,16 +61,16 @@ void BodyConstraints::touch_down(Near& near, const Vec3& v, double h_s) const {
   }
 }
 
-void BodyConstraints::begin(const ClothState& state, std::span<const Vec3> dv, double h_s) {
+void BodyConstraints::begin(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step) {
   for (Near& near : near_) {
     const std::size_t i = at(near.particle);
     near.released = near.slipped = false;
     near.body_travel = body_->travel(near.point.triangle, near.point.barycentric);
     near.lambda_n = lambda_n_[i];
     near.touch = Touch::none;
-    const Vec3 travel = h_s * (state.v[i] + dv[i]) - near.body_travel;
+    const Vec3 travel = step.drift(near.particle) + step.weight_s * (state.v[i] + dv[i]) - near.body_travel;
     if (touch_[i] == Touch::none && near.point.gap_m + near.point.normal.dot(travel) >= options_.offset_m) continue;
-    touch_down(near, state.v[i] + dv[i], h_s);
+    touch_down(near, state.v[i] + dv[i], step.h_s);
     if (touch_[i] == Touch::sticks && options_.friction > 0) near.touch = Touch::sticks;
   }
 }
@@ -81,15 +81,15 @@ double BodyConstraints::alteration(const Near& near) const {
   return std::min(missing, largest_alteration * r);
 }
 
-void BodyConstraints::apply(const ClothState& state, double h_s, ParticleConstraints& constraints, std::span<Vec3> y,
-                            std::vector<LinearSpring>& springs) {
+void BodyConstraints::apply(const ClothState& state, const StepFormula& step, ParticleConstraints& constraints,
+                            std::span<Vec3> y, std::vector<LinearSpring>& springs) {
   std::fill(y.begin(), y.end(), Vec3::Zero());
   for (Near& near : near_) {
     near.pinned = !constraints.is_free(near.particle);
     if (near.touch == Touch::none || near.pinned) continue;
     const std::size_t i = at(near.particle);
     const Vec3& n = near.point.normal;
-    const Vec3 z = near.body_travel / h_s - state.v[i];
+    const Vec3 z = (near.body_travel - step.drift(near.particle)) / step.weight_s - state.v[i];
     y[i] = alteration(near) * n;
     if (near.touch == Touch::sticks) {
       constraints.hold(near.particle, z);
@@ -110,23 +110,27 @@ void BodyConstraints::apply(const ClothState& state, double h_s, ParticleConstra
 }
 
 BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::span<const Vec3> dv,
-                                                std::span<const Vec3> e, double h_s, bool first_passes) {
+                                                std::span<const Vec3> e, const StepFormula& step, bool first_passes) {
   Change change;
   for (Near& near : near_) {
     if (near.pinned) continue;
     const std::size_t i = at(near.particle);
     const Vec3& n = near.point.normal;
-    const Vec3 velocity = state.v[i] + dv[i] - near.body_travel / h_s;  // relative to the body, at the end of the step
+    const Vec3 velocity =
+        state.v[i] + dv[i] - near.body_travel / step.h_s;  // relative to the body, at the end of the step
     if (near.touch == Touch::none) {
-      if (near.point.gap_m + h_s * n.dot(velocity) < (1 - dead_band) * options_.offset_m) {
+      double gap = near.point.gap_m + step.weight_s * n.dot(velocity);
+      if (!step.drift_m.empty())
+        gap += n.dot(step.drift(near.particle) + (step.weight_s / step.h_s - 1) * near.body_travel);
+      if (gap < (1 - dead_band) * options_.offset_m) {
         near.lambda_n = 0;
-        touch_down(near, state.v[i] + dv[i], h_s);
+        touch_down(near, state.v[i] + dv[i], step.h_s);
         ++change.normal;
         ++change.touching;
       }
       continue;
     }
-    const Vec3 force = e[i] / h_s;
+    const Vec3 force = e[i] / step.weight_s;
     const double lambda = n.dot(force);
     if (lambda < -pull_of_weight * model_->mass_kg[i] * model_->gravity_m_per_s2.norm() && !near.released &&
         first_passes) {
@@ -150,6 +154,16 @@ BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::sp
     }
   }
   return change;
+}
+
+bool BodyConstraints::changed() const {
+  std::ptrdiff_t touching = 0;
+  for (const Near& near : near_) {
+    if (near.touch == Touch::none) continue;
+    if (touch_[at(near.particle)] == Touch::none) return true;
+    ++touching;
+  }
+  return touching != std::count_if(touch_.begin(), touch_.end(), [](Touch touch) { return touch != Touch::none; });
 }
 
 void BodyConstraints::accept() {

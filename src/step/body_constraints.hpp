@@ -18,6 +18,7 @@
 #include "assembly/implicit_row.hpp"
 #include "constraint/particle_constraints.hpp"
 #include "contact/proximity.hpp"
+#include "step/step_formula.hpp"
 
 #include <span>
 #include <vector>
@@ -38,19 +39,21 @@ class BodyConstraints {
   // L0: nearest body point of every particle that can reach the body within h_s.
   void detect(const ClothState& state, double h_s);
 
-  // The active set with which a step of h_s begins; `dv` is the guess of the coming change of velocity.  The body's travel
-  // is read here: it may have been told of a shorter step since detect.
-  void begin(const ClothState& state, std::span<const Vec3> dv, double h_s);
+  // The active set with which a step begins; `dv` is the guess of the coming change of velocity.  The body's travel is read
+  // here: it may have been told of a shorter step since detect.
+  void begin(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step);
   // Adds S, z of the touching particles, fills y (others zero), and appends the drag of those that slide.  Particles that
   // `constraints` already holds are left to their pins.
-  void apply(const ClothState& state, double h_s, ParticleConstraints& constraints, std::span<Vec3> y,
+  void apply(const ClothState& state, const StepFormula& step, ParticleConstraints& constraints, std::span<Vec3> y,
              std::vector<LinearSpring>& springs);
   // After a solve: releases, adds, and lets slip.  `first_passes`: releases are allowed.
   struct Change {
     int normal = 0, slipped = 0, touching = 0;  // released or added; from stick to slip; in touch now
   };
-  Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> e, double h_s,
+  Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> e, const StepFormula& step,
                 bool first_passes);
+  // Whether particles touch that did not at the end of the last accepted step, or the other way round.
+  bool changed() const;
   // After an accepted step: remembers forces and modes for the next.
   void accept();
 

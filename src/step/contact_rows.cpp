@@ -20,6 +20,10 @@ constexpr double slowest_slip = 1e-3;  // m/s
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+double drift_along(const LinearSpring& spring, const StepFormula& step) {
+  return step.drift_m.empty() ? 0 : along(spring, step.drift_m);
+}
+
 }  // namespace
 
 ContactRows::ContactRows(const ClothModel& model, const BodySurface* body, std::span<const Index> merged_particle,
@@ -132,7 +136,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) { return a.key < b.key; });
 }
 
-void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, double h_s, double base_h_s,
+void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step, double base_h_s,
                         std::span<const Mat3> diagonal) {
   auto memory = memory_.begin();
   for (Pair& pair : pairs_) {
@@ -153,7 +157,8 @@ void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, doubl
           w2 * (spring.direction.dot(diagonal[i] * spring.direction) - model_->mass_kg[i]);  // h^2 k_n (and damping)
     }
     const double h = base_h_s;
-    spring.stiffness_N_per_m = stiffness_factor * (1 / inverse_mass + elastic * (h * h) / (h_s * h_s)) / (h * h);
+    spring.stiffness_N_per_m =
+        stiffness_factor * (1 / inverse_mass + elastic * (h * h) / (step.weight_s * step.weight_s)) / (h * h);
     pair.lambda_N = 0;
     pair.slip_m_per_s.setZero();
     while (memory != memory_.end() && memory->key < pair.key) ++memory;
@@ -166,8 +171,8 @@ void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, doubl
     }
     spring.damping_N_s_per_m = options_.damping_s * spring.stiffness_N_per_m;
     spring.force_N = spring.stiffness_N_per_m * (pair.r_m - pair.gap_m);
-    const double predicted =
-        pair.gap_m + h_s * (along(spring, state.v) + along(spring, dv)) - spring.body_displacement_m;
+    const double predicted = pair.gap_m + step.weight_s * (along(spring, state.v) + along(spring, dv)) -
+                             spring.body_displacement_m + drift_along(spring, step);
     pair.active = lived || predicted < pair.r_m;
   }
 }
@@ -192,12 +197,12 @@ void ContactRows::append_springs(const ClothState& state, double h_s, std::vecto
 }
 
 ContactRows::Change ContactRows::update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> y,
-                                        double h_s, bool may_drop) {
+                                        const StepFormula& step, bool may_drop) {
   Change change;
   for (Pair& pair : pairs_) {
     const LinearSpring& spring = pair.spring;
-    pair.predicted_m =
-        pair.gap_m + h_s * (along(spring, state.v) + along(spring, dv)) + along(spring, y) - spring.body_displacement_m;
+    pair.predicted_m = pair.gap_m + step.weight_s * (along(spring, state.v) + along(spring, dv)) + along(spring, y) -
+                       spring.body_displacement_m + drift_along(spring, step);
     if (pair.active && pair.predicted_m > pair.r_m && may_drop) {
       pair.active = false;
       ++change.dropped;
@@ -208,6 +213,16 @@ ContactRows::Change ContactRows::update(const ClothState& state, std::span<const
     change.active += pair.active ? 1 : 0;
   }
   return change;
+}
+
+bool ContactRows::changed() const {
+  auto memory = memory_.begin();
+  for (const Pair& pair : pairs_) {
+    if (!pair.active) continue;
+    if (memory == memory_.end() || memory->key != pair.key) return true;
+    ++memory;
+  }
+  return memory != memory_.end();
 }
 
 void ContactRows::accept(const ClothState& end_state) {

@@ -11,6 +11,7 @@
 #include "assembly/cloth_model.hpp"
 #include "assembly/implicit_row.hpp"
 #include "contact/proximity.hpp"
+#include "step/step_formula.hpp"
 
 #include <span>
 #include <vector>
@@ -36,14 +37,17 @@ class ContactRows {
   void detect(const ClothState& state, double h_s);
   // Stiffness of each pair and the rows with which a step begins.  `base_h_s` is the frame's own step, before any halving.
   // A pair that was active in the last step, or that the guess `dv` brings below r, begins active.
-  void begin(const ClothState& state, std::span<const Vec3> dv, double h_s, double base_h_s,
+  void begin(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step, double base_h_s,
              std::span<const Mat3> diagonal);
   void append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const;
 
   struct Change {
     int dropped = 0, added = 0, active = 0;
   };
-  Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> y, double h_s, bool may_drop);
+  Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> y, const StepFormula& step,
+                bool may_drop);
+  // Whether other rows act than at the end of the last accepted step.
+  bool changed() const;
   void accept(const ClothState& end_state);
 
   // Scales the distance at which layers of cloth meet, per particle (empty: the fabrics' own everywhere).  Four layers in a corner of a seam

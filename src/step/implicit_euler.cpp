@@ -25,8 +25,8 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       body_(model, world.body, options.body),
       rows_(model, world.body, world.merged_particle, options.body.offset_m, options.body.friction, options.rows) {
   const auto n = static_cast<std::size_t>(model.particle_count());
-  for (Vec3s* vector :
-       {&force_, &b_, &y_, &y_known_, &y_linearised_, &linearised_, &displacement_, &reference_, &dv_, &dv_last_, &e_})
+  for (Vec3s* vector : {&force_, &b_, &y_, &y_known_, &y_linearised_, &linearised_, &displacement_, &force_linearised_,
+                        &x_linearised_, &moved_, &reference_, &dv_, &dv_last_, &e_})
     vector->assign(n, Vec3::Zero());
   diagonal_.assign(n, Mat3::Zero());
   stretch_.resize(model.mesh.triangles.size());
@@ -63,6 +63,8 @@ void ImplicitEuler::move_body(double t_s, double h_s) {
 void ImplicitEuler::prepare(const ClothState& state, double t_s, double h_s, double base_h_s) {
   base_h_s_ = base_h_s;
   move_body(t_s, h_s);
+  evaluated_at_state_ = true;
+  history_.check(state);
   {
     const Timed timed(seconds_.eval);
     elements_.evaluate(*model_, state);
@@ -78,10 +80,12 @@ void ImplicitEuler::prepare(const ClothState& state, double t_s, double h_s, dou
   rows_.detect(state, base_h_s);
 }
 
-void ImplicitEuler::hold_pins(const ClothState& state, double t_s, double h_s) {
+void ImplicitEuler::hold_pins(const ClothState& state, double t_s, const StepFormula& step) {
   for (const Pin& pin : world_->pins) {
     const auto i = static_cast<std::size_t>(pin.particle);
-    const Vec3 velocity = pin.path ? Vec3((pin.path(t_s + h_s) - state.x[i]) / h_s) : Vec3::Zero();
+    Vec3 way = pin.path ? Vec3(pin.path(t_s + step.h_s) - state.x[i]) : Vec3::Zero();
+    if (!step.drift_m.empty()) way -= step.drift_m[i];
+    const Vec3 velocity = way / step.weight_s;
     const Vec3 z = velocity - state.v[i];
     if (pin.held_directions == 3) {
       constraints_.hold(pin.particle, z);
@@ -92,58 +96,135 @@ void ImplicitEuler::hold_pins(const ClothState& state, double t_s, double h_s) {
   }
 }
 
+void ImplicitEuler::assemble(const ClothState& at, double t_s, const StepFormula& step) {
+  const double H = step.weight_s;
+  for (std::size_t i = 0; i < force_.size(); ++i) {
+    A_.grounded(static_cast<Index>(i)) = model_->mass_kg[i] * (1 + H * model_->drag_per_s) * Mat3::Identity();
+  }
+  elements_.assemble(H, A_);
+  if (world_->air.density_kg_per_m3 > 0) {
+    const double end_s = t_s + step.h_s;
+    air_.evaluate(world_->air, world_->wind ? world_->wind(end_s) : world_->air.wind_m_per_s, at);
+    air_.assemble(H, A_);
+  }
+}
+
 StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_s, const StepLimits& limits,
                                   ClothState& candidate) {
   StepReport report;
   report.h_s = h_s;
   const std::size_t n = force_.size();
+  const StepFormula step = options_.integrator == Integrator::bdf2 ? history_.formula(h_s) : StepFormula(h_s);
   {
     const Timed timed(seconds_.eval);
-    for (std::size_t i = 0; i < n; ++i) {
-      A_.grounded(static_cast<Index>(i)) = model_->mass_kg[i] * (1 + h_s * model_->drag_per_s) * Mat3::Identity();
-    }
-    elements_.assemble(h_s, A_);
-    if (world_->air.density_kg_per_m3 > 0) {
-      air_.evaluate(world_->air, world_->wind ? world_->wind(t_s + h_s) : world_->air.wind_m_per_s, state);
-      air_.assemble(h_s, A_);
-    }
+    if (!evaluated_at_state_)
+      elements_.evaluate(*model_, state);  // Newton iterations of a refused attempt left them elsewhere
+    evaluated_at_state_ = true;
+    assemble(state, t_s, step);
+    force_linearised_ = force_;
+    if (world_->air.density_kg_per_m3 > 0) air_.add_forces(force_linearised_);
+    x_linearised_ = state.x;
     for (std::size_t i = 0; i < n; ++i) {
       diagonal_[i] = A_.diagonal(static_cast<Index>(i));
-      reference_[i] = (h_s * model_->mass_kg[i]) * model_->gravity_m_per_s2;
+      reference_[i] = (step.weight_s * model_->mass_kg[i]) * model_->gravity_m_per_s2;
       // The predictor: the last change of velocity, so that free fall is exact at any tolerance.
       dv_[i] = h_last_s_ > 0 ? Vec3((h_s / h_last_s_) * dv_last_[i]) : Vec3(h_s * model_->gravity_m_per_s2);
     }
   }
+  move_body(t_s, h_s);
+  body_.begin(state, dv_, step);
+  rows_.begin(state, dv_, step, base_h_s_, diagonal_);
+  candidate.x.resize(n);
+  candidate.v.resize(n);
+  for (int iteration = 1;; ++iteration) {
+    if (!solve_with_contacts(state, t_s, step, iteration, report)) return report;
+    for (std::size_t i = 0; i < n; ++i) {
+      candidate.v[i] = state.v[i] + dv_[i];
+      moved_[i] = step.drift(static_cast<Index>(i)) + step.weight_s * candidate.v[i];
+      candidate.x[i] = state.x[i] + moved_[i] + y_[i];
+    }
+    if (iteration >= options_.newton_iterations) break;
+    const Timed timed(seconds_.eval);
+    relinearise(state, t_s, step, candidate);
+  }
+  // What a landing takes from the velocity is no smooth motion: such a step is backward Euler from its start.
+  if (!step.drift_m.empty() && (body_.changed() || rows_.changed())) {
+    history_.forget();
+    StepReport again = attempt(state, t_s, h_s, limits, candidate);
+    again.passes += report.passes;
+    again.cg_iterations += report.cg_iterations;
+    return again;
+  }
+  report.touching = body_.touching();
+  judge(limits, candidate, report);
+  if (report && options_.rows.cloth_cloth) keep_apart(state, h_s, limits.truncate, candidate, report);
+  h_last_s_ = report ? h_s : h_last_s_;
+  if (report) dv_last_ = dv_;
+  if (report && options_.integrator == Integrator::bdf2) {
+    history_.remember(state, candidate, moved_, h_s);
+    if (report.filter.corrected > 0) history_.forget();
+  }
+  return report;
+}
+
+// About the end x^k that the last solve found, with the unknown dv still counted from v:
+//   f(x', v') = f(x^k, v) - K (x' - x^k) - D dv          at x' = x + drift + H (v + dv) + y
+void ImplicitEuler::relinearise(const ClothState& state, double t_s, const StepFormula& step,
+                                const ClothState& candidate) {
+  evaluated_at_state_ = false;
+  x_linearised_ = candidate.x;
+  elements_.evaluate(*model_, {candidate.x, state.v});
+  elements_.forces(force_linearised_);
+  for (std::size_t i = 0; i < force_linearised_.size(); ++i)
+    force_linearised_[i] += model_->mass_kg[i] * (model_->gravity_m_per_s2 - model_->drag_per_s * state.v[i]);
+  assemble(candidate, t_s, step);
+  if (world_->air.density_kg_per_m3 > 0) {  // F(v') = F(v^k) - B (v' - v^k) = F(v^k) + B (v^k - v) - B dv
+    air_.add_forces(force_linearised_);
+    air_.add_damping(dv_, force_linearised_);
+  }
+}
+
+bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, const StepFormula& step, int iteration,
+                                        StepReport& report) {
+  const std::size_t n = force_.size();
+  const double H = step.weight_s;
   // Passes that only look for the active set are solved loosely; the one that is kept, to the tolerance asked for.
   // The target as a whole is loosened: the tolerance alone would change nothing where the target is 2 % of gravity.
   PcgOptions pcg_options = options_.pcg;
-  pcg_options.loosen = loose_passes;
-  move_body(t_s, h_s);
-  body_.begin(state, dv_, h_s);
-  rows_.begin(state, dv_, h_s, base_h_s_, diagonal_);
-
-  for (report.passes = 1;; ++report.passes) {
+  if (iteration == 1) pcg_options.loosen = loose_passes;
+  for (int pass = 1;; ++pass) {
+    ++report.passes;
     {
       const Timed timed(seconds_.eval);
       constraints_.clear();
-      hold_pins(state, t_s, h_s);
+      hold_pins(state, t_s, step);
       springs_.clear();
-      body_.apply(state, h_s, constraints_, y_, springs_);
+      body_.apply(state, step, constraints_, y_, springs_);
       if (options_.position_alteration == PositionAlteration::in_solve) y_known_ = y_;
-      rows_.append_springs(state, h_s, springs_);
-      for (const Drag& drag : world_->drags) toile::append_springs(drag, state, t_s, h_s, springs_);
-      if (world_->springs) world_->springs(state, t_s + h_s, h_s, springs_);
+      rows_.append_springs(state, step.h_s, springs_);
+      for (const Drag& drag : world_->drags) toile::append_springs(drag, state, t_s, step.h_s, springs_);
+      if (world_->springs) world_->springs(state, t_s + step.h_s, step.h_s, springs_);
+      const bool drifts = !step.drift_m.empty();
+      if (drifts) {
+        for (std::size_t i = 0; i < n; ++i) displacement_[i] = step.drift_m[i] + y_known_[i];
+      }
       implicit_rows_.clear();
       for (const LinearSpring& spring : springs_)
-        implicit_rows_.push_back(implicit_row(spring, h_s, state.v, y_known_));
-      if (report.passes == 1 || y_known_ != y_linearised_) {  // f - K (h v + y) changes with y only
+        implicit_rows_.push_back(implicit_row(spring, H, state.v, drifts ? displacement_ : y_known_, step.h_s));
+      if (pass == 1 || y_known_ != y_linearised_) {  // f - K (x + drift + H v + y - x^k) changes with y only
         y_linearised_ = y_known_;
-        linearised_ = force_;
-        if (world_->air.density_kg_per_m3 > 0) air_.add_forces(linearised_);
-        for (std::size_t i = 0; i < n; ++i) displacement_[i] = h_s * state.v[i] + y_known_[i];
+        linearised_ = force_linearised_;
+        for (std::size_t i = 0; i < n; ++i) {
+          displacement_[i] = H * state.v[i] + y_known_[i];
+          if (drifts) displacement_[i] += step.drift_m[i];
+          if (iteration > 1) displacement_[i] += state.x[i] - x_linearised_[i];
+        }
         elements_.subtract_stiffness(displacement_, linearised_);
       }
-      for (std::size_t i = 0; i < n; ++i) b_[i] = h_s * linearised_[i];
+      for (std::size_t i = 0; i < n; ++i) b_[i] = H * linearised_[i];
+      if (drifts) {
+        for (std::size_t i = 0; i < n; ++i) b_[i] += model_->mass_kg[i] * history_.kick()[i];
+      }
       for (const ImplicitRow& row : implicit_rows_) {
         for (std::size_t k = 0; k < 4; ++k) {
           if (row.particle[k] >= 0)
@@ -158,34 +239,21 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     report.cg_iterations += report.pcg.iterations;
     if (!report.pcg) {
       report.status = StepStatus::solver_failed;
-      return report;
+      return false;
     }
     system_.multiply_unfiltered(dv_, e_);
     for (std::size_t i = 0; i < n; ++i) e_[i] -= b_[i];
 
-    const bool first_passes = report.passes <= 2;
-    const BodyConstraints::Change body = body_.update(state, dv_, e_, h_s, first_passes);
-    const ContactRows::Change change = rows_.update(state, dv_, y_known_, h_s, report.passes <= 4);
+    const BodyConstraints::Change body = body_.update(state, dv_, e_, step, report.passes <= 2);
+    const ContactRows::Change change = rows_.update(state, dv_, y_known_, step, report.passes <= 4);
     report.rows = change.active;
     const bool last = pcg_options.loosen == options_.pcg.loosen;
     // A few particles that begin to slip, or rows that come and go, can wait for the next step; a missing contact cannot.
     const bool settled =
         body.normal == 0 && 20 * body.slipped <= body.touching && 20 * (change.added + change.dropped) <= change.active;
-    if ((settled && last) || report.passes >= options_.max_passes) break;
-    if (settled || report.passes + 1 >= options_.max_passes) pcg_options.loosen = options_.pcg.loosen;
+    if ((settled && last) || pass >= options_.max_passes) return true;
+    if (settled || pass + 1 >= options_.max_passes) pcg_options.loosen = options_.pcg.loosen;
   }
-  report.touching = body_.touching();
-  candidate.x.resize(n);
-  candidate.v.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    candidate.v[i] = state.v[i] + dv_[i];
-    candidate.x[i] = state.x[i] + h_s * candidate.v[i] + y_[i];
-  }
-  judge(limits, candidate, report);
-  if (report && options_.rows.cloth_cloth) keep_apart(state, h_s, limits.truncate, candidate, report);
-  h_last_s_ = report ? h_s : h_last_s_;
-  if (report) dv_last_ = dv_;
-  return report;
 }
 
 void ImplicitEuler::judge(const StepLimits& limits, const ClothState& candidate, StepReport& report) {
@@ -238,6 +306,7 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, bool truncat
 }
 
 void ImplicitEuler::accept(const ClothState& candidate) {
+  if (options_.integrator == Integrator::bdf2 && (body_.changed() || rows_.changed())) history_.forget();
   body_.accept();
   rows_.accept(candidate);
 }

@@ -38,7 +38,9 @@ struct StepOptions {
   ContactRowOptions rows;
   BodyContactOptions body;
   PositionAlteration position_alteration = PositionAlteration::in_solve;
-  int max_passes = 8;              // of the active set
+  Integrator integrator = Integrator::backward_euler;
+  int newton_iterations = 1;       // linear solves per step, each about the end that the last one found; the paper: 1
+  int max_passes = 8;              // of the active set, per linear solve
   double max_speed_m_per_s = 100;  // beyond this the step is refused
 };
 
@@ -80,7 +82,9 @@ class ImplicitEuler {
   const BodyConstraints& body_constraints() const { return body_; }
   BodyConstraints& body_constraints() { return body_; }
   ContactRows& contact_rows() { return rows_; }
-  std::span<const Vec3> constraint_impulse() const { return e_; }  // e = A dv - b of the last pass, N s
+  std::span<const Vec3> constraint_impulse() const {
+    return e_;
+  }  // e = A dv - b of the last pass, N s; H times the force
   PhaseSeconds seconds() const;
   // f + h K terms of the last assembled system, for tests.
   const BlockMatrix<float>& A() const { return A_; }
@@ -89,7 +93,11 @@ class ImplicitEuler {
 
  private:
   void move_body(double t_s, double h_s);
-  void hold_pins(const ClothState& state, double t_s, double h_s);
+  void hold_pins(const ClothState& state, double t_s, const StepFormula& step);
+  void assemble(const ClothState& at, double t_s, const StepFormula& step);
+  void relinearise(const ClothState& state, double t_s, const StepFormula& step, const ClothState& candidate);
+  bool solve_with_contacts(const ClothState& state, double t_s, const StepFormula& step, int iteration,
+                           StepReport& report);
   void judge(const StepLimits& limits, const ClothState& candidate, StepReport& report);
   void keep_apart(const ClothState& state, double h_s, bool truncate, ClothState& candidate, StepReport& report);
 
@@ -108,11 +116,14 @@ class ImplicitEuler {
   std::vector<double> inverse_mass_;  // [particle] 1/kg, 0 while it is held
   std::vector<LinearSpring> springs_;
   std::vector<ImplicitRow> implicit_rows_;
-  Vec3s force_, b_, y_, y_known_, y_linearised_, linearised_, displacement_, reference_, dv_, dv_last_, e_;
+  Vec3s force_, b_, y_, y_known_, y_linearised_, linearised_, displacement_, force_linearised_, x_linearised_, moved_,
+      reference_, dv_, dv_last_, e_;
   std::vector<Mat3> diagonal_;
   std::vector<Vec2> stretch_, stretch_candidate_;
   Vec3s body_start_, body_end_;               // world_->body_at at the two ends of the step
   double body_start_s_ = 0, body_end_s_ = 0;  // the times of the two
+  MotionHistory history_;
+  bool evaluated_at_state_ = false;
   double base_h_s_ = 0, h_last_s_ = 0;
   PhaseSeconds seconds_;
 };
