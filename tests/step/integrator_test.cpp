@@ -265,7 +265,7 @@ TEST(Newton, ARefusedAttemptLeavesNothingBehind) {
     for (int f = 0; f < 5; ++f) run.frame();
     ImplicitEuler& integrator = run.stepper->integrator();
     ClothState candidate;
-    integrator.prepare(run.state, 1.0 / 30);
+    integrator.prepare(run.state, 0, 1.0 / 30, 1.0 / 30);
     if (refused) {
       StepLimits none;
       none.stretch = -1;
