@@ -4,10 +4,6 @@
 
 namespace toile {
 
-bool Outfit::elastic() const {
-  return std::any_of(rest_stretch.begin(), rest_stretch.end(), [](const Vec2& b) { return b != Vec2(1, 1); });
-}
-
 Index Outfit::part_of_panel(Index panel) const {
   const auto after = std::upper_bound(parts.begin(), parts.end(), panel,
                                       [](Index p, const OutfitPart& part) { return p < part.first_panel; });

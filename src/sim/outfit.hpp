@@ -27,7 +27,6 @@ struct Outfit {
   std::vector<double> thickness_scale;  // [particle] of the fabrics' contact distance; grows back to 1
   int seams = 0;
 
-  bool elastic() const;
   Index part_of_panel(Index panel) const;
 };
 

@@ -52,10 +52,11 @@ OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, std::vector<Pin> pins, 
 bool OutfitRun::settled() const { return !settling_.sewn || time_s() >= settling_s; }
 
 void OutfitRun::set_rest_stretch(double share) {
-  for (std::size_t t = 0; t < model_.membrane.size(); ++t) {
-    const Vec2& b = outfit_->rest_stretch[static_cast<std::size_t>(outfit_->mesh.panel[t])];
-    model_.membrane[t].b_u = 1 + share * (b.x() - 1);
-    model_.membrane[t].b_v = 1 + share * (b.y() - 1);
+  if (share == ramped_) return;
+  ramped_ = share;
+  for (std::size_t p = 0; p < outfit_->rest_stretch.size(); ++p) {
+    const Vec2& b = outfit_->rest_stretch[p];
+    if (b != Vec2(1, 1)) set_panel_rest_stretch(model_, static_cast<Index>(p), Vec2(1, 1) + share * (b - Vec2(1, 1)));
   }
   set_folds(model_, share);
 }
@@ -77,8 +78,30 @@ void OutfitRun::start_motion(BodyAt body_at) {
   world_.body_at = [this](double t_s, std::span<Vec3> x) { motion_(std::max(0.0, t_s - motion_start_s_), x); };
 }
 
+// What the scene says happens in the coming frame.
+void OutfitRun::happen() {
+  world_.drags.clear();
+  for (const TimedDrag& timed : events_.drags)
+    if (time_s() >= timed.from_s && time_s() < timed.to_s) world_.drags.push_back(timed.drag);
+  for (const TimedRestStretch& timed : events_.rest_stretch) {
+    const double t_s = time_s() + 1 / scene_->fps;
+    const auto after =
+        std::find_if(timed.keys.begin(), timed.keys.end(), [&](const RestStretchKey& key) { return key.t_s > t_s; });
+    Vec2 b = after == timed.keys.end() ? timed.keys.back().b : after->b;
+    if (after != timed.keys.end() && after != timed.keys.begin()) {
+      const auto before = after - 1;
+      b = before->b + (t_s - before->t_s) / (after->t_s - before->t_s) * (after->b - before->b);
+    }
+    Vec2& now = outfit_->rest_stretch[static_cast<std::size_t>(timed.panel)];
+    if (b == now) continue;
+    now = b;
+    set_panel_rest_stretch(model_, timed.panel, b);
+  }
+}
+
 FrameReport OutfitRun::frame() {
   if (settling_.sewn) settle();
+  happen();
   std::vector<double>& thickness = outfit_->thickness_scale;
   if (settled()) grow_thickness(thickness);
   if (tangles_.any()) tangles_.find(outfit_->mesh.triangles, outfit_->state.x);

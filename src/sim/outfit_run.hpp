@@ -25,6 +25,20 @@ struct Settling {            // of a garment that has just been sewn
   LabelSprings labels;       // hold the new garment for a while
 };
 
+struct TimedDrag {  // a hand that holds the cloth for a while
+  Drag drag;
+  double from_s = 0, to_s = 0;
+  Vec3 near_m{0, 0, 0};  // it takes the particle nearest to this place
+};
+struct TimedRestStretch {
+  Index panel = 0;
+  std::vector<RestStretchKey> keys;
+};
+struct Events {  // times count from the first frame
+  std::vector<TimedDrag> drags;
+  std::vector<TimedRestStretch> rest_stretch;
+};
+
 class OutfitRun {
  public:
   // `outfit` and `scene` must outlive this object; the outfit's state and thickness are advanced in place.  `body` may be null.
@@ -36,6 +50,7 @@ class OutfitRun {
 
   // Advances by one frame of the scene.
   FrameReport frame();
+  void set_events(Events events) { events_ = std::move(events); }
   // From the next frame on the body moves: `body_at(0)` is where it is now.
   void start_motion(BodyAt body_at);
 
@@ -48,6 +63,7 @@ class OutfitRun {
  private:
   void settle();
   void set_rest_stretch(double share);
+  void happen();
 
   const Scene* scene_;
   Outfit* outfit_;
@@ -57,8 +73,9 @@ class OutfitRun {
   ClothModel model_;
   StepWorld world_;
   Tangles tangles_;
-  double label_strength_ = 0, motion_start_s_ = 0;
+  double label_strength_ = 0, motion_start_s_ = 0, ramped_ = -1;
   BodyAt motion_;
+  Events events_;
   long frames_ = 0;
   std::optional<AdaptiveStep> stepper_;
 };

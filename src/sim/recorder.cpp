@@ -17,12 +17,13 @@ Vec3s as_written(std::span<const Vec3> x) {
   return rounded;
 }
 
-RunDescription describe(const Outfit& outfit, double fps, std::span<const Triangle> body, std::size_t body_vertices) {
+RunDescription describe(const Outfit& outfit, std::span<const Vec2> rest_stretch, double fps,
+                        std::span<const Triangle> body, std::size_t body_vertices) {
   RunDescription run;
   run.mesh = drawn_mesh(outfit.mesh);
-  if (outfit.elastic()) {
+  if (std::any_of(rest_stretch.begin(), rest_stretch.end(), [](const Vec2& b) { return b != Vec2(1, 1); })) {
     for (const Index panel : outfit.mesh.panel) {
-      const Vec2& b = outfit.rest_stretch[static_cast<std::size_t>(panel)];
+      const Vec2& b = rest_stretch[static_cast<std::size_t>(panel)];
       run.b.emplace_back(b.y(), b.x());  // the first axis of vt is the weft: run_writer.hpp
     }
   }
@@ -34,10 +35,10 @@ RunDescription describe(const Outfit& outfit, double fps, std::span<const Triang
 
 }  // namespace
 
-Recorder::Recorder(RunWriter& writer, const Outfit& outfit, double fps, std::span<const Triangle> body,
-                   std::span<const Vec3> body_x)
+Recorder::Recorder(RunWriter& writer, const Outfit& outfit, std::span<const Vec2> rest_stretch, double fps,
+                   std::span<const Triangle> body, std::span<const Vec3> body_x)
     : writer_(&writer),
-      audit_(describe(outfit, fps, body, body_x.size())),
+      audit_(describe(outfit, rest_stretch, fps, body, body_x.size())),
       fps_(fps),
       written_(as_written(outfit.state.x)) {
   std::vector<Index> garment_of_panel;

@@ -12,9 +12,9 @@ namespace toile {
 
 class Recorder {
  public:
-  // Writes frame 0.  `body` may be empty.
-  Recorder(RunWriter& writer, const Outfit& outfit, double fps, std::span<const Triangle> body,
-           std::span<const Vec3> body_x);
+  // Writes frame 0.  `rest_stretch` is what each panel ends with, by which the last frame is judged.  `body` may be empty.
+  Recorder(RunWriter& writer, const Outfit& outfit, std::span<const Vec2> rest_stretch, double fps,
+           std::span<const Triangle> body, std::span<const Vec3> body_x);
 
   void frame(std::span<const Vec3> x, std::span<const Vec3> body_x);
   // Has the cloth been at rest for half a second, and slow for the last one, which is what the verdict asks?

@@ -93,6 +93,50 @@ Fabric read_fabric(const Json& value) {
   return fabric;
 }
 
+// [[t_s, x, y, z], ...], ascending.
+std::vector<ScenePin::Key> read_path(const Json& path) {
+  std::vector<ScenePin::Key> keys;
+  for (const Json& key : path.array()) {
+    if (!key.is_array() || key.array().size() != 4) key.fail("four numbers [t_s, x, y, z]", key.describe());
+    ScenePin::Key at{number_in(key.array()[0], 0, most_seconds), {}};
+    for (std::size_t k = 0; k < 3; ++k) at.x_m[static_cast<Eigen::Index>(k)] = number_in(key.array()[k + 1], -1e4, 1e4);
+    if (!keys.empty() && !(at.t_s > keys.back().t_s)) key.fail("times that ascend", "a time not after the one before");
+    keys.push_back(at);
+  }
+  if (keys.empty()) path.fail("at least one [t_s, x, y, z]", "an empty array");
+  return keys;
+}
+
+SceneDrag read_drag(const Json& value) {
+  value.allow_only({"near_m", "path_m", "stiffness_N_per_m", "damping_N_s_per_m", "max_force_N", "from_s", "to_s"});
+  SceneDrag drag;
+  drag.near_m = vector_of(value.at("near_m"));
+  drag.path = read_path(value.at("path_m"));
+  drag.from_s = drag.path.front().t_s;
+  drag.to_s = drag.path.back().t_s;
+  read_number(value, "stiffness_N_per_m", drag.stiffness_N_per_m, 1, 0, 1e6, true);
+  read_number(value, "damping_N_s_per_m", drag.damping_N_s_per_m, 1, 0, 1e6);
+  read_number(value, "max_force_N", drag.max_force_N, 1, 0, 1e6, true);
+  read_number(value, "from_s", drag.from_s, 1, 0, most_seconds);
+  read_number(value, "to_s", drag.to_s, 1, 0, most_seconds);
+  if (!(drag.to_s > drag.from_s)) value.fail("a drag that ends after it begins", "to_s not after from_s");
+  return drag;
+}
+
+// [[t_s, b_u, b_v], ...], ascending.
+std::vector<RestStretchKey> read_rest_stretch_path(const Json& path) {
+  std::vector<RestStretchKey> keys;
+  for (const Json& key : path.array()) {
+    if (!key.is_array() || key.array().size() != 3) key.fail("three numbers [t_s, b_u, b_v]", key.describe());
+    const RestStretchKey at{number_in(key.array()[0], 0, most_seconds),
+                            Vec2(number_in(key.array()[1], 0.2, 5), number_in(key.array()[2], 0.2, 5))};
+    if (!keys.empty() && !(at.t_s > keys.back().t_s)) key.fail("times that ascend", "a time not after the one before");
+    keys.push_back(at);
+  }
+  if (keys.empty()) path.fail("at least one [t_s, b_u, b_v]", "an empty array");
+  return keys;
+}
+
 ScenePin read_pin(const Json& value) {
   value.allow_only({"near_m", "hold", "path_m"});
   ScenePin pin;
@@ -107,21 +151,13 @@ ScenePin read_pin(const Json& value) {
     return pin;
   }
   if (path == nullptr) value.fail("\"path_m\": [[t_s, x, y, z], ...]", "hold \"path\" without a path");
-  for (const Json& key : path->array()) {
-    if (!key.is_array() || key.array().size() != 4) key.fail("four numbers [t_s, x, y, z]", key.describe());
-    ScenePin::Key at{number_in(key.array()[0], 0, most_seconds), {}};
-    for (std::size_t k = 0; k < 3; ++k) at.x_m[static_cast<Eigen::Index>(k)] = number_in(key.array()[k + 1], -1e4, 1e4);
-    if (!pin.path.empty() && !(at.t_s > pin.path.back().t_s))
-      key.fail("times that ascend", "a time not after the one before");
-    pin.path.push_back(at);
-  }
-  if (pin.path.empty()) path->fail("at least one [t_s, x, y, z]", "an empty array");
+  pin.path = read_path(*path);
   return pin;
 }
 
 SceneCloth read_cloth(const Json& value, const std::string& file) {
   value.allow_only({"name", "pattern", "grid", "resolution_cm", "vertices", "fabric", "panels", "placement", "pins",
-                    "label_heights_m"});
+                    "drags", "label_heights_m"});
   SceneCloth cloth;
   cloth.name = value.string_or("name", "");
   const Json *pattern = value.find("pattern"), *grid = value.find("grid");
@@ -149,12 +185,13 @@ SceneCloth read_cloth(const Json& value, const std::string& file) {
   if (const Json* fabric = value.find("fabric")) cloth.fabric = read_fabric(*fabric);
   if (const Json* panels = value.find("panels")) {
     for (const auto& [name, panel] : panels->object()) {
-      panel.allow_only({"fabric", "rest_stretch_u", "rest_stretch_v"});
+      panel.allow_only({"fabric", "rest_stretch_u", "rest_stretch_v", "rest_stretch_path"});
       ScenePanel p;
       p.name = name;
       p.where = panel.where();
       p.pointer = panel.pointer();
       if (const Json* fabric = panel.find("fabric")) p.fabric = read_fabric(*fabric);
+      if (const Json* path = panel.find("rest_stretch_path")) p.rest_stretch_path = read_rest_stretch_path(*path);
       read_number(panel, "rest_stretch_u", p.rest_stretch_u, 1, 0.2, 5);
       read_number(panel, "rest_stretch_v", p.rest_stretch_v, 1, 0.2, 5);
       cloth.panels.push_back(std::move(p));
@@ -169,6 +206,8 @@ SceneCloth read_cloth(const Json& value, const std::string& file) {
     for (const auto& [label, height] : heights->object())
       cloth.label_heights.push_back({label, number_in(height, -10, 10)});
   }
+  if (const Json* drags = value.find("drags"))
+    for (const Json& drag : drags->array()) cloth.drags.push_back(read_drag(drag));
   if (const Json* pins = value.find("pins")) {
     for (const Json& pin : pins->array()) cloth.pins.push_back(read_pin(pin));
     if (!cloth.pattern.empty() && !cloth.pins.empty())
@@ -265,12 +304,22 @@ void read_time(const Json& value, Scene& scene) {
   read_number(value, "drape_seconds", scene.drape_seconds, 1, 0, most_seconds);
   read_number(value, "step_max_ms", scene.step_max_s, 1e-3, 0.01, 1000);
   scene.until_still = value.boolean_or("until_still", scene.until_still);
-  static constexpr std::array<std::string_view, 1> integrators = {"backward_euler"};
-  if (const Json* integrator = value.find("integrator")) one_of(*integrator, integrators);
+  static constexpr std::array<std::string_view, 2> integrators = {"backward_euler", "bdf2"};
+  if (const Json* integrator = value.find("integrator"))
+    scene.integrator = one_of(*integrator, integrators) == 0 ? Integrator::backward_euler : Integrator::bdf2;
 }
 
 void read_solver(const Json& value, Scene& scene) {
-  value.allow_only({"preconditioner", "tolerance", "paper_scaling", "damping_jacobian"});
+  value.allow_only(
+      {"preconditioner", "tolerance", "procedure", "newton_iterations", "paper_scaling", "damping_jacobian"});
+  static constexpr std::array<std::string_view, 2> procedures = {"prefiltered", "paper_1998"};
+  if (const Json* procedure = value.find("procedure"))
+    scene.procedure = one_of(*procedure, procedures) == 0 ? PcgProcedure::prefiltered : PcgProcedure::paper_1998;
+  if (const Json* iterations = value.find("newton_iterations")) {
+    const double count = number_in(*iterations, 1, 3);
+    if (count != std::floor(count)) iterations->fail("1, 2 or 3", iterations->describe());
+    scene.newton_iterations = static_cast<int>(count);
+  }
   if (const Json* name = value.find("preconditioner")) {
     static constexpr std::array all = {Preconditioner::diagonal, Preconditioner::block_jacobi,
                                        Preconditioner::block_ssor, Preconditioner::block_ssor_coarse};

@@ -13,6 +13,7 @@
 #include "material/fabric.hpp"
 #include "material/membrane.hpp"
 #include "solver/modified_pcg.hpp"
+#include "step/implicit_euler.hpp"
 
 #include <functional>
 #include <optional>
@@ -22,11 +23,18 @@
 
 namespace toile {
 
+// The panel's (b_u, b_v) in time, ascending; straight in between: a cloth that shrinks while it is simulated.
+struct RestStretchKey {
+  double t_s;
+  Vec2 b;
+};
+
 struct ScenePanel {  // what one panel has of its own
   std::string name;
   std::optional<Fabric> fabric;
   std::optional<double> rest_stretch_u,
-      rest_stretch_v;          // b of the warp and the weft, < 1 pulls together; absent: the pattern's
+      rest_stretch_v;  // b of the warp and the weft, < 1 pulls together; absent: the pattern's
+  std::vector<RestStretchKey> rest_stretch_path;
   std::string where, pointer;  // in the file, for the message that there is no such panel
 };
 
@@ -39,6 +47,14 @@ struct ScenePin {
   };
   std::vector<Key> path;  // ascending times; straight in between, at rest before and after
   std::string where, pointer;
+};
+
+// A hand that pulls the nearest particle by a damped spring to a place that may move.
+struct SceneDrag {
+  Vec3 near_m{0, 0, 0};
+  std::vector<ScenePin::Key> path;  // of the hand
+  double stiffness_N_per_m = 50, damping_N_s_per_m = 0.5, max_force_N = 5;
+  double from_s = 0, to_s = 0;  // it holds the cloth in this time
 };
 
 struct SceneGrid {
@@ -56,6 +72,7 @@ struct SceneCloth {
   Vec3 translation_m{0, 0, 0};
   Vec3 rotation_deg{0, 0, 0};  // R = Rz Ry Rx, as in patterns
   std::vector<ScenePin> pins;
+  std::vector<SceneDrag> drags;
   std::vector<LabelHeight> label_heights;  // of edges with a label; the waist is measured when it is not given
 };
 
@@ -99,6 +116,9 @@ struct Scene {
 
   std::optional<Preconditioner> preconditioner;  // absent: the best for the size
   double tolerance = 1e-3;
+  PcgProcedure procedure = PcgProcedure::prefiltered;
+  Integrator integrator = Integrator::backward_euler;
+  int newton_iterations = 1;
   bool paper_scaling = false;
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
 

@@ -235,6 +235,23 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
   loaded.fabrics = fabrics_of(scene, cloth, loaded.garment.mesh);
   loaded.rest_stretch = rest_stretch_of(cloth, loaded.garment.mesh);
   loaded.pins = pins_of(cloth, loaded.garment.x);
+  for (const SceneDrag& given : cloth.drags) {
+    TimedDrag drag;
+    drag.near_m = given.near_m;
+    drag.from_s = given.from_s;
+    drag.to_s = given.to_s;
+    drag.drag.target = [path = given.path](double t_s) { return along(path, t_s); };
+    drag.drag.stiffness_N_per_m = given.stiffness_N_per_m;
+    drag.drag.damping_N_s_per_m = given.damping_N_s_per_m;
+    drag.drag.max_force_N = given.max_force_N;
+    loaded.drags.push_back(std::move(drag));
+  }
+  const std::vector<std::string>& names = loaded.garment.mesh.panel_names;
+  for (const ScenePanel& panel : cloth.panels) {
+    if (panel.rest_stretch_path.empty()) continue;
+    const auto place = std::find(names.begin(), names.end(), panel.name);
+    loaded.rest_stretch_paths.push_back({static_cast<Index>(place - names.begin()), panel.rest_stretch_path});
+  }
   loaded.edge_m = cloth.grid ? cloth.grid->edge_m : counted_edge_m.value_or(cloth.resolution_m);
   if (scene.cloth.size() > 1)  // two garments may both have a "front"
     for (std::string& panel : loaded.garment.mesh.panel_names) panel.insert(0, loaded.garment.name + '/');
@@ -258,6 +275,25 @@ std::vector<Pin> pins_of(std::span<const LoadedCloth> cloth) {
     first += one.garment.mesh.particle_count;
   }
   return pins;
+}
+
+Events events_of(const Outfit& outfit, std::span<const LoadedCloth> cloth) {
+  Events events;
+  Index first = 0;
+  for (std::size_t k = 0; k < cloth.size(); ++k) {
+    const OutfitPart& part = outfit.parts[k];
+    const auto x = std::span(outfit.state.x).subspan(at(first), at(part.particles));
+    for (TimedDrag drag : cloth[k].drags) {
+      drag.drag.particle[0] = first + nearest_particle(x, drag.near_m);
+      events.drags.push_back(std::move(drag));
+    }
+    for (TimedRestStretch path : cloth[k].rest_stretch_paths) {
+      path.panel += part.first_panel;
+      events.rest_stretch.push_back(std::move(path));
+    }
+    first += part.particles;
+  }
+  return events;
 }
 
 std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment,
@@ -292,6 +328,9 @@ StepOptions step_options(const Scene& scene, const Fabric& fabric, double edge_m
   StepOptions step;
   if (scene.preconditioner) step.pcg.preconditioner = *scene.preconditioner;
   step.pcg.tolerance = scene.tolerance;
+  step.pcg.procedure = scene.procedure;
+  step.integrator = scene.integrator;
+  step.newton_iterations = scene.newton_iterations;
   step.rows.cloth_cloth = scene.self_contact;
   step.body.offset_m = scene.body.offset_m.value_or(default_offset_m(edge_m));
   step.body.friction = scene.body.friction.value_or(fabric.friction);
@@ -310,6 +349,18 @@ void add_to_hash(const Scene& scene, Hash& hash) {
       add(hash, panel.fabric.value_or(cloth.fabric));
       add(hash, panel.rest_stretch_u);
       add(hash, panel.rest_stretch_v);
+    }
+    for (const ScenePanel& panel : cloth.panels)
+      for (const RestStretchKey& key : panel.rest_stretch_path)
+        for (const double x : {key.t_s, key.b.x(), key.b.y()}) add(hash, x);
+    for (const SceneDrag& drag : cloth.drags) {
+      add(hash, drag.near_m);
+      for (const double x : {drag.stiffness_N_per_m, drag.damping_N_s_per_m, drag.max_force_N, drag.from_s, drag.to_s})
+        add(hash, x);
+      for (const ScenePin::Key& key : drag.path) {
+        add(hash, key.t_s);
+        add(hash, key.x_m);
+      }
     }
     add(hash, cloth.translation_m);
     add(hash, cloth.rotation_deg);
@@ -352,6 +403,9 @@ void add_to_hash(const Scene& scene, Hash& hash) {
   add(hash, scene.until_still ? 1.0 : 0.0);
   add(hash, scene.preconditioner ? 1.0 + static_cast<double>(*scene.preconditioner) : 0.0);
   add(hash, scene.tolerance);
+  add(hash, static_cast<double>(scene.procedure));
+  add(hash, static_cast<double>(scene.integrator));
+  add(hash, static_cast<double>(scene.newton_iterations));
   add(hash, scene.paper_scaling ? 1.0 : 0.0);
   add(hash, static_cast<double>(scene.damping_jacobian));
   add(hash, scene.contact_thickness_m);

@@ -37,7 +37,9 @@ struct LoadedCloth {
   std::vector<Fabric> fabrics;     // [panel] with the scene's contact overrides
   std::vector<Vec2> rest_stretch;  // [panel] (b_u, b_v)
   std::vector<Pin> pins;           // on the particles of `garment`
-  double edge_m = 0;               // that its triangles were asked to have
+  std::vector<TimedDrag> drags;    // likewise
+  std::vector<TimedRestStretch> rest_stretch_paths;
+  double edge_m = 0;  // that its triangles were asked to have
 };
 // `read` gives the text of a pattern, which is added to `inputs`.  Errors of the mesher are given the name of the file.
 // Throws InputError for a panel that the cloth does not have.
@@ -46,6 +48,8 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
 // Sheets that hang where they are drawn; their pins, on the particles of the whole.
 Outfit outfit_of_grids(std::span<const LoadedCloth> grids);
 std::vector<Pin> pins_of(std::span<const LoadedCloth> cloth);
+// What happens to the cloth in time, on the particles and panels of `outfit`, whose parts are the cloths in their order.
+Events events_of(const Outfit& outfit, std::span<const LoadedCloth> cloth);
 // Where labelled edges are held: as the cloth says, and the waist ("lower_interface") where the body is narrowest if it says nothing.
 // Labels that stay without a height are named in a warning.  Throws InputError for a height of a label that no edge carries.
 std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment,

@@ -87,10 +87,6 @@ class Run {
     writer_.emplace(options_.directory);
     if (put_on()) {
       report_.vertices = outfit_.mesh.particle_count;
-      for (std::size_t p = 0; p < outfit_.rest_stretch.size(); ++p) {
-        const Vec2& b = outfit_.rest_stretch[p];
-        if (b != Vec2(1, 1)) report_.rest_stretch.push_back({outfit_.mesh.panel_names[p], {b.y(), b.x()}});
-      }
       live();
     }
     return finish();
@@ -252,7 +248,16 @@ class Run {
   void live() {
     OutfitRun run(scene_, outfit_, sewn() ? std::vector<Pin>{} : pins_of(cloth_), body(), step_, settling_,
                   options_.stop);
-    recorder_.emplace(*writer_, outfit_, scene_.fps, body_triangles_, body_x_);
+    Events events = events_of(outfit_, cloth_);
+    std::vector<Vec2> rest_stretch = outfit_.rest_stretch;  // at the end
+    for (const TimedRestStretch& timed : events.rest_stretch)
+      rest_stretch[static_cast<std::size_t>(timed.panel)] = timed.keys.back().b;
+    for (std::size_t p = 0; p < rest_stretch.size(); ++p) {
+      const Vec2& b = rest_stretch[p];
+      if (b != Vec2(1, 1)) report_.rest_stretch.push_back({outfit_.mesh.panel_names[p], {b.y(), b.x()}});
+    }
+    run.set_events(std::move(events));
+    recorder_.emplace(*writer_, outfit_, rest_stretch, scene_.fps, body_triangles_, body_x_);
     PhaseReport& phase = report_.drape;
     report_.ended = "time";
     const bool moving = motion_.has_value();

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -165,6 +166,52 @@ TEST(SeveralCloths, LieOnEachOtherAndAreObjectsOfOneFile) {
   ASSERT_GT(count[0], 0);
   ASSERT_GT(count[1], 0);
   EXPECT_NEAR(height[1] / count[1] - height[0] / count[0], 2.5e-3, 1.2e-3);
+}
+
+TEST(Events, AHandPullsTheClothAndLetsGo) {
+  const Scratch scratch;
+  const auto scene = [](const std::string& drags) {
+    return parse_scene(R"({"cloth": [{"name": "cloth", "grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.04},
+      "placement": {"translation_m": [0, 1, 0]}, "pins": [{"near_m": [-0.1, 1.1, 0]}, {"near_m": [0.1, 1.1, 0]}])" +
+                           drags + R"(}], "time": {"seconds": 1.5}})",
+                       "s.json");
+  };
+  run(scratch / "free", scene(""));
+  run(scratch / "pulled",
+      scene(
+          R"(, "drags": [{"near_m": [0, 0.9, 0], "path_m": [[0, 0, 0.9, 0], [0.3, 0, 0.95, 0.15], [0.6, 0, 0.95, 0.15]],
+               "stiffness_N_per_m": 200, "damping_N_s_per_m": 1}])"));
+  const auto lowest = [&](const std::string& name, int frame) {
+    Vec3 best(0, 9, 0);
+    for (const Vec3& p : sample(scratch / (name + "/cloth.pc2"), frame))
+      if (std::abs(p.x()) < 0.03 && p.y() < best.y()) best = p;
+    return best;
+  };
+  EXPECT_GT(lowest("pulled", 18).z(), 0.1);             // the hand has it
+  EXPECT_LT(std::abs(lowest("free", 18).z()), 0.02);    // and without it, it hangs
+  EXPECT_LT(std::abs(lowest("pulled", -1).z()), 0.06);  // it has let go, and the cloth swings back
+}
+
+TEST(Events, AClothThatShrinksDuringTheRunIsJudgedByWhatItBecame) {
+  const Scratch scratch;
+  const Report report = run(scratch / "out", parse_scene(R"({"cloth": [{"name": "cloth",
+      "grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.03}, "placement": {"translation_m": [0, 1, 0]},
+      "panels": {"cloth": {"rest_stretch_path": [[0.2, 1, 1], [0.8, 1, 0.8]]}},
+      "pins": [{"near_m": [0, 1.15, 0]}]}], "time": {"seconds": 2}})",
+                                                         "s.json"));
+  EXPECT_EQ(report.ended, "time");
+  const auto width = [&](int frame) {
+    double low = 9, high = -9;
+    for (const Vec3& p : sample(scratch / "out/cloth.pc2", frame)) {
+      low = std::min(low, p.x());
+      high = std::max(high, p.x());
+    }
+    return high - low;
+  };
+  EXPECT_LT(width(-1), 0.83 * width(0));  // v is the weft, across
+  ASSERT_EQ(report.rest_stretch.size(), 1u);
+  EXPECT_DOUBLE_EQ(report.rest_stretch[0].second[0], 0.8);  // the first axis of vt is the weft
+  EXPECT_LT(report.audit.stretch.p99, 0.02);
 }
 
 }  // namespace
