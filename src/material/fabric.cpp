@@ -101,6 +101,10 @@ void check_fabric(const Fabric& fabric, std::string_view where, std::string_view
   check("stretch_u_N_per_m", fabric.stretch_u_N_per_m, false);
   check("stretch_v_N_per_m", fabric.stretch_v_N_per_m, false);
   check("shear_N_per_m", fabric.shear_N_per_m, true);
+  check("compression_ratio", fabric.compression_ratio, false);
+  if (fabric.compression_ratio > 1)
+    throw InputError(where, std::string(place) + (place.empty() ? "" : "/") + "compression_ratio", "at most 1",
+                     number(fabric.compression_ratio));
   check("bend_u_N_m", fabric.bend_u_N_m, true);
   check("bend_v_N_m", fabric.bend_v_N_m, true);
   check("stretch_damping_s", fabric.stretch_damping_s, true);

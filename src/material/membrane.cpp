@@ -10,26 +10,28 @@ namespace {
 constexpr double no_direction = 1e-140;
 
 // Stretch along one thread direction: adds to energy, P, Q and the diagonal blocks K and D.
-void add_stretch(const Vec3& w, const Vec3& w_dot, double b, double stiffness, double tau, bool damping_in_K,
-                 bool project, double& energy_J, Vec3& P, Vec3& Q, Mat3& K, Mat3& D) {
+void add_stretch(const Vec3& w, const Vec3& w_dot, double b, double tension, double compression, double tau,
+                 bool damping_in_K, bool project, double& energy_J, Vec3& P, Vec3& Q, Mat3& K, Mat3& D) {
   const double length = w.norm();
   const double excess = length - b;
+  const double softness = excess < 0 ? compression : 1;
+  const double stiffness = softness * tension;
   energy_J += 0.5 * stiffness * excess * excess;
   if (!(length > no_direction)) return;  // no direction to push in: no force, no stiffness, no NaN
 
   const Vec3 along = w / length;
   const double rate = along.dot(w_dot);  // d|w|/dt
   P += (stiffness * excess) * along;
-  Q += (stiffness * tau * rate) * along;
+  Q += (tension * tau * rate) * along;
 
   // Bracket of 1.1: eigenvalue 1 along the thread, `across` twice; only the latter can be negative.
   double across = excess / length;
-  if (damping_in_K) across += tau * rate / length;
+  if (damping_in_K) across += tau * rate / length / softness;
   if (project) across = std::max(0.0, across);
   const Mat3 outer = along * along.transpose();
   K += (stiffness * (1 - across)) * outer;
   K.diagonal().array() += stiffness * across;
-  D += (stiffness * tau) * outer;
+  D += (tension * tau) * outer;
 }
 
 // Adds stiffness * (g g^T + c J) with g = [w_v; w_u], J = [[0, I], [I, 0]].
@@ -105,10 +107,10 @@ MembraneResponse membrane_response(const MembraneRest& rest, const MembraneStiff
   r.D.uu.setZero(), r.D.uv.setZero(), r.D.vv.setZero();
 
   const double s2 = rest.scale2;
-  add_stretch(r.w_u, w_u_dot, rest.b_u, k.k_u * s2, k.tau_stretch, damping_in_K, project, r.energy_J, r.P_u, r.Q_u,
-              r.K.uu, r.D.uu);
-  add_stretch(r.w_v, w_v_dot, rest.b_v, k.k_v * s2, k.tau_stretch, damping_in_K, project, r.energy_J, r.P_v, r.Q_v,
-              r.K.vv, r.D.vv);
+  add_stretch(r.w_u, w_u_dot, rest.b_u, k.k_u * s2, k.compression, k.tau_stretch, damping_in_K, project, r.energy_J,
+              r.P_u, r.Q_u, r.K.uu, r.D.uu);
+  add_stretch(r.w_v, w_v_dot, rest.b_v, k.k_v * s2, k.compression, k.tau_stretch, damping_in_K, project, r.energy_J,
+              r.P_v, r.Q_v, r.K.vv, r.D.vv);
 
   const double stiffness = k.k_shear * s2;
   const double I6 = r.w_u.dot(r.w_v);

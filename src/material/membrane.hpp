@@ -11,6 +11,9 @@
 // Gauss-Newton part times the relaxation time tau = k_d / k of each condition.  F has no unit, so P, Q, K are in J
 // and D in J s.                                     docs/theory/stretch-and-shear.md, docs/theory/damping.md
 //
+// A thread shorter than b may be softer, k times `compression`: the energy and the force stay continuous, and so does the damping,
+// which keeps the k of tension.  The projected K loses only what it had along the thread.
+//
 // A thread squeezed to |w| = 0 has no direction: its stretch force and stiffness are then zero, never NaN.
 #pragma once
 #include "core/types.hpp"
@@ -20,6 +23,7 @@ namespace toile {
 struct MembraneStiffness {
   double k_u = 0, k_v = 0, k_shear = 0;   // N/m (N/m^3 with paper scaling)
   double tau_stretch = 0, tau_shear = 0;  // s
+  double compression = 1;                 // in (0, 1]: k of a thread shorter than b, as part of k
 };
 
 struct MembraneRest {
