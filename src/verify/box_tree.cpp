@@ -8,7 +8,7 @@ namespace toile {
 BoxTree::BoxTree(std::span<const Triangle> triangles, std::span<const Vec3> x) {
   const std::size_t count = triangles.size();
   if (count == 0) return;
-  std::vector<Box> boxes(count);
+  std::vector<ExactBox> boxes(count);
   std::vector<Vec3> centres(count);
   for (std::size_t t = 0; t < count; ++t) {
     for (const Index i : triangles[t]) boxes[t].add(x[static_cast<std::size_t>(i)]);
@@ -23,14 +23,15 @@ BoxTree::BoxTree(std::span<const Triangle> triangles, std::span<const Vec3> x) {
 }
 
 // Recursion is as deep as the tree: at most 31.
-Box BoxTree::build(std::size_t first, std::size_t last, std::span<const Box> boxes, std::span<const Vec3> centres) {
+ExactBox BoxTree::build(std::size_t first, std::size_t last, std::span<const ExactBox> boxes,
+                        std::span<const Vec3> centres) {
   const std::size_t self = nodes_.size();
   nodes_.push_back({{}, static_cast<Index>(first), static_cast<Index>(last - first)});
-  Box box;
+  ExactBox box;
   if (last - first <= leaf_size) {
     for (std::size_t k = first; k < last; ++k) box.add(boxes[static_cast<std::size_t>(order_[k])]);
   } else {
-    Box spread;
+    ExactBox spread;
     for (std::size_t k = first; k < last; ++k) spread.add(centres[static_cast<std::size_t>(order_[k])]);
     int axis = 0;
     (spread.high - spread.low).maxCoeff(&axis);
@@ -47,6 +48,24 @@ Box BoxTree::build(std::size_t first, std::size_t last, std::span<const Box> box
   }
   nodes_[self].box = box;
   return box;
+}
+
+void BoxTree::refit(std::span<const Triangle> triangles, std::span<const Vec3> x) {
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    leaf_boxes_[k] = ExactBox{};
+    for (const Index i : triangles[static_cast<std::size_t>(order_[k])])
+      leaf_boxes_[k].add(x[static_cast<std::size_t>(i)]);
+  }
+  // Children follow their parents.
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
+    Node& node = nodes_[n];
+    node.box = ExactBox{};
+    if (node.count == 0) {
+      node.box.add(nodes_[n + 1].box);
+      node.box.add(nodes_[static_cast<std::size_t>(node.next)].box);
+    }
+    for (Index k = node.next; k < node.next + node.count; ++k) node.box.add(leaf_boxes_[static_cast<std::size_t>(k)]);
+  }
 }
 
 }  // namespace toile

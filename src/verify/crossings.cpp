@@ -60,7 +60,7 @@ std::vector<Crossing> edges_through(const Surface& of_edges, const Surface& of_t
     for (std::size_t e = begin; e < end; ++e) {
       const auto [i, j] = edges[e];
       const Vec3 &p = of_edges.at(i), &q = of_edges.at(j);
-      Box box;
+      ExactBox box;
       box.add(p);
       box.add(q);
       triangles.clear();
@@ -85,7 +85,7 @@ std::vector<Crossing> edges_through(const Surface& of_edges, const Surface& of_t
 }
 
 // The triangles whose boxes meet `box`: what of the body a garment could reach.
-std::vector<Triangle> triangles_meeting(const BoxTree& tree, std::span<const Triangle> triangles, const Box& box) {
+std::vector<Triangle> triangles_meeting(const BoxTree& tree, std::span<const Triangle> triangles, const ExactBox& box) {
   std::vector<Triangle> near;
   tree.visit_meeting(box, [&](Index t) { near.push_back(triangles[static_cast<std::size_t>(t)]); });
   return near;

@@ -1,5 +1,6 @@
 // verify/gap.cpp: how near the cloth is to the body, and on which side (statistics.hpp).
 #include "verify/box_tree.hpp"
+#include "verify/nearest_point.hpp"
 #include "verify/predicates.hpp"
 #include "verify/statistics.hpp"
 #include "verify/surface.hpp"
@@ -16,26 +17,6 @@ namespace toile {
 namespace {
 
 using Side = std::array<Index, 2>;
-
-double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 ab = b - a, ap = p - a;
-  const double length2 = ab.squaredNorm();
-  const double s = length2 > 0 ? std::clamp(ab.dot(ap) / length2, 0.0, 1.0) : 0.0;
-  return (ap - s * ab).squaredNorm();
-}
-
-double squared_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 normal = (b - a).cross(c - a);
-  // Above the triangle when p lies on the inner side of the three planes through its edges along the normal.
-  const bool above = normal.dot((b - a).cross(p - a)) > 0 && normal.dot((c - b).cross(p - b)) > 0 &&
-                     normal.dot((a - c).cross(p - c)) > 0;
-  if (above) {
-    const double height = normal.dot(p - a);
-    return height * height / normal.squaredNorm();
-  }
-  return std::min({squared_distance_to_segment(p, a, b), squared_distance_to_segment(p, b, c),
-                   squared_distance_to_segment(p, c, a)});
-}
 
 // A surface without boundary: that of `triangles`, and a fan around the middle of each hole.
 struct ClosedSurface {
@@ -91,10 +72,10 @@ ClosedSurface close_holes(std::span<const Triangle> triangles, std::span<const V
 
 // How often the surface winds around p: crossings of the ray from p upwards, with their direction.
 int winding_number(const Vec3& p, const ClosedSurface& surface, const BoxTree& tree) {
-  const Box bounds = tree.bounds();
+  const ExactBox bounds = tree.bounds();
   Vec3 far = p;
   far.y() = std::max(p.y(), bounds.high.y()) + std::max(1.0, bounds.high.y() - bounds.low.y());
-  Box ray;
+  ExactBox ray;
   ray.add(p);
   ray.add(far);
   const auto particles = static_cast<std::int64_t>(surface.x.size());
@@ -122,12 +103,12 @@ GapStatistics measure_gap(std::span<const Vec3> x, std::span<const Triangle> bod
   const auto at = [&](Index i) -> const Vec3& { return body_x[static_cast<std::size_t>(i)]; };
   std::vector<double> gap_mm(x.size());
   parallel_for(x.size(), 256, [&](std::size_t i) {
-    const double squared = tree.least_squared_distance(x[i], [&](Index t) {
+    const BoxTree::Nearest nearest = tree.nearest(x[i], {}, [&](Index t) {
       const auto [a, b, c] = body[static_cast<std::size_t>(t)];
       return squared_distance_to_triangle(x[i], at(a), at(b), at(c));
     });
     const bool inside = winding_number(x[i], closed, closed_tree) != 0;
-    gap_mm[i] = (inside ? -1000 : 1000) * std::sqrt(squared);
+    gap_mm[i] = (inside ? -1000 : 1000) * std::sqrt(nearest.squared_distance);
   });
   const auto nearest = std::min_element(gap_mm.begin(), gap_mm.end());
   result.min_mm = *nearest;
