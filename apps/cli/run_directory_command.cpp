@@ -65,6 +65,18 @@ std::string as_json(const VerifyReport& audit, const Verdict& verdict) {
   json.begin_object();
   json.member("speed_mm_per_s_p99", audit.still_mm_per_s_p99);
   json.end_object();
+  json.key("jitter");
+  if (audit.jitter.windows == 0) {
+    json.null();
+  } else {
+    json.begin_object();
+    json.member("speed_mm_per_s_p50", audit.jitter.p50_mm_per_s);
+    json.member("speed_mm_per_s_p99", audit.jitter.p99_mm_per_s);
+    json.member("speed_mm_per_s_max", audit.jitter.max_mm_per_s);
+    json.member("vertex", audit.jitter.worst_vertex);
+    json.member("frame", audit.jitter.worst_frame);
+    json.end_object();
+  }
   json.end_object();
   return json.str() + '\n';
 }
@@ -88,6 +100,13 @@ std::string as_text(const std::string& directory, const VerifyReport& audit, con
                 100 * audit.stretch.p50, 100 * audit.stretch.p99, 100 * audit.stretch.max, audit.stretch.shear_p99_deg,
                 audit.still_mm_per_s_p99);
   out += text.data();
+  if (audit.jitter.windows > 0) {
+    std::snprintf(text.data(), text.size(),
+                  "  jitter p50 %.1f mm/s, p99 %.1f mm/s, max %.1f mm/s: vertex %d, frame %d\n",
+                  audit.jitter.p50_mm_per_s, audit.jitter.p99_mm_per_s, audit.jitter.max_mm_per_s,
+                  audit.jitter.worst_vertex, audit.jitter.worst_frame);
+    out += text.data();
+  }
   if (audit.has_body) {
     std::snprintf(
         text.data(), text.size(),

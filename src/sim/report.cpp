@@ -80,6 +80,19 @@ void add_verdict(JsonText& text, const Report& report) {
   text.end_object();
 }
 
+void add_jitter(JsonText& text, const JitterStatistics& jitter) {
+  text.key("jitter");
+  if (jitter.windows == 0) {
+    text.null();
+    return;
+  }
+  text.begin_object();
+  text.member("speed_mm_per_s_p50", jitter.p50_mm_per_s);
+  text.member("speed_mm_per_s_p99", jitter.p99_mm_per_s);
+  text.member("speed_mm_per_s_max", jitter.max_mm_per_s);
+  text.end_object();
+}
+
 void add_measurements(JsonText& text, const Report& report) {
   const StretchStatistics& s = report.audit.stretch;
   text.key("stretch");
@@ -116,6 +129,7 @@ void add_measurements(JsonText& text, const Report& report) {
   text.begin_object();
   text.member("speed_mm_per_s_p99", report.audit.still_mm_per_s_p99);
   text.end_object();
+  add_jitter(text, report.audit.jitter);
 }
 
 }  // namespace

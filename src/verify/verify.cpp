@@ -91,7 +91,7 @@ void check_first_frame(const std::string& cache, std::span<const Vec3> x, const 
 
 }  // namespace
 
-RunAudit::RunAudit(RunDescription run) : run_(std::move(run)) {
+RunAudit::RunAudit(RunDescription run) : run_(std::move(run)), jitter_(run_.body_triangles, run_.fps) {
   if (!(run_.fps > 0) || !std::isfinite(run_.fps)) throw InputError("audit", "fps", "> 0", std::to_string(run_.fps));
   // Positions come later; every other complaint about the meshes comes now.
   const Vec3s no_cloth(static_cast<std::size_t>(run_.mesh.particle_count), Vec3::Zero());
@@ -110,15 +110,17 @@ void RunAudit::add(std::span<const Vec3> x, std::span<const Vec3> body_x) {
   report_.last_cloth_crossings.clear();
   report_.cloth_body_edges.last = report_.cloth_cloth_edges.last = 0;
   if (finite) {
+    jitter_.add(x, body_x);
     report_.last_cloth_crossings = find_cloth_crossings(run_.mesh.triangles, x);
     count(report_.last_cloth_crossings, frame, report_.cloth_cloth_edges, report_.first_cloth_crossing_frame);
     if (report_.has_body) {
       report_.last_body_crossings = find_body_crossings(run_.mesh.triangles, x, run_.body_triangles, body_x);
       count(report_.last_body_crossings, frame, report_.cloth_body_edges, report_.first_body_crossing_frame);
     }
-  } else if (report_.finite) {
+  } else {
+    jitter_.skip();
+    if (report_.finite) report_.first_bad_frame = frame;
     report_.finite = false;
-    report_.first_bad_frame = frame;
   }
   if (frame > 0) speed_p99_.push_back(finite && last_is_finite_ ? speed_p99_mm_per_s(last_x_, x, run_.fps) : 0);
   last_x_.assign(x.begin(), x.end());
@@ -128,6 +130,7 @@ void RunAudit::add(std::span<const Vec3> x, std::span<const Vec3> body_x) {
 
 VerifyReport RunAudit::report() const {
   VerifyReport result = report_;
+  result.jitter = jitter_.statistics();
   if (!last_is_finite_) return result;
   result.stretch = measure_stretch(run_.mesh, last_x_, run_.b);
   if (result.has_body) result.gap = measure_gap(last_x_, run_.body_triangles, last_body_x_);

@@ -6,7 +6,8 @@
 //
 //   predicates.hpp   signs, exactly                      crossings.hpp    edges through triangles
 //   box_tree.hpp     candidates                          statistics.hpp   stretch, shear, gap, speed
-//   verify.hpp       a run, frame by frame               verdict.hpp      pass or fail, and why
+//   jitter.hpp       trembling                           verdict.hpp      pass or fail, and why
+//   verify.hpp       a run, frame by frame
 //
 // Easily got wrong: audit the positions that the files hold.  Rounding to float32 moves a particle by up to 6e-8 of its
 // coordinate, which can open or close a crossing; a caller that audits from memory rounds first.
@@ -14,6 +15,7 @@
 #include "core/types.hpp"
 #include "mesh/cloth_mesh.hpp"
 #include "verify/crossings.hpp"
+#include "verify/jitter.hpp"
 #include "verify/predicates.hpp"
 #include "verify/statistics.hpp"
 
@@ -40,6 +42,7 @@ struct VerifyReport {
   StretchStatistics stretch;      // last frame
   GapStatistics gap;              // last frame; zero without a body
   double still_mm_per_s_p99 = 0;  // largest per-frame p99 of the last second; zero with fewer than two frames
+  JitterStatistics jitter;        // of the motion if the body moves, else of all frames
   std::vector<Crossing> last_body_crossings, last_cloth_crossings;
   bool must_be_still = false;  // from report.json: limits.still_mm_per_s is a number
   // Reason codes of report.json that no file shows (a time limit, a crash): the judge cannot acquit of them.
@@ -55,7 +58,7 @@ struct RunDescription {
   double fps = 30;
 };
 
-// Audits frames in their order; holds one frame.
+// Audits frames in their order; holds a few of them.
 class RunAudit {
  public:
   // Throws InputError when the description contradicts itself.
@@ -70,6 +73,7 @@ class RunAudit {
  private:
   RunDescription run_;
   VerifyReport report_;
+  JitterMeter jitter_;
   Vec3s last_x_, last_body_x_;
   bool last_is_finite_ = false;
   std::vector<double> speed_p99_;  // one per pair of consecutive frames
