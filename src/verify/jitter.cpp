@@ -95,7 +95,7 @@ void JitterMeter::measure() {
   ++worst_.windows;
   for (std::size_t i = 0; i < speed_mm_per_s_.size(); ++i) {
     const double speed = speed_mm_per_s_[i];
-    const double bin = std::min(std::round(speed / bin_mm_per_s), static_cast<double>(bins - 1));
+    const double bin = std::min(std::round(speed * bins_per_mm_per_s), static_cast<double>(bins - 1));
     ++histogram_[static_cast<std::size_t>(bin)];
     if (speed > worst_.max_mm_per_s || worst_.worst_vertex < 0) {
       worst_.max_mm_per_s = speed;
@@ -114,7 +114,7 @@ JitterStatistics JitterMeter::statistics() const {
     std::int64_t below = 0;
     for (std::size_t k = 0; k + 1 < bins; ++k) {
       below += histogram_[k];
-      if (below >= rank) return std::min(bin_mm_per_s * static_cast<double>(k), worst_.max_mm_per_s);
+      if (below >= rank) return std::min(static_cast<double>(k) / bins_per_mm_per_s, worst_.max_mm_per_s);
     }
     return worst_.max_mm_per_s;
   };

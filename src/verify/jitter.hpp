@@ -50,7 +50,7 @@ class JitterMeter {
 
  private:
   static constexpr int window = 6, middle = 2;
-  static constexpr double bin_mm_per_s = 0.1;
+  static constexpr double bins_per_mm_per_s = 10;
   static constexpr std::size_t bins = 20001;  // up to 2 m/s; beyond, a percentile is reported as max
 
   std::size_t slot(int frame) const { return static_cast<std::size_t>(frame % window); }
