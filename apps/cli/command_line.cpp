@@ -33,6 +33,26 @@ void add_garment_options(CLI::App& command, CommandLine& line) {
       ->check(CLI::Range(0.001, 3600.0));
 }
 
+// `toile bench KIND`: each kind has the options that mean something to it, and no others.
+CLI::App* add_bench(CLI::App& app, CommandLine& line) {
+  CLI::App* bench = app.add_subcommand("bench", "Measure times, beside those of 1998");
+  bench->require_subcommand(0, 1);  // none is told below, in words
+  CLI::App* scaling = bench->add_subcommand("scaling", "Time per frame of a drape over its number of particles");
+  scaling->add_option("--sizes", line.sizes, "Particles, 500,899,2602,7359 (the default)")
+      ->delimiter(',')
+      ->check(CLI::Range(50, 1000000));
+  for (CLI::App* kind : {scaling}) {
+    add_common(*kind, line);
+    CLI::Option* json = kind->get_option("--json");
+    kind->add_flag("--csv", line.csv, "Print the result as CSV")->excludes(json);
+    kind->add_option("--repeat", line.repeats, "Measure so often and keep the fastest")->check(CLI::Range(1, 1000));
+  }
+  for (CLI::App* kind : {scaling})
+    kind->add_option("--frames", line.bench_frames, "Frames of each run; fewer than the paper's are for a first look")
+        ->check(CLI::Range(1, 100000));
+  return bench;
+}
+
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return printable(text);
@@ -84,6 +104,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       ->delimiter(',')
       ->check(CLI::Range(0, 1000000));
 
+  CLI::App* bench = add_bench(app, line);
   for (CLI::App* command : {demo, dress, run, check, verify, preview}) add_common(*command, line);
 
   try {
@@ -98,7 +119,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     throw Error(ExitCode::usage, one_line(error.what()) + " (toile --help lists what there is)");
   }
   if (app.get_subcommands().empty())
-    throw Error(ExitCode::usage, "a command is missing: demo, dress, run, check, verify or preview (toile --help)");
+    throw Error(ExitCode::usage,
+                "a command is missing: demo, dress, run, check, verify, preview or bench (toile --help)");
 
   const CLI::App* chosen = app.get_subcommands().front();
   for (const auto& [option, value] :
@@ -106,11 +128,14 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     if (value && !std::isfinite(*value))
       throw Error(ExitCode::usage, std::string(option) + ": expected a finite number");  // Range lets NaN pass
   using Command = CommandLine::Command;
-  const std::pair<const CLI::App*, Command> commands[] = {{demo, Command::demo},     {dress, Command::dress},
-                                                          {run, Command::run},       {check, Command::check},
-                                                          {verify, Command::verify}, {preview, Command::preview}};
+  const std::pair<const CLI::App*, Command> commands[] = {
+      {demo, Command::demo},     {dress, Command::dress},     {run, Command::run},    {check, Command::check},
+      {verify, Command::verify}, {preview, Command::preview}, {bench, Command::bench}};
   for (const auto& [command, value] : commands)
     if (command == chosen) line.command = value;
+  if (chosen == bench && bench->get_subcommands().empty())
+    throw Error(ExitCode::usage, "bench: expected paper, scaling, stiffness or micro");
+  if (chosen == bench) line.inputs = {bench->get_subcommands().front()->get_name()};
   if (chosen == demo && !name.empty()) line.inputs = {name};
   return line;
 }

@@ -7,10 +7,10 @@
 namespace toile {
 
 struct CommandLine {
-  enum class Command { help, demo, dress, run, check, verify, preview };
+  enum class Command { help, demo, dress, run, check, verify, preview, bench };
   Command command = Command::help;
   std::string help;                 // Command::help: what to print
-  std::vector<std::string> inputs;  // patterns, scene, files, directory, or the demo's name
+  std::vector<std::string> inputs;  // patterns, scene, files, directory, the demo's or the benchmark's name
   std::string typed;                // the whole line, for the report
 
   std::string out;  // empty: ./out/NAME
@@ -23,6 +23,13 @@ struct CommandLine {
   std::optional<double> resolution_cm, fps, seconds;
   bool strict_start = false;
   bool list = false;
+
+  // Of bench.
+  bool csv = false;
+  int repeats = 1;
+  std::vector<int> sizes = {500, 899, 2602, 7359};
+  std::vector<std::string> rows;  // empty: all
+  std::optional<int> bench_frames;
 };
 
 // Throws Error(usage) with one line.

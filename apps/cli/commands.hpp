@@ -9,5 +9,6 @@ ExitCode simulate_command(const CommandLine& line);  // demo, dress, run
 ExitCode check_command(const CommandLine& line);
 ExitCode verify_command(const CommandLine& line);
 ExitCode preview_command(const CommandLine& line);
+ExitCode bench_command(const CommandLine& line);
 
 }  // namespace toile

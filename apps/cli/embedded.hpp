@@ -1,6 +1,9 @@
 // apps/cli/embedded.hpp: the scenes and patterns that are part of the program.
 #pragma once
+#include "core/error.hpp"
+
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace toile {
@@ -10,5 +13,12 @@ struct EmbeddedFile {
 };
 
 std::span<const EmbeddedFile> embedded_files();
+
+// Throws IoError when there is none of that path.
+inline std::string embedded_text(const std::string& path) {
+  for (const EmbeddedFile& file : embedded_files())
+    if (file.path == path) return std::string(file.text);
+  throw IoError(path, "not built into this program");
+}
 
 }  // namespace toile

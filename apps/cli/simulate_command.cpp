@@ -33,12 +33,6 @@ constexpr std::array<Demo, 10> demos = {
      {"fig5-short-skirt", "figure 5: short skirt and blouse on a dancer, frames 110, 136 and 155"},
      {"fig6-long-skirt", "figure 6: long skirt and blouse on a dancer, frames 185, 215 and 236"}}};
 
-std::string embedded_text(const std::string& path) {
-  for (const EmbeddedFile& file : embedded_files())
-    if (file.path == path) return std::string(file.text);
-  throw IoError(path, "not built into this program");
-}
-
 bool is_demo(const Demo& demo) {
   for (const EmbeddedFile& file : embedded_files())
     if (file.path == "scenes/" + std::string(demo.name) + ".json") return true;

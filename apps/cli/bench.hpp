@@ -1,0 +1,14 @@
+// apps/cli/bench.hpp: the four benchmarks of `toile bench`.                                            docs/benchmarks.md
+//
+// Each fills tables and facts; bench_command.cpp adds the machine and prints.  An interrupt ends one after the row at hand.
+#pragma once
+#include "bench_runs.hpp"
+
+namespace toile {
+
+BenchResult bench_scaling(BenchRuns& runs);
+BenchResult bench_stiffness(BenchRuns& runs);
+BenchResult bench_paper(BenchRuns& runs);
+BenchResult bench_micro(BenchRuns& runs);
+
+}  // namespace toile

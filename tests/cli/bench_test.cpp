@@ -1,0 +1,126 @@
+// The benchmarks: that they print what they found, completely, in three ways.  No time is asserted.
+#include "cli/program.hpp"
+#include "io/json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace toile {
+namespace {
+
+using test::Ended;
+using test::run_toile;
+
+Json bench(const Scratch& scratch, std::vector<std::string> words, int exit_code = 0) {
+  words.insert(words.begin(), "bench");
+  words.emplace_back("--json");
+  const Ended ended = run_toile(scratch, words);
+  EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
+  return Json::parse(ended.out, "stdout");
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+TEST(Bench, ScalingHasARowPerSizeAndTheExponent) {
+  const Scratch scratch;
+  const Json json = bench(scratch, {"scaling", "--sizes", "100,200", "--frames", "3"});
+  const auto& rows = json.at("rows").array();
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[1].at("size").integer(), 200);
+  EXPECT_GT(rows[1].at("particles").number(), rows[0].at("particles").number());
+  for (const Json& row : rows) {
+    EXPECT_EQ(row.at("frames").integer(), 3);
+    EXPECT_GE(row.at("steps").integer(), 3);
+    EXPECT_GT(row.at("seconds_per_frame").number(), 0);
+    EXPECT_GT(row.at("cg_iterations_mean").number(), 0);
+    double percent = 0;
+    for (const char* part : {"eval", "cg", "cloth_cloth", "cloth_solid", "other"})
+      percent += row.at(std::string(part) + "_percent").number();
+    EXPECT_NEAR(percent, 100, 1e-9);
+  }
+  // Of two sizes the fit is the line through both.
+  const auto log_of = [&](std::size_t k, const char* key) { return std::log(rows[k].at(key).number()); };
+  EXPECT_NEAR(json.at("exponent").number(),
+              (log_of(1, "seconds_per_frame") - log_of(0, "seconds_per_frame")) /
+                  (log_of(1, "particles") - log_of(0, "particles")),
+              1e-9);
+  EXPECT_NEAR(json.at("exponent_1998").number(), 1.43, 0.01);
+}
+
+TEST(Bench, ScalingFindsTheSizesOfThePaperWithinThreePercent) {
+  const Scratch scratch;
+  const Json json = bench(scratch, {"scaling", "--frames", "1"});
+  const auto& rows = json.at("rows").array();
+  ASSERT_EQ(rows.size(), 4u);
+  for (const Json& row : rows) {
+    const double size = row.at("size").number();
+    EXPECT_NEAR(row.at("particles").number(), size, 0.03 * size);
+    EXPECT_GT(row.at("seconds_per_frame_1998").number(), 0);
+  }
+}
+
+TEST(Bench, CsvHasTheKeysAndValuesOfTheRows) {
+  const Scratch scratch;
+  const Json json = bench(scratch, {"scaling", "--sizes", "100", "--frames", "1"});
+  const Ended ended = run_toile(scratch, {"bench", "scaling", "--sizes", "100", "--frames", "1", "--csv"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  const Json& row = json.at("rows").array().front();
+  std::string keys;
+  for (const auto& [key, value] : row.object()) keys.append(keys.empty() ? "" : ",").append(key);
+  EXPECT_EQ(first_line(ended.out), keys);
+  std::istringstream names(first_line(ended.out)), values(ended.out.substr(ended.out.find('\n') + 1));
+  std::string name, value;
+  while (std::getline(names, name, ',')) {
+    std::getline(values, value, ',');
+    if (name == "particles") {
+      EXPECT_EQ(value, std::to_string(row.at("particles").integer()));
+    }
+    if (name == "verdict") {
+      EXPECT_EQ(value, row.at("verdict").string());
+    }
+  }
+}
+
+TEST(Bench, OutKeepsTheRunsAndTheResult) {
+  const Scratch scratch;
+  const Json json = bench(scratch, {"scaling", "--sizes", "100", "--frames", "2", "--out", "kept"});
+  const Json report = Json::load(scratch / "kept/100-particles/report.json");
+  EXPECT_EQ(report.at("frames").integer(), 3) << "the start and two more";
+  EXPECT_EQ(report.at("cloth").at("vertices").integer(), json.at("rows").array().front().at("particles").integer());
+  EXPECT_EQ(Json::load(scratch / "kept/scaling.json").at("rows").array().size(), 1u);
+  EXPECT_TRUE(std::filesystem::exists(scratch / "kept/scaling.csv"));
+}
+
+TEST(Bench, WithoutOutNothingIsLeft) {
+  const Scratch scratch;
+  const std::string temporary = scratch / "temporary";
+  std::filesystem::create_directory(temporary);
+  setenv("TMPDIR", temporary.c_str(), 1);
+  bench(scratch, {"scaling", "--sizes", "100", "--frames", "1"});
+  unsetenv("TMPDIR");
+  EXPECT_TRUE(std::filesystem::is_empty(temporary));
+}
+
+TEST(Bench, OptionsThatMeanNothingAreUsageErrors) {
+  const Scratch scratch;
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"bench"},
+                                             {"bench", "fly"},
+                                             {"bench", "scaling", "--sizes", "abc"},
+                                             {"bench", "scaling", "--sizes", "0"},
+                                             {"bench", "scaling", "--sizes", "100,-5"},
+                                             {"bench", "scaling", "--rows", "1"},
+                                             {"bench", "scaling", "--repeat", "0"},
+                                             {"bench", "scaling", "--csv", "--json"},
+                                             {"bench", "--sizes", "500"}}) {
+    const Ended ended = run_toile(scratch, words);
+    EXPECT_EQ(ended.exit_code, 2) << words.back() << ": " << ended.err;
+    EXPECT_EQ(ended.err_lines(), 1) << ended.err;
+  }
+}
+
+}  // namespace
+}  // namespace toile
