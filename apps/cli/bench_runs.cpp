@@ -95,6 +95,12 @@ void add_steps(BenchRow& row, const PhaseReport& phase) {
   row.add("cg_iterations_max", "cg max", static_cast<long>(phase.cg_max));
 }
 
+void add_contacts(BenchRow& row, const PhaseReport& phase) {
+  const double frames = phase.frames > 0 ? phase.frames : 1;
+  row.add("touching_mean", "touching", static_cast<double>(phase.touching) / frames, 0);
+  row.add("contact_rows_mean", "rows", static_cast<double>(phase.contact_rows) / frames, 0);
+}
+
 void add_quality(BenchRow& row, const Report& report) {
   const VerifyReport& audit = report.audit;
   row.add("stretch_p99_percent", "p99 %", 100 * audit.stretch.p99, 2);

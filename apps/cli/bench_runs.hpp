@@ -45,6 +45,8 @@ bool reached_its_end(const Report& report);
 
 void add_phases(BenchRow& row, const PhaseReport& phase);
 void add_steps(BenchRow& row, const PhaseReport& phase);
+// Per frame, in its last step: particles that touch the body, rows of cloth on cloth.
+void add_contacts(BenchRow& row, const PhaseReport& phase);
 // Stretch, crossings, verdict.
 void add_quality(BenchRow& row, const Report& report);
 

@@ -41,13 +41,15 @@ CLI::App* add_bench(CLI::App& app, CommandLine& line) {
   scaling->add_option("--sizes", line.sizes, "Particles, 500,899,2602,7359 (the default)")
       ->delimiter(',')
       ->check(CLI::Range(50, 1000000));
-  for (CLI::App* kind : {scaling}) {
+  CLI::App* stiffness = bench->add_subcommand("stiffness", "Time and iterations of a drape over bend and stretch");
+  stiffness->add_option("--size", line.sizes, "Particles (default: 2602)")->expected(1)->check(CLI::Range(50, 1000000));
+  for (CLI::App* kind : {scaling, stiffness}) {
     add_common(*kind, line);
     CLI::Option* json = kind->get_option("--json");
     kind->add_flag("--csv", line.csv, "Print the result as CSV")->excludes(json);
     kind->add_option("--repeat", line.repeats, "Measure so often and keep the fastest")->check(CLI::Range(1, 1000));
   }
-  for (CLI::App* kind : {scaling})
+  for (CLI::App* kind : {scaling, stiffness})
     kind->add_option("--frames", line.bench_frames, "Frames of each run; fewer than the paper's are for a first look")
         ->check(CLI::Range(1, 100000));
   return bench;
@@ -135,7 +137,11 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     if (command == chosen) line.command = value;
   if (chosen == bench && bench->get_subcommands().empty())
     throw Error(ExitCode::usage, "bench: expected paper, scaling, stiffness or micro");
-  if (chosen == bench) line.inputs = {bench->get_subcommands().front()->get_name()};
+  if (chosen == bench) {
+    line.inputs = {bench->get_subcommands().front()->get_name()};
+    if (line.sizes.empty() && line.inputs.front() == "scaling") line.sizes = {500, 899, 2602, 7359};
+    if (line.sizes.empty() && line.inputs.front() == "stiffness") line.sizes = {2602};
+  }
   if (chosen == demo && !name.empty()) line.inputs = {name};
   return line;
 }

@@ -27,7 +27,7 @@ struct CommandLine {
   // Of bench.
   bool csv = false;
   int repeats = 1;
-  std::vector<int> sizes = {500, 899, 2602, 7359};
+  std::vector<int> sizes;         // particles
   std::vector<std::string> rows;  // empty: all
   std::optional<int> bench_frames;
 };

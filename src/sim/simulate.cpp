@@ -37,6 +37,8 @@ void add(PhaseReport& phase, const FrameReport& frame) {
   phase.cg_max = std::max(phase.cg_max, frame.cg_max);
   phase.corrected += frame.corrected;
   phase.truncated += frame.truncated;
+  phase.touching += frame.last.touching;
+  phase.contact_rows += frame.last.rows;
   if (frame.steps == 0) return;
   phase.step_min_s = phase.step_min_s == 0 ? frame.step_min_s : std::min(phase.step_min_s, frame.step_min_s);
   phase.step_max_s = std::max(phase.step_max_s, frame.step_max_s);

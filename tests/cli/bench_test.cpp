@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -62,6 +63,30 @@ TEST(Bench, ScalingFindsTheSizesOfThePaperWithinThreePercent) {
   }
 }
 
+TEST(Bench, StiffnessHasARowPerFactorAndIterationsFromOneState) {
+  const Scratch scratch;
+  const Json json = bench(scratch, {"stiffness", "--size", "100", "--frames", "4"});
+  const auto& rows = json.at("rows").array();
+  ASSERT_EQ(rows.size(), 9u);
+  std::vector<double> same_b;
+  for (const Json& row : rows) {
+    EXPECT_EQ(row.at("frames").integer(), 4);
+    EXPECT_GT(row.at("touching_mean").number(), 0);
+    const bool bend = row.at("varied").string() == "bend";
+    EXPECT_NEAR(row.at("bend_u_N_m").number(), 1e-5 * (bend ? row.at("factor").number() : 1), 1e-12);
+    EXPECT_NEAR(row.at("stretch_u_N_per_m").number(), 3000 * (bend ? 1 : row.at("factor").number()), 1e-6);
+    if (bend) same_b.push_back(row.at("iterations_block_jacobi_same_b").number());
+    if (row.at("factor").number() == 1) {
+      EXPECT_EQ(row.at("iterations_block_jacobi").integer(), row.at("iterations_block_jacobi_same_b").integer());
+    }
+  }
+  // Stiffer threads are another matrix: were the fabric not set, these would be equal.
+  EXPECT_GT(rows[8].at("iterations_block_jacobi_same_b").number(),
+            rows[5].at("iterations_block_jacobi_same_b").number());
+  const auto [least, largest] = std::minmax_element(same_b.begin(), same_b.end());
+  EXPECT_NEAR(json.at("bend_iterations_same_b_vary_percent").number(), 100 * (*largest / *least - 1), 1e-9);
+}
+
 TEST(Bench, CsvHasTheKeysAndValuesOfTheRows) {
   const Scratch scratch;
   const Json json = bench(scratch, {"scaling", "--sizes", "100", "--frames", "1"});
@@ -113,6 +138,8 @@ TEST(Bench, OptionsThatMeanNothingAreUsageErrors) {
                                              {"bench", "scaling", "--sizes", "0"},
                                              {"bench", "scaling", "--sizes", "100,-5"},
                                              {"bench", "scaling", "--rows", "1"},
+                                             {"bench", "stiffness", "--sizes", "100"},
+                                             {"bench", "stiffness", "--size", "100,200"},
                                              {"bench", "scaling", "--repeat", "0"},
                                              {"bench", "scaling", "--csv", "--json"},
                                              {"bench", "--sizes", "500"}}) {
