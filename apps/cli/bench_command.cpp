@@ -39,6 +39,8 @@ void write(const std::string& path, std::string_view text) {
 BenchResult run_bench(BenchRuns& runs) {
   const std::string& kind = runs.line().inputs.front();
   if (kind == "scaling") return bench_scaling(runs);
+  if (kind == "micro") return bench_micro(runs);
+  if (kind == "paper") return bench_paper(runs);
   if (kind == "stiffness") return bench_stiffness(runs);
   throw Error(ExitCode::internal, "bench: " + kind);
 }

@@ -102,8 +102,12 @@ void StepSystem::assemble() {
 }
 
 PcgReport StepSystem::solve(const PcgOptions& options, std::span<const Vec3> b) {
+  prepare(options);
+  return solve_prepared(options, b);
+}
+
+PcgReport StepSystem::solve_prepared(const PcgOptions& options, std::span<const Vec3> b) {
   Vec3s dv(b.size(), Vec3::Zero());
-  pcg_.prepare(system_, options);
   return pcg_.solve(system_, b, reference_, options, dv);
 }
 

@@ -16,6 +16,8 @@ namespace toile {
 class Drape {
  public:
   explicit Drape(const Scene& scene);
+  Drape(const Drape&) = delete;
+  Drape& operator=(const Drape&) = delete;
 
   // False when a step collapsed.
   bool advance(int frames);
@@ -50,6 +52,10 @@ class StepSystem {
   PcgReport solve(const PcgOptions& options) { return solve(options, b_); }
   // The same with another right-hand side, to compare matrices alone.
   PcgReport solve(const PcgOptions& options, std::span<const Vec3> b);
+
+  // The two halves of it, to be timed.
+  void prepare(const PcgOptions& options) { pcg_.prepare(system_, options); }
+  PcgReport solve_prepared(const PcgOptions& options, std::span<const Vec3> b);
 
   const ClothModel& model() const { return model_; }
   Elements& elements() { return elements_; }

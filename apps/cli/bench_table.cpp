@@ -84,7 +84,6 @@ std::string aligned(const Lines& lines) {
 }
 
 std::string as_text(const BenchTable& table) {
-  if (table.rows.empty()) return "";
   Lines lines(1);
   for (const BenchField& field : table.rows.front().fields()) lines.front().emplace_back(field.title);
   for (const BenchRow& row : table.rows) {
@@ -99,6 +98,7 @@ std::string as_text(const BenchTable& table) {
 std::string as_text(const BenchResult& result) {
   std::string text;
   for (const BenchTable& table : result.tables) {
+    if (table.rows.empty()) continue;
     if (!text.empty()) text += '\n';
     text += as_text(table);
   }

@@ -29,6 +29,12 @@ class BenchRow {
     fields_.push_back({key, title, std::move(value), 0});
   }
   void add_empty(std::string_view key, std::string_view title) { fields_.push_back({key, title, {}, 0}); }
+  // Empties what was not measured after all.
+  template <class Keep>
+  void empty_unless(Keep&& keep) {
+    for (BenchField& field : fields_)
+      if (!keep(field.key)) field.value = {};
+  }
   const std::vector<BenchField>& fields() const { return fields_; }
 
  private:

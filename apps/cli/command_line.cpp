@@ -42,14 +42,20 @@ CLI::App* add_bench(CLI::App& app, CommandLine& line) {
       ->delimiter(',')
       ->check(CLI::Range(50, 1000000));
   CLI::App* stiffness = bench->add_subcommand("stiffness", "Time and iterations of a drape over bend and stretch");
-  stiffness->add_option("--size", line.sizes, "Particles (default: 2602)")->expected(1)->check(CLI::Range(50, 1000000));
-  for (CLI::App* kind : {scaling, stiffness}) {
+  CLI::App* paper = bench->add_subcommand("paper", "The table of the paper, row by row, and two figures from its text");
+  paper->add_option("--rows", line.rows, "Rows 1 to 9, \"cg\" and \"explicit\" (default: all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"1", "2", "3", "4", "5", "6", "7", "8", "9", "cg", "explicit"}));
+  CLI::App* micro = bench->add_subcommand("micro", "Times of the pieces of a step");
+  for (CLI::App* kind : {stiffness, micro})
+    kind->add_option("--size", line.sizes, "Particles (default: 2602)")->expected(1)->check(CLI::Range(50, 1000000));
+  for (CLI::App* kind : {paper, scaling, stiffness, micro}) {
     add_common(*kind, line);
     CLI::Option* json = kind->get_option("--json");
     kind->add_flag("--csv", line.csv, "Print the result as CSV")->excludes(json);
     kind->add_option("--repeat", line.repeats, "Measure so often and keep the fastest")->check(CLI::Range(1, 1000));
   }
-  for (CLI::App* kind : {scaling, stiffness})
+  for (CLI::App* kind : {paper, scaling, stiffness})
     kind->add_option("--frames", line.bench_frames, "Frames of each run; fewer than the paper's are for a first look")
         ->check(CLI::Range(1, 100000));
   return bench;
@@ -140,7 +146,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   if (chosen == bench) {
     line.inputs = {bench->get_subcommands().front()->get_name()};
     if (line.sizes.empty() && line.inputs.front() == "scaling") line.sizes = {500, 899, 2602, 7359};
-    if (line.sizes.empty() && line.inputs.front() == "stiffness") line.sizes = {2602};
+    if (line.repeats == 0) line.repeats = line.inputs.front() == "micro" ? 9 : 1;
+    if (line.sizes.empty()) line.sizes = {2602};
   }
   if (chosen == demo && !name.empty()) line.inputs = {name};
   return line;

@@ -26,7 +26,7 @@ struct CommandLine {
 
   // Of bench.
   bool csv = false;
-  int repeats = 1;
+  int repeats = 0;                // 0: 1, or 9 of the pieces in `bench micro`
   std::vector<int> sizes;         // particles
   std::vector<std::string> rows;  // empty: all
   std::optional<int> bench_frames;

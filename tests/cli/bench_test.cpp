@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <sstream>
 
 namespace toile {
@@ -87,6 +88,65 @@ TEST(Bench, StiffnessHasARowPerFactorAndIterationsFromOneState) {
   EXPECT_NEAR(json.at("bend_iterations_same_b_vary_percent").number(), 100 * (*largest / *least - 1), 1e-9);
 }
 
+TEST(Bench, PaperHasItsColumnsBesideThoseOf1998) {
+  const Scratch scratch;
+  const Json json = bench(scratch, {"paper", "--rows", "2,1", "--frames", "2"});
+  const auto& rows = json.at("rows").array();
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].at("row").integer(), 1) << "in the paper's order";
+  const Json& row = rows[1];
+  EXPECT_EQ(row.at("scene").string(), "fig2-sheet");
+  EXPECT_EQ(row.at("frames").integer(), 2);
+  EXPECT_EQ(row.at("frames_1998").integer(), 75);
+  EXPECT_EQ(row.at("solid_vertices").integer(), 322);
+  EXPECT_NEAR(row.at("cloth_vertices_off_percent").number(), 100 * (row.at("cloth_vertices").number() / 2602 - 1),
+              1e-9);
+  EXPECT_NEAR(row.at("times_faster").number(), 3.06 / row.at("seconds_per_frame").number(), 1e-9);
+  EXPECT_LE(row.at("step_max_ms").number(), 1000.0 / 30 + 1e-9);
+  EXPECT_TRUE(json.at("claims").array().empty());
+}
+
+TEST(Bench, ARowThatCannotBeginDoesNotStopTheOthers) {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "kept");
+  scratch.put("kept/row-1", "a file where a folder should be");
+  const Json json = bench(scratch, {"paper", "--rows", "1,2", "--frames", "1", "--out", "kept"}, 5);
+  const auto& rows = json.at("rows").array();
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_FALSE(json.at("complete").boolean());
+  EXPECT_EQ(rows[0].at("verdict").string(), "fail");
+  EXPECT_TRUE(rows[0].at("seconds_per_frame").type() == Json::Type::null) << "not measured is not zero";
+  EXPECT_EQ(rows[0].at("seconds_per_frame_1998").number(), 2.23);
+  EXPECT_EQ(rows[1].at("verdict").string(), "pass");
+}
+
+TEST(Bench, ClaimsCountIterationsOfThePaperAndOfOurs) {
+  const Scratch scratch;
+  const Json json = bench(scratch, {"paper", "--rows", "cg", "--frames", "3"});
+  EXPECT_TRUE(json.at("rows").array().empty());
+  std::map<std::string, double> measured;
+  for (const Json& claim : json.at("claims").array())
+    measured[claim.at("claim").string()] = claim.at("measured").number();
+  ASSERT_EQ(measured.size(), 5u);
+  EXPECT_LT(measured["cg_paper_1998_eps_0.01"], measured["cg_paper_1998_eps_0.001"]);
+  EXPECT_LT(measured["cg_block_ssor_coarse"], measured["cg_block_jacobi"]);
+  EXPECT_LT(measured["cg_block_jacobi"], measured["cg_diagonal"]);
+}
+
+TEST(Bench, MicroTimesEveryPiece) {
+  const Scratch scratch;
+  const Json json = bench(scratch, {"micro", "--size", "200", "--repeat", "3"});
+  const auto& rows = json.at("rows").array();
+  EXPECT_EQ(rows.size(), 12u);
+  for (const Json& row : rows) {
+    EXPECT_GE(row.at("count").integer(), 1) << row.at("what").string();
+    EXPECT_GE(row.at("nanoseconds_each").number(), row.at("least_nanoseconds_each").number());
+    EXPECT_NEAR(row.at("nanoseconds_each").number() * row.at("count").number(), 1e6 * row.at("milliseconds").number(),
+                1e-6 * 1e6 * row.at("milliseconds").number());
+  }
+  EXPECT_EQ(json.at("repeats").integer(), 3);
+}
+
 TEST(Bench, CsvHasTheKeysAndValuesOfTheRows) {
   const Scratch scratch;
   const Json json = bench(scratch, {"scaling", "--sizes", "100", "--frames", "1"});
@@ -139,6 +199,8 @@ TEST(Bench, OptionsThatMeanNothingAreUsageErrors) {
                                              {"bench", "scaling", "--sizes", "100,-5"},
                                              {"bench", "scaling", "--rows", "1"},
                                              {"bench", "stiffness", "--sizes", "100"},
+                                             {"bench", "paper", "--rows", "10"},
+                                             {"bench", "micro", "--frames", "3"},
                                              {"bench", "stiffness", "--size", "100,200"},
                                              {"bench", "scaling", "--repeat", "0"},
                                              {"bench", "scaling", "--csv", "--json"},
