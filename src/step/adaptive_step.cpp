@@ -14,6 +14,7 @@ constexpr int longest_wait = 40;  // accepted steps before a failed increase is 
 
 FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s) {
   FrameReport report;
+  steps_s_.clear();
   const long base_steps = std::max(1L, std::lround(std::ceil(frame_s / options_.step_max_s - 1e-9)));
   const double base_s = frame_s / static_cast<double>(base_steps);
   // Time is counted in the smallest step, so that it is exact.
@@ -40,7 +41,7 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
         std::swap(state, candidate_);
         now += step_ticks;
         ++report.steps;
-        report.steps_s.push_back(h);
+        steps_s_.push_back(h);
         report.corrected += report.last.filter.corrected;
         report.truncated += report.last.filter.truncated;
         report.step_min_s = report.steps == 1 ? h : std::min(report.step_min_s, h);

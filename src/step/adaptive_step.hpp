@@ -11,6 +11,7 @@
 #include "step/implicit_euler.hpp"
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,6 @@ struct FrameReport {
   bool interrupted = false;  // by `stop`: the state is somewhere within the frame
   int steps = 0, rejected = 0;
   double step_min_s = 0, step_max_s = 0;
-  std::vector<double> steps_s;        // the accepted steps, in order
   int cg_iterations = 0, cg_max = 0;  // summed over steps; the largest of one step
   int passes = 0;
   int corrected = 0,
@@ -48,6 +48,9 @@ class AdaptiveStep {
   // Advances from t_s by exactly frame_s.  When the step collapses, `state` stays where it last was accepted.
   FrameReport advance(ClothState& state, double t_s, double frame_s);
 
+  // The steps accepted in the last advance, in order.
+  std::span<const double> steps_s() const { return steps_s_; }
+
   ImplicitEuler& integrator() { return integrator_; }
   const ImplicitEuler& integrator() const { return integrator_; }
   AdaptiveOptions& options() { return options_; }
@@ -58,6 +61,7 @@ class AdaptiveStep {
   ImplicitEuler integrator_;
   AdaptiveOptions options_;
   ClothState candidate_;
+  std::vector<double> steps_s_;
   int halvings_ = 0;  // h = base / 2^halvings
   int successes_ = 0, wait_ = 2, patience_ = 2;
   bool growing_ = false;  // the present h is the first try after a doubling

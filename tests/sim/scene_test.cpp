@@ -107,8 +107,7 @@ TEST(Scene, NamesThePlaceOfEveryRefusal) {
   expect_refused(R"({"cloth": [{"grid": {}}], "body": {"mannequin": "womn"}})",
                  {"/body/mannequin", "nearest is \"woman\""});
   expect_refused(R"({"cloth": [{"grid": {}}], "body": {"mannequin": "woman", "unit": "cm"}})", {"/body/unit"});
-  expect_refused(R"({"cloth": [{"grid": {}}], "time": {"integrator": "rk4"}})",
-                 {"/time/integrator", "backward_euler"});
+  expect_refused(R"({"cloth": [{"grid": {}}], "time": {"integrator": "rk4"}})", {"/time/integrator", "backward_euler"});
   expect_refused(R"({"cloth": [{"grid": {}}], "solver": {"preconditioner": "block_jacbi"}})",
                  {"/solver/preconditioner", "nearest is \"block_jacobi\""});
   expect_refused(R"({"cloth": [{"grid": {}}], "output": {"preview": 1}})", {"/output/preview"});

@@ -219,32 +219,34 @@ TEST(Integrators, Bdf2FollowsALiftAndAPathExactly) {
   }
 }
 
-TEST(Integrators, Bdf2StartsAnewAfterALandingAndWhenTheStateIsSet) {
-  // The velocity that a landing took is no trend: extrapolated, it would throw the sheet up again.
+// A sheet that lands flat at an angle: the speed along the ground that is left once friction has taken its part of the landing.
+double land(Integrator integrator) {
   BodySurface slab = test::tilted_slab(1, 0.2, 0);
   const double offset = BodyContactOptions{}.offset_m;
   Sheet sheet = test::equilateral_sheet(0.1, 0.1, 0.02);
   for (Vec3& p : sheet.x) p += Vec3(-0.05, 0.05, 0.05);
   ClothRun run(sheet, Fabric{});
   run.world.body = &slab;
-  run.step.integrator = Integrator::bdf2;
+  run.step.integrator = integrator;
   run.adaptive.step_max_s = 1.0 / 60;
   for (Vec3& v : run.state.v) v = Vec3(1, 0, 0);
   bool landed = false;
-  double speed = 0;
-  for (int k = 0; k < 30; ++k) {
+  for (int k = 0; k < 12; ++k) {
     run.frame(1.0 / 60);
-    // Friction took mu times the impulse of the landing at once, and takes mu g h in every step after it.
-    if (landed) {
-      EXPECT_GT(run.state.v[0].x(), speed - 1.2 * run.step.body.friction * 9.81 / 60);
-    }
-    speed = run.state.v[0].x();
     landed = landed || run.state.x[0].y() < 1.05 * offset;
     if (landed) {
       for (const Vec3& p : run.state.x) EXPECT_LT(p.y(), 1.05 * offset);
     }
   }
   EXPECT_TRUE(landed);
+  return run.state.v[0].x();
+}
+
+TEST(Integrators, Bdf2StartsAnewAfterALandingAndWhenTheStateIsSet) {
+  // The velocity that a landing took is no trend: extrapolated, it would throw the sheet up again, or brake it twice.
+  const double euler = land(Integrator::backward_euler), bdf2 = land(Integrator::bdf2);
+  std::printf("after the landing: %.4f and %.4f m/s\n", euler, bdf2);
+  EXPECT_NEAR(bdf2, euler, 0.04);  // they do not land at the same moment; a step of friction takes 0.065
   ClothRun falling(test::equilateral_sheet(0.1, 0.1, 0.02), Fabric{});
   falling.step.integrator = Integrator::bdf2;
   falling.run(5, 1.0 / 60);
