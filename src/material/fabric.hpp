@@ -14,7 +14,7 @@ struct Fabric {
   double density_kg_per_m2 = 0.15;
   double stretch_u_N_per_m = 3000, stretch_v_N_per_m = 2000;  // warp, weft
   double shear_N_per_m = 200;
-  double compression_ratio = 1;  // of the stretch stiffness, in threads that are shorter than at rest; in (0, 1]
+  double compression_ratio = 0.1;  // of the stretch stiffness, in threads that are shorter than at rest; in (0, 1]
   double bend_u_N_m = 1e-5, bend_v_N_m = 1e-5;
   double stretch_damping_s = 2e-3, shear_damping_s = 2e-3, bend_damping_s = 2e-3;  // k_d / k
   double friction = 0.35;

@@ -58,11 +58,10 @@ void add(Hash& hash, const std::optional<double>& x) {
   add(hash, x.value_or(0));
 }
 void add(Hash& hash, const Fabric& f) {
-  for (const double x :
-       {f.density_kg_per_m2, f.stretch_u_N_per_m, f.stretch_v_N_per_m, f.shear_N_per_m, f.bend_u_N_m, f.bend_v_N_m,
-        f.stretch_damping_s, f.shear_damping_s, f.bend_damping_s, f.friction, f.thickness_m})
+  for (const double x : {f.density_kg_per_m2, f.stretch_u_N_per_m, f.stretch_v_N_per_m, f.shear_N_per_m,
+                         f.compression_ratio, f.bend_u_N_m, f.bend_v_N_m, f.stretch_damping_s, f.shear_damping_s,
+                         f.bend_damping_s, f.friction, f.thickness_m})
     add(hash, x);
-  if (f.compression_ratio != 1) add(hash, f.compression_ratio);  // runs that do not use it keep their hash
 }
 
 BodyMovement movement_of(BodyMotion motion, std::string name, Hash& inputs) {

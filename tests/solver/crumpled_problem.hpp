@@ -2,6 +2,7 @@
 #pragma once
 #include "assembly/elements.hpp"
 #include "solver/linear_system.hpp"
+#include "support/fabrics.hpp"
 #include "support/sheets.hpp"
 
 #include <Eigen/Cholesky>
@@ -15,7 +16,7 @@ struct Problem {
   explicit Problem(double h = 1.0 / 60, double crumple_m = 0.006)
       : Problem(equilateral_sheet(0.2, 0.2, 0.02), h, crumple_m) {}
   Problem(const Sheet& sheet, double h, double crumple_m)
-      : model(build_model(sheet.mesh, std::array{Fabric{}})),
+      : model(build_model(sheet.mesh, std::array{test::linear_cotton()})),
         elements(model),
         A(elements.pattern()),
         system(A),

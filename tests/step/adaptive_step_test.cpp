@@ -208,9 +208,9 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "06cd67aa6deb5e59");
-  EXPECT_EQ(folding(), "e314f1a036ad5a72");
-  EXPECT_EQ(drop(1), "5a313fd073fb3fc4");
+  EXPECT_EQ(hanging(), "48127aa1d9247733");
+  EXPECT_EQ(folding(), "75e6a8c5844d287b");
+  EXPECT_EQ(drop(1), "9e0a1bb77a5340d0");
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ double decay(Kind kind, const Fabric& taus) {  // tau that the decay belies
 }
 
 TEST(DampingInMotion, StretchShearAndBendDecayEachAtItsOwnRate) {
-  Fabric taus;
+  Fabric taus = test::linear_cotton();
   taus.stretch_damping_s = 2e-6;
   taus.shear_damping_s = 1e-5;
   taus.bend_damping_s = 4e-6;

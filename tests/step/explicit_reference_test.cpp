@@ -9,7 +9,7 @@ namespace {
 using test::ClothRun;
 
 Fabric undamped() {
-  Fabric fabric;
+  Fabric fabric = test::linear_cotton();
   fabric.stretch_damping_s = fabric.shear_damping_s = fabric.bend_damping_s = 0;
   return fabric;
 }

@@ -53,7 +53,7 @@ TEST(FreeMotion, ARigidTranslationKeepsItsVelocityExactly) {
 TEST(FreeMotion, LinearMomentumOfACrumpledFlyingSheetIsKept) {
   ModelOptions options;
   options.gravity_m_per_s2.setZero();
-  ClothRun run(test::equilateral_sheet(0.2, 0.2, 0.02), Fabric{}, options);
+  ClothRun run(test::equilateral_sheet(0.2, 0.2, 0.02), test::linear_cotton(), options);
   run.step.rows.cloth_cloth = false;
   run.state.x = test::crumpled(run.state.x, 0.003, 4);
   test::Random random(5);

@@ -73,7 +73,7 @@ TEST(Integrators, Bdf2FallsFreelyWithStepsThatVary) {
 
 // A soft sheet that swings from two corners, against Runge-Kutta.
 double swing_error(Integrator integrator, int newton_iterations, double step_s) {
-  Fabric fabric;
+  Fabric fabric = test::linear_cotton();
   fabric.stretch_u_N_per_m = fabric.stretch_v_N_per_m = 60;
   fabric.shear_N_per_m = 20;
   fabric.stretch_damping_s = fabric.shear_damping_s = fabric.bend_damping_s = 0;
@@ -117,7 +117,7 @@ struct Spin {
   double momentum_lost, energy_lost, stretch;
 };
 Spin spin(Integrator integrator, int newton_iterations) {
-  ClothRun run(test::equilateral_sheet(0.2, 0.2, 0.02), Fabric{}, weightless());
+  ClothRun run(test::equilateral_sheet(0.2, 0.2, 0.02), test::linear_cotton(), weightless());
   run.step.rows.cloth_cloth = false;
   run.step.integrator = integrator;
   run.step.newton_iterations = newton_iterations;

@@ -23,7 +23,7 @@ Unrest push_out(PositionAlteration alteration, double deep_m) {
   for (Vec3& p : sheet.x) p = Vec3(p.x() - 0.1, offset - deep_m - p.z(), 0);
   ModelOptions weightless;
   weightless.gravity_m_per_s2.setZero();
-  ClothRun run(sheet, Fabric{}, weightless);
+  ClothRun run(sheet, test::linear_cotton(), weightless);
   run.world.body = &slab;
   run.step.position_alteration = alteration;
   run.adaptive.step_max_s = 1.0 / 60;

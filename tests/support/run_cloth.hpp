@@ -1,6 +1,7 @@
 // tests/support/run_cloth.hpp: a cloth that runs for a while, for tests of the step.
 #pragma once
 #include "step/adaptive_step.hpp"
+#include "support/fabrics.hpp"
 #include "support/sheets.hpp"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,14 @@
+// tests/support/fabrics.hpp: fabrics for tests of what a closed form says.
+#pragma once
+#include "material/fabric.hpp"
+
+namespace toile::test {
+
+// As stiff in compression as in tension: orders of accuracy, modes and momenta are stated for an energy without a kink.
+inline Fabric linear_cotton() {
+  Fabric fabric;
+  fabric.compression_ratio = 1;
+  return fabric;
+}
+
+}  // namespace toile::test
