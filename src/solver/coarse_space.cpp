@@ -7,13 +7,13 @@
 namespace toile {
 namespace {
 
-// 16 to 32 aggregates of about 128 particles serve up to 10,000 particles: a dense factor of at most 288 rows.
-int wanted_aggregates(std::size_t particles) { return std::clamp(static_cast<int>(particles / 160), 1, 32); }
+// Of the whole cloth: 150 to 300 coarse directions serve up to 10,000 particles, and their dense factor stays in the cache.
+double wanted_aggregates(std::size_t particles) { return std::clamp(static_cast<double>(particles) / 160, 1.0, 32.0); }
 
-// Splits `members` at the median of its longer pattern direction until no part is larger than `largest`.
-void bisect(std::vector<Index>& members, std::size_t begin, std::size_t end, std::size_t largest, const Vec2s& uv,
+// Splits members[begin, end) into `parts` of equal size, always across the longer pattern direction.
+void bisect(std::vector<Index>& members, std::size_t begin, std::size_t end, std::size_t parts, const Vec2s& uv,
             std::vector<Index>& aggregate, int& count) {
-  if (end - begin <= largest) {
+  if (parts == 1) {
     for (std::size_t k = begin; k < end; ++k) aggregate[static_cast<std::size_t>(members[k])] = count;
     ++count;
     return;
@@ -29,9 +29,9 @@ void bisect(std::vector<Index>& members, std::size_t begin, std::size_t end, std
               const double p = uv[static_cast<std::size_t>(a)][axis], q = uv[static_cast<std::size_t>(b)][axis];
               return p != q ? p < q : a < b;
             });
-  const std::size_t middle = begin + (end - begin) / 2;
-  bisect(members, begin, middle, largest, uv, aggregate, count);
-  bisect(members, middle, end, largest, uv, aggregate, count);
+  const std::size_t left = parts / 2, middle = begin + (end - begin) * left / parts;
+  bisect(members, begin, middle, left, uv, aggregate, count);
+  bisect(members, middle, end, parts - left, uv, aggregate, count);
 }
 
 }  // namespace
@@ -54,15 +54,15 @@ CoarseSpace<T>::CoarseSpace(const ClothMesh& mesh) {
       uv[p] = mesh.uv[t][c];
     }
   }
-  const std::size_t largest =
-      std::max<std::size_t>(8, (particles + static_cast<std::size_t>(wanted_aggregates(particles)) - 1) /
-                                   static_cast<std::size_t>(wanted_aggregates(particles)));
+  const double size = static_cast<double>(particles) / wanted_aggregates(particles);
   for (Index k = 0; k < panels; ++k) {
     std::vector<Index> members;
     for (std::size_t p = 0; p < particles; ++p) {
       if (panel[p] == k) members.push_back(static_cast<Index>(p));
     }
-    if (!members.empty()) bisect(members, 0, members.size(), largest, uv, aggregate_, aggregate_count_);
+    if (members.empty()) continue;
+    const auto parts = static_cast<std::size_t>(std::lround(static_cast<double>(members.size()) / size));
+    bisect(members, 0, members.size(), std::max<std::size_t>(parts, 1), uv, aggregate_, aggregate_count_);
   }
   // Affine coordinates: centred on the aggregate, scaled by its extent.
   std::vector<Vec2> low(static_cast<std::size_t>(aggregate_count_), Vec2::Constant(1e300)),
@@ -126,7 +126,6 @@ void CoarseSpace<T>::find_entries(const BlockPattern& pattern) {
     }
   }
   AZ_.resize(entry_aggregate_.size());
-  Zy_.resize(n);
 }
 
 namespace {
@@ -301,7 +300,7 @@ void CoarseSpace<T>::cholesky() {
 
 // rhs <- E^-1 rhs
 template <class T>
-void CoarseSpace<T>::solve() {
+void CoarseSpace<T>::solve_coarse() {
   const auto n = static_cast<std::size_t>(dimension());
   for (std::size_t k = 0; k < n; ++k) {  // U^T y = rhs
     const double* row = &E_[k * n];
@@ -321,12 +320,12 @@ void CoarseSpace<T>::solve() {
 }
 
 template <class T>
-void CoarseSpace<T>::deflate(const LinearSystem<T>& system, std::span<const Lane<T>> r, std::span<Lane<T>> t,
-                             std::span<Lane<T>> At) {
-  const auto n = static_cast<std::size_t>(dimension());
-  std::fill(rhs_.begin(), rhs_.end(), 0.0);
-  for (std::size_t p = 0; p < r.size(); ++p) {  // in the range of S, so S^T may be left out
-    double* y = &rhs_[static_cast<std::size_t>(aggregate_[p]) * 9];
+void CoarseSpace<T>::restrict(Index begin, Index end, std::span<const Lane<T>> r, std::span<const Lane<T>> At,
+                              std::span<double> sum) const {
+  std::fill(sum.begin(), sum.end(), 0.0);
+  for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end);
+       ++p) {  // S^T r = r, so it is left out
+    double* y = &sum[static_cast<std::size_t>(aggregate_[p]) * 9];
     const Lane<T> d = r[p] - At[p];
     const double q[3] = {basis_[p][0], basis_[p][1], basis_[p][2]};
     const double c[3] = {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
@@ -334,23 +333,34 @@ void CoarseSpace<T>::deflate(const LinearSystem<T>& system, std::span<const Lane
       for (std::size_t m = 0; m < 3; ++m) y[3 * k + m] += q[k] * c[m];
     }
   }
-  solve();
-  for (std::size_t k = 0; k < n; ++k) {
+}
+
+template <class T>
+void CoarseSpace<T>::solve(std::span<const std::vector<double>> parts) {
+  std::fill(rhs_.begin(), rhs_.end(), 0.0);
+  for (const std::vector<double>& part : parts) {
+    for (std::size_t k = 0; k < rhs_.size(); ++k) rhs_[k] += part[k];
+  }
+  solve_coarse();
+  for (std::size_t k = 0; k < rhs_.size(); ++k) {
     const T y = static_cast<T>(rhs_[k]);
     y_[k] = Lane<T>{y, y, y, 0};
   }
+}
+
+template <class T>
+void CoarseSpace<T>::prolong(const LinearSystem<T>& system, Index begin, Index end, std::span<Lane<T>> t,
+                             std::span<Lane<T>> At, std::span<Lane<T>> Zy) const {
   const ParticleConstraints& constraints = system.constraints();
-  const bool rows = !system.rows().empty();
-  for (std::size_t p = 0; p < r.size(); ++p) {
+  for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
     // S_p (a + u' b + v' c)
     const Lane<T>* y = &y_[static_cast<std::size_t>(aggregate_[p]) * 9];
     const T u = static_cast<T>(basis_[p][1]), v = static_cast<T>(basis_[p][2]);
-    Lane<T> Zy{y[0][0] + u * y[3][0] + v * y[6][0], y[1][0] + u * y[4][0] + v * y[7][0],
-               y[2][0] + u * y[5][0] + v * y[8][0], 0};
-    if (!constraints.is_free(static_cast<Index>(p)))
-      Zy = to_lane<T>(constraints.S(static_cast<Index>(p)) * to_vec3(Zy));
-    t[p] += Zy;
-    if (rows) Zy_[p] = Zy;
+    Lane<T> z{y[0][0] + u * y[3][0] + v * y[6][0], y[1][0] + u * y[4][0] + v * y[7][0],
+              y[2][0] + u * y[5][0] + v * y[8][0], 0};
+    if (!constraints.is_free(static_cast<Index>(p))) z = to_lane<T>(constraints.S(static_cast<Index>(p)) * to_vec3(z));
+    t[p] += z;
+    Zy[p] = z;
     Lane<T> sum = At[p];
     for (auto e = static_cast<std::size_t>(entry_begin_[p]); e < static_cast<std::size_t>(entry_begin_[p + 1]); ++e) {
       const Columns& column = AZ_[e];
@@ -359,9 +369,6 @@ void CoarseSpace<T>::deflate(const LinearSystem<T>& system, std::span<const Lane
     }
     At[p] = sum;
   }
-  if (!rows) return;
-  system.add_rows(Zy_, At);
-  system.filter(At);
 }
 
 template <class T>
@@ -371,7 +378,7 @@ void CoarseSpace<T>::correct(const LinearSystem<T>& system, std::span<const Vec3
     Eigen::Map<Mat3> y(&rhs_[static_cast<std::size_t>(aggregate_[p]) * 9]);
     y += r[p] * basis_[p].transpose();
   }
-  solve();
+  solve_coarse();
   for (std::size_t p = 0; p < r.size(); ++p) {
     const Eigen::Map<const Mat3> y(&rhs_[static_cast<std::size_t>(aggregate_[p]) * 9]);
     dv[p] += system.constraints().S(static_cast<Index>(p)) * (y * basis_[p]);

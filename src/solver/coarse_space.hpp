@@ -30,8 +30,15 @@ class CoarseSpace {
 
   // A' Z and the factor of E.  Call when A, the rows or the constraints have changed.
   void factorise(const LinearSystem<T>& system);
-  // t += Q (r - At),  At += A' Q (r - At), in that sense at once; r and At must lie in the range of S.
-  void deflate(const LinearSystem<T>& system, std::span<const Lane<T>> r, std::span<Lane<T>> t, std::span<Lane<T>> At);
+  // t += Q (r - At) and At += A' Q (r - At) in three parts, for those who share the work; r and At in the range of S.
+  //   restrict   sum = Z^T (r - At) of particles [begin, end): their part of `dimension()` numbers
+  //   solve      of all parts, added in their order: E^-1
+  //   prolong    t += Z y, and At += A' Z y without the rows; Zy keeps Z y, of which the caller adds the rows
+  void restrict(Index begin, Index end, std::span<const Lane<T>> r, std::span<const Lane<T>> At,
+                std::span<double> sum) const;
+  void solve(std::span<const std::vector<double>> parts);
+  void prolong(const LinearSystem<T>& system, Index begin, Index end, std::span<Lane<T>> t, std::span<Lane<T>> At,
+               std::span<Lane<T>> Zy) const;
   // dv += Q r in double; r must lie in the range of S.
   void correct(const LinearSystem<T>& system, std::span<const Vec3> r, std::span<Vec3> dv);
 
@@ -40,7 +47,7 @@ class CoarseSpace {
   void multiply_basis(const LinearSystem<T>& system);  // A' Z without the rows
   void sum_coarse_matrix(const LinearSystem<T>& system);
   void cholesky();
-  void solve();
+  void solve_coarse();
 
   // A' Z is sparse: particle i has an entry, nine columns, for its own aggregate and for each of its neighbours'.
   using Columns = std::array<Lane<T>, 9>;  // [3 l + c]: basis function l, direction c
@@ -58,7 +65,6 @@ class CoarseSpace {
   std::vector<double> rhs_;
   std::vector<std::uint8_t> dead_;  // directions in which nothing may move
   std::vector<Lane<T>> y_;          // [coarse direction] E^-1 Z^T (r - At), each in all lanes
-  std::vector<Lane<T>> Zy_;         // [particle]
 };
 
 extern template class CoarseSpace<float>;

@@ -18,7 +18,11 @@ void LinearSystem<T>::update(std::span<const ImplicitRow> rows, const ParticleCo
   fast_rows_.clear();
   for (const ImplicitRow& row : rows) {
     const Mat3 nn = row.direction * row.direction.transpose();
-    Row fast{row.particle, {}, to_lane<T>(row.direction), static_cast<T>(row.a)};
+    Row fast{row.particle,
+             {},
+             to_lane<T>(row.direction),
+             static_cast<T>(row.a),
+             row.particle[1] < 0 && row.particle[2] < 0 && row.particle[3] < 0};
     for (std::size_t k = 0; k < 4; ++k) {
       fast.weight[k] = static_cast<T>(row.weight[k]);
       if (row.particle[k] >= 0)
@@ -45,52 +49,52 @@ void LinearSystem<T>::update(std::span<const ImplicitRow> rows, const ParticleCo
 template <class T>
 void LinearSystem<T>::multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const {
   A_->multiply(x, y);
-  add_rows(x, y);
-  filter(y);
-}
-
-template <class T>
-void LinearSystem<T>::add_rows(std::span<const Lane<T>> x, std::span<Lane<T>> y) const {
   for (const Row& row : fast_rows_) {
     T sum = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-      if (row.particle[k] < 0) continue;
-      const Lane<T> product = x[static_cast<std::size_t>(row.particle[k])] * row.direction;
-      sum += row.weight[k] * (product[0] + product[1] + product[2]);
+      if (row.particle[k] >= 0) sum += row.part_of(k, x);
     }
     sum *= row.a;
     for (std::size_t k = 0; k < 4; ++k) {
       if (row.particle[k] >= 0) y[static_cast<std::size_t>(row.particle[k])] += row.direction * (row.weight[k] * sum);
     }
   }
+  filter(y);
 }
 
 template <class T>
-void LinearSystem<T>::add_rows_off_diagonal(std::span<const Lane<T>> x, std::span<Lane<T>> y) const {
-  for (const Row& row : fast_rows_) {
-    if (row.particle[1] < 0 && row.particle[2] < 0 && row.particle[3] < 0) continue;  // all of it is on the diagonal
-    T sum = 0;
-    std::array<T, 4> own{};
+void LinearSystem<T>::sum_rows(RowPart part, std::size_t begin, std::size_t end, std::span<const Lane<T>> x,
+                               std::span<T> sums) const {
+  for (std::size_t r = begin; r < end; ++r) {
+    const Row& row = fast_rows_[r];
+    sums[r] = 0;
+    if (row.single && part == RowPart::off_diagonal) continue;
     for (std::size_t k = 0; k < 4; ++k) {
-      if (row.particle[k] < 0) continue;
-      const Lane<T> product = x[static_cast<std::size_t>(row.particle[k])] * row.direction;
-      own[k] = row.weight[k] * (product[0] + product[1] + product[2]);
-      sum += own[k];
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (row.particle[k] < 0) continue;
-      y[static_cast<std::size_t>(row.particle[k])] += row.direction * (row.a * row.weight[k] * (sum - own[k]));
+      if (row.particle[k] >= 0) sums[r] += row.part_of(k, x);
     }
   }
+}
+
+template <class T>
+void LinearSystem<T>::add_row(const RowEnd& row_end, RowPart part, std::span<const T> sums, std::span<const Lane<T>> x,
+                              std::span<Lane<T>> y) const {
+  const Row& row = fast_rows_[static_cast<std::size_t>(row_end.row)];
+  if (row.single && part == RowPart::off_diagonal) return;
+  const auto k = static_cast<std::size_t>(row_end.k);
+  T sum = sums[static_cast<std::size_t>(row_end.row)];
+  if (part == RowPart::off_diagonal) sum -= row.part_of(k, x);
+  y[static_cast<std::size_t>(row.particle[k])] += row.direction * (row.a * row.weight[k] * sum);
+}
+
+template <class T>
+void LinearSystem<T>::filter_held(std::size_t held, std::span<Lane<T>> y) const {
+  Lane<T>& y_i = y[static_cast<std::size_t>(constraints_->constrained()[held])];
+  y_i = filter_[held].times(y_i);
 }
 
 template <class T>
 void LinearSystem<T>::filter(std::span<Lane<T>> y) const {
-  const auto constrained = constraints_->constrained();
-  for (std::size_t c = 0; c < constrained.size(); ++c) {
-    Lane<T>& y_i = y[static_cast<std::size_t>(constrained[c])];
-    y_i = filter_[c].times(y_i);
-  }
+  for (std::size_t held = 0; held < filter_.size(); ++held) filter_held(held, y);
 }
 
 template <class T>

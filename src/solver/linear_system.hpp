@@ -15,6 +15,13 @@
 
 namespace toile {
 
+// Of R = sum a g g^T: all of it, or what lies off its block diagonal.
+enum class RowPart { whole, off_diagonal };
+struct RowEnd {  // the k-th particle of a row
+  std::int32_t row;
+  int k;
+};
+
 template <class T>
 class LinearSystem {
  public:
@@ -30,10 +37,13 @@ class LinearSystem {
 
   // y = A' x for x in the range of S.
   void multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
-  // The pieces of it.  R = sum a g g^T;  y += R x,   y += (R - block diagonal of R) x,   y <- S y
-  void add_rows(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
-  void add_rows_off_diagonal(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
-  void filter(std::span<Lane<T>> y) const;
+  // The pieces of it, for those who share the work.  R x in two halves: sums[row] = g.x of rows [begin, end), then what each row
+  // gives to one of its particles;  y <- S y of the held particle at a position of ParticleConstraints::constrained.
+  void sum_rows(RowPart part, std::size_t begin, std::size_t end, std::span<const Lane<T>> x, std::span<T> sums) const;
+  void add_row(const RowEnd& row_end, RowPart part, std::span<const T> sums, std::span<const Lane<T>> x,
+               std::span<Lane<T>> y) const;
+  void filter_held(std::size_t held, std::span<Lane<T>> y) const;
+  void filter(std::span<Lane<T>> y) const;  // all of them
   // y = (A + sum a g g^T) x, unfiltered, in double.
   void multiply_unfiltered(std::span<const Vec3> x, std::span<Vec3> y) const;
 
@@ -51,6 +61,11 @@ class LinearSystem {
     std::array<T, 4> weight;
     Lane<T> direction;
     T a;
+    bool single;  // all of it is on the diagonal
+    T part_of(std::size_t k, std::span<const Lane<T>> x) const {
+      const Lane<T> product = x[static_cast<std::size_t>(particle[k])] * direction;
+      return weight[k] * (product[0] + product[1] + product[2]);
+    }
   };
   const BlockMatrix<T>* A_;
   std::span<const ImplicitRow> rows_;

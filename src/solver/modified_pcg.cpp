@@ -1,10 +1,12 @@
 #include "solver/modified_pcg.hpp"
 
+#include "core/parallel.hpp"
 #include "solver/paper_pcg.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 namespace toile {
 namespace {
@@ -54,9 +56,15 @@ std::string PcgReport::explain() const {
 template <class T>
 void ModifiedPcg<T>::prepare(const LinearSystem<T>& system, const PcgOptions& options) {
   const auto n = static_cast<std::size_t>(system.size());
-  for (auto* vector : {&r_, &c_, &q_, &s_, &As_, &w_}) vector->resize(n);
+  for (auto* vector : {&r_, &c_, &q_, &s_, &As_, &w_, &Zy_}) vector->resize(n);
   for (auto* vector : {&start_, &work_, &work2_}) vector->resize(n);
   if (options.procedure == PcgProcedure::paper_1998) return;
+  domains_.cut(system.A().pattern());
+  domains_.sort_rows(system);
+  row_sums_.resize(system.rows().size());
+  parts_.resize(domains_.count());
+  coarse_parts_.resize(domains_.count());
+  for (auto& part : coarse_parts_) part.resize(static_cast<std::size_t>(coarse_.dimension()));
   if (options.preconditioner == Preconditioner::block_ssor_coarse) coarse_.factorise(system);
   if (options.preconditioner == Preconditioner::diagonal) {
     inverse_diagonal_.resize(n);
@@ -67,88 +75,176 @@ void ModifiedPcg<T>::prepare(const LinearSystem<T>& system, const PcgOptions& op
   }
 }
 
+// work(domain) for the domains of one member.
+template <class T>
+template <class Work>
+void ModifiedPcg<T>::for_own_domains(const Share& share, const Work& work) const {
+  for (auto d = static_cast<std::size_t>(share.member); d < domains_.count();
+       d += static_cast<std::size_t>(share.members))
+    work(d);
+}
+
+// part(i, sum) for every particle; the sum over all domains, the same for every member.
+template <class T>
+template <class Part>
+double ModifiedPcg<T>::sum_over_particles(Share& share, const Part& part) {
+  share.odd = !share.odd;  // the last sum's parts may still be read
+  const std::size_t which = share.odd ? 1 : 0;
+  for_own_domains(share, [&](std::size_t d) {
+    DotSum<T> sum;
+    for (auto i = static_cast<std::size_t>(domains_.begin(d)); i < static_cast<std::size_t>(domains_.end(d)); ++i)
+      part(i, sum);
+    parts_[d][which] = sum.value();
+  });
+  team_->barrier();
+  double sum = 0;
+  for (std::size_t d = 0; d < domains_.count(); ++d) sum += parts_[d][which];
+  return sum;
+}
+
 // s <- M^-1 r in the range of S, and As <- A' s.
 template <class T>
-void ModifiedPcg<T>::precondition(const LinearSystem<T>& system, Preconditioner kind) {
+void ModifiedPcg<T>::precondition(const LinearSystem<T>& system, Preconditioner kind, Share& share) {
   const std::size_t n = r_.size();
-  if (kind == Preconditioner::diagonal) {
-    for (std::size_t i = 0; i < n; ++i) s_[i] = inverse_diagonal_[i] * r_[i];
-    for (const Index i : system.constraints().constrained()) {
-      Lane<T>& s_i = s_[static_cast<std::size_t>(i)];
-      s_i = to_lane<T>(system.constraints().S(i) * to_vec3(s_i));
+  if (kind == Preconditioner::diagonal || kind == Preconditioner::block_jacobi) {  // by one member
+    if (kind == Preconditioner::diagonal) {
+      for (std::size_t i = 0; i < n; ++i) s_[i] = inverse_diagonal_[i] * r_[i];
+      for (const Index i : system.constraints().constrained()) {
+        Lane<T>& s_i = s_[static_cast<std::size_t>(i)];
+        s_i = to_lane<T>(system.constraints().S(i) * to_vec3(s_i));
+      }
+    } else {
+      for (std::size_t i = 0; i < n; ++i) s_[i] = system.filtered_inverse_block(static_cast<Index>(i)).times(r_[i]);
     }
     system.multiply(s_, As_);
     return;
   }
-  if (kind == Preconditioner::block_jacobi) {
-    for (std::size_t i = 0; i < n; ++i) s_[i] = system.filtered_inverse_block(static_cast<Index>(i)).times(r_[i]);
-    system.multiply(s_, As_);
-    return;
-  }
-  sweep(system);
-  if (kind == Preconditioner::block_ssor_coarse) coarse_.deflate(system, r_, s_, As_);
+  for_own_domains(share, [&](std::size_t d) { domains_.sweep(system, d, r_, s_, As_); });
+  add_rows(system, RowPart::off_diagonal, s_, As_, share);
+  for_own_domains(share, [&](std::size_t d) {
+    domains_.add_between(system, d, s_, As_);
+    domains_.filter(system, d, As_);
+  });
+  if (kind == Preconditioner::block_ssor_coarse) deflate(system, share);
 }
 
-// (D + L) D^-1 (D + U) s = r with A' = L + D + U + (rows off the diagonal): the rows enter the sweeps through D only.
-//   forward    y = (D + L)^-1 r        h = r - L y = D y
-//   backward   D s + U s = h,          so that A' s = h + L s + rows: L s is pushed while the row of U is at hand, and no
-//              product with A' is made at all                                                            [Eisenstat 1981]
+// y += R x.  All of x is complete when this returns, whoever made it.
 template <class T>
-void ModifiedPcg<T>::sweep(const LinearSystem<T>& system) {
-  const BlockPattern& pattern = system.A().pattern();
-  const std::size_t n = r_.size();
-  std::copy(r_.begin(), r_.end(), As_.begin());
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto row = static_cast<Index>(i);
-    const Lane<T> y = system.filtered_inverse_block(row).times(As_[i]);
-    s_[i] = y;
-    for (Slot slot = pattern.first_slot(row), end = pattern.end_slot(row); slot < end; ++slot)
-      As_[static_cast<std::size_t>(pattern.column(slot))] -= system.A().off_diagonal(slot).transpose_times(y);
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    const auto row = static_cast<Index>(i);
-    Lane<T> sum{0, 0, 0, 0};
-    const Slot begin = pattern.first_slot(row), end = pattern.end_slot(row);
-    for (Slot slot = begin; slot < end; ++slot)
-      sum += system.A().off_diagonal(slot).times(s_[static_cast<std::size_t>(pattern.column(slot))]);
-    const Lane<T> s = s_[i] - system.filtered_inverse_block(row).times(sum);
-    s_[i] = s;
-    for (Slot slot = begin; slot < end; ++slot)
-      As_[static_cast<std::size_t>(pattern.column(slot))] += system.A().off_diagonal(slot).transpose_times(s);
-  }
-  system.add_rows_off_diagonal(s_, As_);
-  system.filter(As_);
+void ModifiedPcg<T>::add_rows(const LinearSystem<T>& system, RowPart part, std::span<const Lane<T>> x,
+                              std::span<Lane<T>> y, const Share& share) {
+  team_->barrier();
+  if (row_sums_.empty()) return;
+  const std::size_t rows = row_sums_.size(), members = static_cast<std::size_t>(share.members),
+                    member = static_cast<std::size_t>(share.member);
+  system.sum_rows(part, rows * member / members, rows * (member + 1) / members, x, row_sums_);
+  team_->barrier();
+  for_own_domains(share, [&](std::size_t d) { domains_.add_rows(system, d, part, row_sums_, x, y); });
+}
+
+// s += Q (r - As),  As += A' Q (r - As): no residual is left in the coarse modes.
+template <class T>
+void ModifiedPcg<T>::deflate(const LinearSystem<T>& system, Share& share) {
+  for_own_domains(
+      share, [&](std::size_t d) { coarse_.restrict(domains_.begin(d), domains_.end(d), r_, As_, coarse_parts_[d]); });
+  team_->barrier();
+  if (share.member == 0) coarse_.solve(coarse_parts_);
+  team_->barrier();
+  for_own_domains(share,
+                  [&](std::size_t d) { coarse_.prolong(system, domains_.begin(d), domains_.end(d), s_, As_, Zy_); });
+  if (row_sums_.empty()) return;
+  add_rows(system, RowPart::whole, Zy_, As_, share);
+  for_own_domains(share, [&](std::size_t d) { domains_.filter(system, d, As_); });
 }
 
 // w += Q r,  r -= A' Q r: the residual of the coarse modes goes.
 template <class T>
-void ModifiedPcg<T>::correct_coarse_modes(const LinearSystem<T>& system) {
-  std::fill(s_.begin(), s_.end(), Lane<T>{0, 0, 0, 0});
-  std::fill(As_.begin(), As_.end(), Lane<T>{0, 0, 0, 0});
-  coarse_.deflate(system, r_, s_, As_);
-  for (std::size_t i = 0; i < r_.size(); ++i) {
+void ModifiedPcg<T>::correct_coarse_modes(const LinearSystem<T>& system, Share& share) {
+  const auto each = [&](const auto& work) {
+    for_own_domains(share, [&](std::size_t d) {
+      for (auto i = static_cast<std::size_t>(domains_.begin(d)); i < static_cast<std::size_t>(domains_.end(d)); ++i)
+        work(i);
+    });
+  };
+  each([&](std::size_t i) { s_[i] = As_[i] = Lane<T>{0, 0, 0, 0}; });
+  deflate(system, share);
+  each([&](std::size_t i) {
     w_[i] += s_[i];
     r_[i] -= As_[i];
-  }
+  });
 }
 
 template <class T>
-double ModifiedPcg<T>::residual_norm2(const LinearSystem<T>& system) const {
-  DotSum<T> sum;
-  for (std::size_t i = 0; i < r_.size(); ++i)
+double ModifiedPcg<T>::residual_norm2(const LinearSystem<T>& system, Share& share) {
+  return sum_over_particles(share, [&](std::size_t i, DotSum<T>& sum) {
     sum.add(r_[i], system.filtered_inverse_block(static_cast<Index>(i)).times(r_[i]));
-  return sum.value();
+  });
 }
 
-// r = S (b - A (start + w)), with the product in double.
+// r = S (b - A (start + w)), with the product in double; by one member, for all.
 template <class T>
-void ModifiedPcg<T>::true_residual(const LinearSystem<T>& system, std::span<const Vec3> b,
-                                   std::span<const Vec3> start) {
-  for (std::size_t i = 0; i < r_.size(); ++i) work_[i] = start[i] + to_vec3(w_[i]);
-  system.multiply_unfiltered(work_, work2_);
-  for (std::size_t i = 0; i < r_.size(); ++i) work2_[i] = b[i] - work2_[i];
-  system.constraints().filter(work2_);
-  for (std::size_t i = 0; i < r_.size(); ++i) r_[i] = to_lane<T>(work2_[i]);
+void ModifiedPcg<T>::true_residual(const LinearSystem<T>& system, std::span<const Vec3> b, const Share& share) {
+  team_->barrier();
+  if (share.member == 0) {
+    for (std::size_t i = 0; i < r_.size(); ++i) work_[i] = start_[i] + to_vec3(w_[i]);
+    system.multiply_unfiltered(work_, work2_);
+    for (std::size_t i = 0; i < r_.size(); ++i) work2_[i] = b[i] - work2_[i];
+    system.constraints().filter(work2_);
+    for (std::size_t i = 0; i < r_.size(); ++i) r_[i] = to_lane<T>(work2_[i]);
+  }
+  team_->barrier();
+}
+
+// What every member goes through.
+template <class T>
+void ModifiedPcg<T>::iterate(const LinearSystem<T>& system, std::span<const Vec3> b, const PcgOptions& options,
+                             Share& share, PcgReport& report) {
+  true_residual(system, b, share);
+  double residual2 = residual_norm2(system, share);
+  report.initial_residual = std::sqrt(residual2);
+  if (options.preconditioner == Preconditioner::block_ssor_coarse && report.initial_residual > report.target) {
+    correct_coarse_modes(system, share);  // deflation begins without residual in the coarse modes
+    residual2 = residual_norm2(system, share);
+  }
+  double delta = 0;
+  while (true) {
+    report.residual = std::sqrt(residual2);
+    if (!std::isfinite(residual2)) {
+      report.status = PcgStatus::not_finite;
+      return;
+    }
+    if (report.residual <= report.target) return;
+    if (report.iterations >= options.max_iterations) {
+      report.status = PcgStatus::iteration_limit;
+      return;
+    }
+    precondition(system, options.preconditioner, share);
+    const double delta_new = sum_over_particles(share, [&](std::size_t i, DotSum<T>& sum) { sum.add(r_[i], s_[i]); });
+    const T beta = report.iterations == 0 ? T(0) : static_cast<T>(delta_new / delta);
+    const bool first = report.iterations == 0;
+    const double curvature = sum_over_particles(share, [&](std::size_t i, DotSum<T>& sum) {
+      c_[i] = first ? s_[i] : s_[i] + c_[i] * beta;
+      q_[i] = first ? As_[i] : As_[i] + q_[i] * beta;
+      sum.add(c_[i], q_[i]);
+    });
+    delta = delta_new;
+    report.curvature = curvature;
+    if (!(curvature > 0)) {
+      report.status = std::isfinite(curvature) ? PcgStatus::not_positive_definite : PcgStatus::not_finite;
+      return;
+    }
+    const T alpha = static_cast<T>(delta / curvature);
+    residual2 = sum_over_particles(share, [&](std::size_t i, DotSum<T>& sum) {
+      w_[i] += c_[i] * alpha;
+      const Lane<T> r = r_[i] - q_[i] * alpha;
+      r_[i] = r;
+      sum.add(r, system.filtered_inverse_block(static_cast<Index>(i)).times(r));
+    });
+    ++report.iterations;
+    if (report.iterations % 50 == 0) {  // rounding of the recurrence is thrown away
+      true_residual(system, b, share);
+      residual2 = residual_norm2(system, share);
+    }
+  }
 }
 
 template <class T>
@@ -182,74 +278,26 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
     start_[i] = constraints.is_free(particle) ? dv[i] : Vec3(constraints.z(particle) + constraints.S(particle) * dv[i]);
     w_[i] = Lane<T>{0, 0, 0, 0};
   }
-  true_residual(system, b, start_);
-  double residual2 = residual_norm2(system);
-  report.initial_residual = std::sqrt(residual2);
+  const bool swept = options.preconditioner == Preconditioner::block_ssor ||
+                     options.preconditioner == Preconditioner::block_ssor_coarse;
+  const int members = swept ? std::min(available_threads(), static_cast<int>(domains_.count())) : 1;
+  if (!team_ || team_->members() != members) team_ = std::make_unique<Team>(members);
+  const PcgReport begun = report;
+  const auto work = [&](int member) {
+    Share share{member, members};
+    PcgReport own = begun;
+    iterate(system, b, options, share, own);
+    if (member == 0) report = own;
+  };
+  team_->run(std::cref(work));  // by reference: no copy of the lambda on the heap
 
-  const bool deflated =
-      options.preconditioner == Preconditioner::block_ssor_coarse && report.initial_residual > report.target;
-  if (deflated) {
-    correct_coarse_modes(system);  // deflation begins without residual in the coarse modes
-    residual2 = residual_norm2(system);
-  }
-
-  double delta = 0;
-  while (true) {
-    report.residual = std::sqrt(residual2);
-    if (!std::isfinite(residual2)) {
-      report.status = PcgStatus::not_finite;
-      break;
-    }
-    if (report.residual <= report.target) break;
-    if (report.iterations >= options.max_iterations) {
-      report.status = PcgStatus::iteration_limit;
-      break;
-    }
-    precondition(system, options.preconditioner);
-    DotSum<T> rs;
-    for (std::size_t i = 0; i < n; ++i) rs.add(r_[i], s_[i]);
-    const double delta_new = rs.value();
-    DotSum<T> cq;
-    if (report.iterations == 0) {
-      std::copy(s_.begin(), s_.end(), c_.begin());
-      std::copy(As_.begin(), As_.end(), q_.begin());
-      for (std::size_t i = 0; i < n; ++i) cq.add(c_[i], q_[i]);
-    } else {
-      const T beta = static_cast<T>(delta_new / delta);
-      for (std::size_t i = 0; i < n; ++i) {
-        c_[i] = s_[i] + c_[i] * beta;
-        q_[i] = As_[i] + q_[i] * beta;
-        cq.add(c_[i], q_[i]);
-      }
-    }
-    delta = delta_new;
-    const double curvature = cq.value();
-    report.curvature = curvature;
-    if (!(curvature > 0)) {
-      report.status = std::isfinite(curvature) ? PcgStatus::not_positive_definite : PcgStatus::not_finite;
-      break;
-    }
-    const T alpha = static_cast<T>(delta / curvature);
-    DotSum<T> rr;
-    for (std::size_t i = 0; i < n; ++i) {
-      w_[i] += c_[i] * alpha;
-      const Lane<T> r = r_[i] - q_[i] * alpha;
-      r_[i] = r;
-      rr.add(r, system.filtered_inverse_block(static_cast<Index>(i)).times(r));
-    }
-    residual2 = rr.value();
-    ++report.iterations;
-    if (report.iterations % 50 == 0) {  // rounding of the recurrence is thrown away
-      true_residual(system, b, start_);
-      residual2 = residual_norm2(system);
-    }
-  }
   for (std::size_t i = 0; i < n; ++i) {
     const auto particle = static_cast<Index>(i);
     const Vec3 w = to_vec3(w_[i]);
     dv[i] = start_[i] + (constraints.is_free(particle) ? w : Vec3(constraints.S(particle) * w));
   }
-  if (deflated && report) {
+  if (options.preconditioner == Preconditioner::block_ssor_coarse && report.initial_residual > report.target &&
+      report) {
     // What truncation left in the coarse modes goes, all in double: translations are among them, so that momentum is kept at
     // any tolerance.
     system.multiply_unfiltered(dv, work2_);

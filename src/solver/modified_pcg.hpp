@@ -10,9 +10,13 @@
 // relative 1e-3 would ignore gravity.  Never below 1e-5 |b'|: in a hit at 10 m/s and a step of 0.1 ms that is more than h m g, and
 // single precision gets no further.      What the printed 1998 listing does instead: docs/deviations.md#pcg
 #pragma once
+#include "core/team.hpp"
 #include "solver/coarse_space.hpp"
 #include "solver/linear_system.hpp"
+#include "solver/sweep_domains.hpp"
 
+#include <array>
+#include <memory>
 #include <string>
 
 namespace toile {
@@ -56,16 +60,36 @@ class ModifiedPcg {
                                 const PcgOptions& options, std::span<Vec3> dv);
 
  private:
-  void precondition(const LinearSystem<T>& system, Preconditioner kind);
-  void sweep(const LinearSystem<T>& system);
-  void correct_coarse_modes(const LinearSystem<T>& system);
-  double residual_norm2(const LinearSystem<T>& system) const;
-  void true_residual(const LinearSystem<T>& system, std::span<const Vec3> b, std::span<const Vec3> start);
+  // The members of a team go through the same iterations, each on its own domains; every scalar is the sum of the domains' parts in
+  // their order, which each member makes for itself after a barrier.
+  struct Share {
+    int member, members;
+    bool odd = false;  // which of the two sets of parts the next sum uses
+  };
+  void iterate(const LinearSystem<T>& system, std::span<const Vec3> b, const PcgOptions& options, Share& share,
+               PcgReport& report);
+  void precondition(const LinearSystem<T>& system, Preconditioner kind, Share& share);
+  void deflate(const LinearSystem<T>& system, Share& share);
+  void add_rows(const LinearSystem<T>& system, RowPart part, std::span<const Lane<T>> x, std::span<Lane<T>> y,
+                const Share& share);
+  void correct_coarse_modes(const LinearSystem<T>& system, Share& share);
+  double residual_norm2(const LinearSystem<T>& system, Share& share);
+  void true_residual(const LinearSystem<T>& system, std::span<const Vec3> b, const Share& share);
+  template <class Work>
+  void for_own_domains(const Share& share, const Work& work) const;
+  template <class Part>
+  double sum_over_particles(Share& share, const Part& part);
 
   CoarseSpace<T> coarse_;
-  std::vector<Lane<T>> r_, c_, q_;         // residual, direction, A' c
-  std::vector<Lane<T>> s_, As_, w_;        // M^-1 r, A' s, correction to the guess
-  std::vector<Lane<T>> inverse_diagonal_;  // of the diagonal preconditioner
+  SweepDomains<T> domains_;
+  std::unique_ptr<Team> team_;
+  std::vector<std::array<double, 2>> parts_;       // [domain] of sums over particles
+  std::vector<std::vector<double>> coarse_parts_;  // [domain] of Z^T r
+  std::vector<Lane<T>> r_, c_, q_;                 // residual, direction, A' c
+  std::vector<Lane<T>> s_, As_, w_;                // M^-1 r, A' s, correction to the guess
+  std::vector<Lane<T>> Zy_;                        // the coarse part of s
+  std::vector<T> row_sums_;                        // [row]
+  std::vector<Lane<T>> inverse_diagonal_;          // of the diagonal preconditioner
   Vec3s start_, work_, work2_;
 };
 

@@ -12,6 +12,7 @@ namespace {
 constexpr double static_over_kinetic = 1.02;  // hysteresis, so that stick and slip do not alternate at the cone
 constexpr double largest_alteration = 0.2;    // of the offset, per step
 constexpr double dead_band = 0.02;            // of the offset
+constexpr double deep = 0.5;                  // of the offset
 constexpr double slowest_slip = 1e-3;         // v_0, m/s
 constexpr double stick_below = 0.99;          // of v_0: below v_0 friction needs less than its cone
 constexpr double pull_of_weight = 0.01;       // a pull below this part of the particle's weight is solver noise
@@ -125,7 +126,8 @@ BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::sp
       if (gap < (1 - dead_band) * options_.offset_m) {
         near.lambda_n = 0;
         touch_down(near, state.v[i] + dv[i], step.h_s);
-        ++change.normal;
+        ++change.added;
+        if (gap < deep * options_.offset_m) ++change.deep;
         ++change.touching;
       }
       continue;
@@ -137,7 +139,7 @@ BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::sp
       near.touch = Touch::none;
       near.released = true;
       near.lambda_n = 0;
-      ++change.normal;
+      ++change.released;
       continue;
     }
     ++change.touching;

@@ -48,7 +48,8 @@ class BodyConstraints {
              std::vector<LinearSpring>& springs);
   // After a solve: releases, adds, and lets slip.  `first_passes`: releases are allowed.
   struct Change {
-    int normal = 0, slipped = 0, touching = 0;  // released or added; from stick to slip; in touch now
+    int released = 0, added = 0, deep = 0;  // deep: added that would end below half the offset
+    int slipped = 0, touching = 0;          // from stick to slip; in touch now
   };
   Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> e, const StepFormula& step,
                 bool first_passes);

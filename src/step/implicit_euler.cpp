@@ -248,9 +248,10 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
     const ContactRows::Change change = rows_.update(state, dv_, y_known_, step, report.passes <= 4);
     report.rows = change.active;
     const bool last = pcg_options.loosen == options_.pcg.loosen;
-    // A few particles that begin to slip, or rows that come and go, can wait for the next step; a missing contact cannot.
-    const bool settled =
-        body.normal == 0 && 20 * body.slipped <= body.touching && 20 * (change.added + change.dropped) <= change.active;
+    // A few particles that begin to slip, leave the body or end a little below the offset, or rows that come and go, can wait for
+    // the next step; cloth that would end near the body's surface cannot.
+    const bool settled = body.deep == 0 && 50 * (body.released + body.added) <= body.touching &&
+                         20 * body.slipped <= body.touching && 20 * (change.added + change.dropped) <= change.active;
     if ((settled && last) || pass >= options_.max_passes) return true;
     if (settled || pass + 1 >= options_.max_passes) pcg_options.loosen = options_.pcg.loosen;
   }

@@ -80,6 +80,7 @@ TEST(Conservation, EnergyNeverRisesWithoutDampingWhereAStepTurnsLittle) {
     for (ClothRun* run : {&flying, &falling}) {
       const bool turns = run == &falling;
       run->step.rows.cloth_cloth = false;
+      run->step.pcg.tolerance = 1e-6;  // the integrator's own: at 1e-3 what is left of the solve decides, 0.26 or 0.69
       run->adaptive.step_max_s = h;
       const double part = rises(*run, 2 * per_second, h);
       figures.add(turns ? "falls from two corners" : "crumpled and free", "h = 1/" + std::to_string(per_second) + " s",
