@@ -36,7 +36,8 @@ class BodyConstraints {
  public:
   BodyConstraints(const ClothModel& model, const BodySurface* body, const BodyContactOptions& options);
 
-  // L0: nearest body point of every particle that can reach the body within h_s.
+  // L0: nearest body point of every particle that comes to the body within h_s with its velocity and free fall.  Cloth that is
+  // under tension and is let go moves farther than that: `update` looks again for those.
   void detect(const ClothState& state, double h_s);
 
   // The active set with which a step begins; `dv` is the guess of the coming change of velocity.  The body's travel is read
@@ -46,7 +47,7 @@ class BodyConstraints {
   // `constraints` already holds are left to their pins.
   void apply(const ClothState& state, const StepFormula& step, ParticleConstraints& constraints, std::span<Vec3> y,
              std::vector<LinearSpring>& springs);
-  // After a solve: releases, adds, and lets slip.  `first_passes`: releases are allowed.
+  // After a solve: releases, adds (also what detect thought too far), and lets slip.  `first_passes`: releases are allowed.
   struct Change {
     int released = 0, added = 0, deep = 0;  // deep: added that would end below half the offset
     int slipped = 0, touching = 0;          // from stick to slip; in touch now
@@ -75,14 +76,17 @@ class BodyConstraints {
     double lambda_n = 0;      // N
     double slip_m_per_s = 0;  // |v_t| relative to the body
   };
+  void find_what_came_far(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step);
   void touch_down(Near& near, const Vec3& v, double h_s) const;
   double alteration(const Near& near) const;
 
   const ClothModel* model_;
   const BodySurface* body_;
   BodyContactOptions options_;
-  std::vector<BodyPoint> points_;  // [particle] scratch of detect
-  std::vector<Near> near_;         // ascending particles
+  std::vector<BodyPoint> points_;  // [particle] nearest point of the body; triangle -1: farther than reach_m_
+  std::vector<double> reach_m_;    // [particle] how far was looked
+  double farthest_travel_m_ = 0;   // of any vertex of the body in the step that detect was told of
+  std::vector<Near> near_;         // ascending particles, then those that `update` found
   std::vector<Touch> touch_;       // [particle] at the end of the last accepted step
   std::vector<double> lambda_n_;   // [particle] N, likewise
 };

@@ -94,6 +94,34 @@ TEST(BodyContact, ALandingDoesNotBounceAndAliftedSheetIsLetGo) {
   for (const Vec3& v : run.state.v) EXPECT_GT(v.y(), 0.6);
 }
 
+// At rest and without weight, nothing in the state says that the next step will reach the body.
+TEST(BodyContact, AClothAtRestThatIsPulledHardMeetsTheBodyInItsFirstStep) {
+  BodySurface slab = test::tilted_slab(1, 0.2, 0);
+  Sheet sheet = test::equilateral_sheet(0.2, 0.2, 0.02);
+  for (Vec3& p : sheet.x) p = Vec3(p.x() - 0.1, 3 * offset, p.z() + 0.1);
+  ModelOptions weightless;
+  weightless.gravity_m_per_s2.setZero();
+  ClothRun run(sheet, Fabric{}, weightless);
+  run.world.body = &slab;
+  run.adaptive.step_max_s = 1.0 / 60;
+  for (const Triangle& t : run.model.mesh.triangles) {  // a spring at every triangle, so that it comes down level
+    const Vec3 below = (run.state.x[static_cast<std::size_t>(t[0])] + run.state.x[static_cast<std::size_t>(t[1])] +
+                        run.state.x[static_cast<std::size_t>(t[2])]) /
+                           3 -
+                       Vec3(0, 0.03, 0);
+    Drag pull;
+    pull.particle = {t[0], t[1], t[2]};
+    pull.weight = {1.0 / 3, 1.0 / 3, 1.0 / 3};
+    pull.target = [below](double) { return below; };
+    pull.stiffness_N_per_m = 0.1;
+    run.world.drags.push_back(pull);
+  }
+  for (int frame = 0; frame < 5; ++frame) {
+    ASSERT_TRUE(run.frame(1.0 / 60).ok);
+    for (const Vec3& p : run.state.x) EXPECT_GT(p.y(), 0.9 * offset) << "frame " << frame;
+  }
+}
+
 TEST(BodyContact, PositionAlterationMovesWithoutGivingVelocity) {
   // Starts 1 mm too deep: the position is corrected within a few steps, and no particle is kicked.
   BodySurface slab = test::tilted_slab(1, 0.2, 0);
