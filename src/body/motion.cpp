@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::array<std::string_view, 5> names = {"stand", "sway", "walk", "twist", "dance"};
 constexpr double longest_lead_in_s = 10, two_pi = 6.283185307179586;
+// The smooth minimum over six points lies below the lowest one; so much less of the sole is in the floor.
+constexpr double soles_above_m = 0.004;
 
 }  // namespace
 
@@ -67,38 +69,43 @@ Posture Motion::posture(double t_s) const {
   const double share = share_at(t_s);
   if (share == 0) return {};
   Posture p = motion_(t_s - lead_in_s_);
-  if (share < 1) p.scale(share);
+  if (share < 1) blend(p, share);
   return p;
+}
+
+void Motion::blend(Posture& p, double share) const {
+  const Posture full = p;
+  p.scale(share);
+  if (!level_) return;
+  for (const Side side : {Side::left, Side::right}) {
+    const double pitch = full(Channel::leg_forward, side) - full(Channel::pelvis_tilt) - full(Channel::knee, side) +
+                         full(Channel::ankle, side);
+    p(Channel::ankle, side) += share * (share - 1.0) * pitch;
+  }
 }
 
 void Motion::level_pelvis() {
   constexpr int samples = 96;
   for (int k = 0; k < samples; ++k) {
-    const double share = static_cast<double>(k) / samples;
+    const double share = static_cast<double>(k) / samples, angle = 2 * two_pi * share;
     const double y = make_pose(motion_(share * period_s_), legs_, joints_).root_m.y();
     height_[0] += y / samples;
-    for (const std::size_t harmonic : {std::size_t{2}, std::size_t{4}}) {
-      const double angle = two_pi * static_cast<double>(harmonic) * share;
-      height_[harmonic - 1] += 2 * y * ieee_cos(angle) / samples;
-      height_[harmonic] += 2 * y * ieee_sin(angle) / samples;
-    }
+    height_[1] += 2 * y * ieee_cos(angle) / samples;
+    height_[2] += 2 * y * ieee_sin(angle) / samples;
   }
+  height_[0] += soles_above_m;
   level_ = true;
 }
 
 double Motion::level_height(double t_s) const {
-  const double angle = two_pi * (t_s / period_s_ - std::floor(t_s / period_s_));
-  return height_[0] + height_[1] * ieee_cos(2 * angle) + height_[2] * ieee_sin(2 * angle) +
-         height_[3] * ieee_cos(4 * angle) + height_[4] * ieee_sin(4 * angle);
+  const double angle = 2 * two_pi * (t_s / period_s_ - std::floor(t_s / period_s_));
+  return height_[0] + height_[1] * ieee_cos(angle) + height_[2] * ieee_sin(angle);
 }
 
 Pose Motion::at(double t_s) const {
   Pose pose = make_pose(posture(t_s), legs_, joints_);
-  const double share = share_at(t_s), in_motion_s = t_s - lead_in_s_;
-  if (level_ && share > 0) {
-    const double by_soles = share < 1 ? make_pose(motion_(in_motion_s), legs_, joints_).root_m.y() : pose.root_m.y();
-    pose.root_m.y() += share * (level_height(in_motion_s) - by_soles);
-  }
+  const double share = share_at(t_s);
+  if (level_) pose.root_m.y() = share * share * level_height(t_s - lead_in_s_);
   return pose;
 }
 

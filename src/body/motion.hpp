@@ -4,9 +4,10 @@
 // s(u) = u^3 (10 - 15 u + 6 u^2), so that at t = 0 it rests, and the join is C2.  After that the motion repeats with its
 // period.  All is C1 in time (C2 but for a knee at full stretch), so that cloth sees no jump in a body's velocity.
 //
-// Soles that take turns on the floor would leave corners in the height of the walking pelvis, which a person's joints
-// soften: it follows its own mean and its parts of twice and four times per stride, and the soles stay within a
-// centimetre of the floor.
+// A pelvis that followed the soles would have a corner whenever they take turns on the floor.  The walking one goes by the
+// mean of that height and its part of twice per stride; soles stay within a centimetre of the floor.  On the way into the
+// walk, with s = share of the motion, angles go with s but the pitch of a foot with s^2, as what bent legs lose in height
+// does: then the pelvis' height goes with s^2 too.
 //
 // Mind: walking is on a treadmill, the pelvis stays over the origin and the standing foot slides backwards.
 //                                                                                                      docs/motions.md
@@ -53,11 +54,12 @@ class Motion {
   MannequinKind kind_ = MannequinKind::woman;
   double period_s_ = 1, lead_in_s_ = 1;
   Legs legs_ = Legs::planted;
-  std::array<double, 5> height_{};  // m: mean, then cosine and sine of twice and four times per period
+  std::array<double, 3> height_{};  // m: mean, cosine and sine of twice per period
   bool level_ = false;              // the pelvis goes by height_, not by the soles
   void level_pelvis();
   double level_height(double t_s) const;
   double share_at(double t_s) const;  // of the motion against the A-pose
+  void blend(Posture& p, double share) const;
   Function motion_ = nullptr;
   std::vector<Joint> joints_;
 };
