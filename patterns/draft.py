@@ -290,8 +290,8 @@ def bodice(garment, which, body, z, chest, hem, underarm_y, hem_y, neck_half, ne
     return next(p for p in garment.panels if p.name == which)
 
 
-def sleeves(garment, body, fronts, half_arm, cap, sleeve_end, wrist, cuff, cuff_height, cuff_b, turn=-45, ease=1.01):
-    """Two halves each along the arm, and elastic cuffs; wrist and cuff are half girths."""
+def sleeves(garment, body, fronts, half_arm, cap, sleeve_end, wrist, cuff, cuff_height, cuff_b, drop=0, turn=-45, ease=1.01):
+    """Two halves each along the arm, and elastic cuffs; wrist and cuff are half girths; the wrist is drawn `drop` below the arm's axis."""
     c = math.cos(math.radians(turn))
     joint = body["joint"]
     out = lambda d: (round(joint[0] + d * c, 3), round(joint[1] - d * c, 3))
@@ -301,12 +301,12 @@ def sleeves(garment, body, fronts, half_arm, cap, sleeve_end, wrist, cuff, cuff_
     for which, z, span in (("front", 13, spans[0]), ("back", -18, spans[1])):
         p = cap_line(span - low, low)
         sleeve = Panel("left_sleeve_" + which, "arm", (*out(5), z), turn, start=p[0])
-        sleeve.to(*p[3], *p[1:3], name="cap").to(sleeve_end, -wrist / 2, name="under").to(sleeve_end, wrist / 2, name="wrist")
+        sleeve.to(*p[3], *p[1:3], name="cap").to(sleeve_end, -wrist / 2 - drop, name="under").to(sleeve_end, wrist / 2 - drop, name="wrist")
         sleeve.to(*p[0], name="over")
         garment.pair(sleeve)
-        band = Panel("left_cuff_" + which, "arm", (*out(6), z), turn, start=(sleeve_end, -cuff / 2))
-        band.to(sleeve_end + cuff_height, -cuff / 2, name="under").to(sleeve_end + cuff_height, cuff / 2, name="end")
-        band.to(sleeve_end, cuff / 2, name="over").to(sleeve_end, -cuff / 2, name="wrist")
+        band = Panel("left_cuff_" + which, "arm", (*out(6), z), turn, start=(sleeve_end, -cuff / 2 - drop))
+        band.to(sleeve_end + cuff_height, -cuff / 2 - drop, name="under").to(sleeve_end + cuff_height, cuff / 2 - drop, name="end")
+        band.to(sleeve_end, cuff / 2 - drop, name="over").to(sleeve_end, -cuff / 2 - drop, name="wrist")
         if cuff_b != 1:
             band.elastic(u=cuff_b)
         garment.pair(band)
@@ -421,16 +421,16 @@ def pants(name, body, ease, band, band_height, band_b, waist_y, hem_y, hem):
 # ---- the garments ----
 
 def garments():
-    blouse_sleeve = dict(half_arm=9.5, cap=12, sleeve_end=48.5, wrist=14, cuff=11.5, cuff_height=4, cuff_b=0.76)
+    blouse_sleeve = dict(half_arm=9.5, cap=11, sleeve_end=51, wrist=14, cuff=11.5, cuff_height=4, cuff_b=0.76, drop=3)
     shirt_sleeve = dict(half_arm=11, cap=13, sleeve_end=54.5, wrist=13, cuff=12, cuff_height=5, cuff_b=1)
     shirt = top("man_shirt", MAN, (28.0, 27.6), (26.8, 26.4), 126, 85, (9.0, 9.5, 1.5), 0, shirt_sleeve, 1.5)
     collar(shirt, MAN, 3.0, 5.0, -120, None)
     return [
         shirt,
-        pants("man_pants", MAN, 8, 88, 4, 0.86, 104, 9.5, (22, 24)),
+        pants("man_pants", MAN, 8, 88, 4, 0.83, 104, 9.5, (22, 24)),
         skirt("short_skirt", DANCER, 38, 72, 1.04, 46, slit=15),
         skirt("long_skirt", DANCER, 84, 72, 1.12, 84),
-        top("blouse", DANCER, (26.2, 25.6), (27, 26.5), 120.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve, 1.5),
+        top("blouse", DANCER, (26.2, 26.6), (27, 26.5), 120.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve, 1.5),
     ]
 
 
