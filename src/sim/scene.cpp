@@ -12,7 +12,6 @@ namespace toile {
 namespace {
 
 constexpr double most_seconds = 3600, most_fps = 1000;
-constexpr double air_at_sea_level_kg_per_m3 = 1.2;
 
 // A number in low <= x <= high (or low < x when `open`), in words that name the range.
 double number_in(const Json& value, double low, double high, bool open = false) {
@@ -290,10 +289,7 @@ SceneBody read_body(const Json& value, const std::string& file) {
 void read_world(const Json& value, Scene& scene) {
   value.allow_only({"gravity_m_per_s2", "wind_m_per_s", "air_density_kg_per_m3"});
   if (const Json* gravity = value.find("gravity_m_per_s2")) scene.gravity_m_per_s2 = vector_of(*gravity, 1000);
-  if (const Json* wind = value.find("wind_m_per_s")) {
-    scene.air.wind_m_per_s = vector_of(*wind, 100);
-    if (!scene.air.wind_m_per_s.isZero(0)) scene.air.density_kg_per_m3 = air_at_sea_level_kg_per_m3;
-  }
+  if (const Json* wind = value.find("wind_m_per_s")) scene.air.wind_m_per_s = vector_of(*wind, 100);
   read_number(value, "air_density_kg_per_m3", scene.air.density_kg_per_m3, 1, 0, 1e3);
 }
 

@@ -106,7 +106,7 @@ struct Scene {
   std::vector<SceneCloth> cloth;
   SceneBody body;
   Vec3 gravity_m_per_s2{0, -9.81, 0};
-  AirOptions air;  // density 0: none, unless a wind or a density is given
+  AirOptions air{.density_kg_per_m3 = 1.2};  // still, at sea level; density 0: none
 
   double fps = 30, seconds = 5;      // of the motion, where the body moves; otherwise of the drape
   bool seconds_given = false;        // false: a motion from a file runs to its end
