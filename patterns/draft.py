@@ -427,7 +427,7 @@ def garments():
     collar(shirt, MAN, 3.0, 5.0, -120, None)
     return [
         shirt,
-        pants("man_pants", MAN, 8, 88, 4, 0.83, 104, 9.5, (22, 24)),
+        pants("man_pants", MAN, 8, 88, 4, 0.86, 104, 9.5, (22, 24)),
         skirt("short_skirt", DANCER, 38, 72, 1.04, 46, slit=15),
         skirt("long_skirt", DANCER, 84, 72, 1.12, 84),
         top("blouse", DANCER, (26.2, 26.6), (27, 26.5), 120.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve, 1.5),
