@@ -67,6 +67,14 @@ void BodySurface::set_motion(std::span<const Vec3> start, std::span<const Vec3> 
   update_normals();
 }
 
+Vec3 BodySurface::normal_midway(Index triangle, const Vec3& normal) const {
+  const auto& [a, b, c] = triangles_[static_cast<std::size_t>(triangle)];
+  const auto x = [&](Index i) -> const Vec3& { return end_[static_cast<std::size_t>(i)]; };
+  const Vec3 turn = unit_or_zero((x(b) - x(a)).cross(x(c) - x(a))) - face_normal(triangle);
+  if (turn.squaredNorm() < 1e-20) return normal;
+  return unit_or_zero(normal + 0.5 * turn);
+}
+
 void BodySurface::update_normals() {
   const auto x = [&](Index i) -> const Vec3& { return start_[static_cast<std::size_t>(i)]; };
   face_normals_.resize(triangles_.size());

@@ -65,6 +65,9 @@ class BodySurface {
     return end_[static_cast<std::size_t>(vertex)] - start_[static_cast<std::size_t>(vertex)];
   }
 
+  // Where a normal at a triangle points in the middle of the step, which may turn it: n + (N_end - N_now)/2, at unit length.
+  Vec3 normal_midway(Index triangle, const Vec3& normal) const;
+
   // Unit pseudonormals of the body as it is now.
   const Vec3& face_normal(Index triangle) const { return face_normals_[static_cast<std::size_t>(triangle)]; }
   const Vec3& vertex_normal(Index vertex) const { return vertex_normals_[static_cast<std::size_t>(vertex)]; }

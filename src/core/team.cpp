@@ -59,6 +59,7 @@ void Team::barrier() {
     if (k < spins) {
       pause();
     } else {
+      if (k == spins) long_waits_.fetch_add(1, std::memory_order_relaxed);
       std::this_thread::yield();
     }
   }

@@ -24,6 +24,10 @@ class Team {
   // the same barriers.
   void run(const std::function<void(int member)>& work);
 
+  // How often a member has waited so long that it gave its core away, since the last call.  Many: the machine has other work, and one
+  // member alone would be faster.
+  int take_long_waits() { return long_waits_.exchange(0, std::memory_order_relaxed); }
+
   // Inside run: waits until every member is here.  What each wrote before is seen by all after.
   void barrier();
 
@@ -35,6 +39,7 @@ class Team {
   std::atomic<unsigned> started_{0};  // runs begun; the members sleep on it
   std::atomic<int> arrived_{0};
   std::atomic<unsigned> passed_{0};  // barriers passed
+  std::atomic<int> long_waits_{0};
   bool over_ = false;
   std::vector<std::thread> threads_;
 };

@@ -15,6 +15,9 @@ namespace {
 template <class T>
 constexpr double rounding_floor = sizeof(T) == sizeof(float) ? 1e-5 : 1e-13;
 
+constexpr int usual_long_waits = 4;  // of a solve on a quiet machine: residuals in double, made by one
+constexpr int solves_until_next_try = 100;
+
 }  // namespace
 
 std::string_view to_string(Preconditioner preconditioner) {
@@ -248,6 +251,17 @@ void ModifiedPcg<T>::iterate(const LinearSystem<T>& system, std::span<const Vec3
 }
 
 template <class T>
+Team& ModifiedPcg<T>::team_for(const PcgOptions& options) {
+  const bool swept = options.preconditioner == Preconditioner::block_ssor ||
+                     options.preconditioner == Preconditioner::block_ssor_coarse;
+  const int members = swept ? std::min(available_threads(), static_cast<int>(domains_.count())) : 1;
+  if (solves_alone_ > 0) --solves_alone_;
+  if (members == 1 || solves_alone_ > 0) return *alone_;
+  if (!all_ || all_->members() != members) all_ = std::make_unique<Team>(members);
+  return *all_;
+}
+
+template <class T>
 PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const Vec3> b, std::span<const Vec3> reference,
                                 const PcgOptions& options, std::span<Vec3> dv) {
   if (options.procedure == PcgProcedure::paper_1998)
@@ -278,10 +292,8 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
     start_[i] = constraints.is_free(particle) ? dv[i] : Vec3(constraints.z(particle) + constraints.S(particle) * dv[i]);
     w_[i] = Lane<T>{0, 0, 0, 0};
   }
-  const bool swept = options.preconditioner == Preconditioner::block_ssor ||
-                     options.preconditioner == Preconditioner::block_ssor_coarse;
-  const int members = swept ? std::min(available_threads(), static_cast<int>(domains_.count())) : 1;
-  if (!team_ || team_->members() != members) team_ = std::make_unique<Team>(members);
+  team_ = &team_for(options);
+  const int members = team_->members();
   const PcgReport begun = report;
   const auto work = [&](int member) {
     Share share{member, members};
@@ -290,6 +302,7 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
     if (member == 0) report = own;
   };
   team_->run(std::cref(work));  // by reference: no copy of the lambda on the heap
+  if (team_->take_long_waits() > usual_long_waits + report.iterations / 4) solves_alone_ = solves_until_next_try;
 
   for (std::size_t i = 0; i < n; ++i) {
     const auto particle = static_cast<Index>(i);

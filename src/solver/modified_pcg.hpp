@@ -82,7 +82,13 @@ class ModifiedPcg {
 
   CoarseSpace<T> coarse_;
   SweepDomains<T> domains_;
-  std::unique_ptr<Team> team_;
+  // On a machine with other work members wait for each other longer than they work: then one does it all for a while.  Speed only;
+  // the bits do not depend on who does what.
+  Team& team_for(const PcgOptions& options);
+  std::unique_ptr<Team> alone_ = std::make_unique<Team>(1);
+  std::unique_ptr<Team> all_;
+  Team* team_ = alone_.get();                      // of this solve
+  int solves_alone_ = 0;                           // to come
   std::vector<std::array<double, 2>> parts_;       // [domain] of sums over particles
   std::vector<std::vector<double>> coarse_parts_;  // [domain] of Z^T r
   std::vector<Lane<T>> r_, c_, q_;                 // residual, direction, A' c

@@ -48,8 +48,14 @@ void BodyConstraints::detect(const ClothState& state, double h_s) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const BodyPoint& point = points_[i];
     if (point.triangle < 0) continue;
-    near_.push_back({static_cast<Index>(i), point, Vec3::Zero()});
+    near_.push_back({static_cast<Index>(i), point, Vec3::Zero(), point.normal});
   }
+}
+
+// The body's motion over the step, of which it may have been told anew.
+void BodyConstraints::Near::follow(const BodySurface& body) {
+  body_travel = body.travel(point.triangle, point.barycentric);
+  normal = body.normal_midway(point.triangle, point.normal);
 }
 
 // What is at rest before a step says nothing of the forces that will move it: a seam that is welded under tension, without gravity,
@@ -64,7 +70,8 @@ void BodyConstraints::find_what_came_far(const ClothState& state, std::span<cons
     reach_m_[i] = reach;
     points_[i] = body_->nearest(state.x[i], reach);
     if (points_[i].triangle < 0) continue;
-    Near near{particle, points_[i], body_->travel(points_[i].triangle, points_[i].barycentric)};
+    Near near{particle, points_[i], Vec3::Zero(), points_[i].normal};
+    near.follow(*body_);
     near.lambda_n = lambda_n_[i];
     near_.push_back(near);
   }
@@ -73,11 +80,11 @@ void BodyConstraints::find_what_came_far(const ClothState& state, std::span<cons
 // A new contact slides: what friction does to it is decided by the solve.
 void BodyConstraints::touch_down(Near& near, const Vec3& v, double h_s) const {
   const Vec3 relative = v - near.body_travel / h_s;
-  const double v_n = near.point.normal.dot(relative);
+  const double v_n = near.normal.dot(relative);
   near.touch = Touch::slides;
-  near.slip_m_per_s = (relative - v_n * near.point.normal).norm();
+  near.slip_m_per_s = (relative - v_n * near.normal).norm();
   if (near.lambda_n <= 0) {
-    const double stop = -v_n / h_s - near.point.normal.dot(model_->gravity_m_per_s2);
+    const double stop = -v_n / h_s - near.normal.dot(model_->gravity_m_per_s2);
     near.lambda_n = model_->mass_kg[at(near.particle)] * std::max(0.0, stop);
   }
 }
@@ -86,11 +93,11 @@ void BodyConstraints::begin(const ClothState& state, std::span<const Vec3> dv, c
   for (Near& near : near_) {
     const std::size_t i = at(near.particle);
     near.released = near.slipped = false;
-    near.body_travel = body_->travel(near.point.triangle, near.point.barycentric);
+    near.follow(*body_);
     near.lambda_n = lambda_n_[i];
     near.touch = Touch::none;
     const Vec3 travel = step.drift(near.particle) + step.weight_s * (state.v[i] + dv[i]) - near.body_travel;
-    if (touch_[i] == Touch::none && near.point.gap_m + near.point.normal.dot(travel) >= options_.offset_m) continue;
+    if (touch_[i] == Touch::none && near.point.gap_m + near.normal.dot(travel) >= options_.offset_m) continue;
     touch_down(near, state.v[i] + dv[i], step.h_s);
     if (touch_[i] == Touch::sticks && options_.friction > 0) near.touch = Touch::sticks;
   }
@@ -109,7 +116,7 @@ void BodyConstraints::apply(const ClothState& state, const StepFormula& step, Pa
     near.pinned = !constraints.is_free(near.particle);
     if (near.touch == Touch::none || near.pinned) continue;
     const std::size_t i = at(near.particle);
-    const Vec3& n = near.point.normal;
+    const Vec3& n = near.normal;
     const Vec3 z = (near.body_travel - step.drift(near.particle)) / step.weight_s - state.v[i];
     y[i] = alteration(near) * n;
     if (near.touch == Touch::sticks) {
@@ -137,7 +144,7 @@ BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::sp
   for (Near& near : near_) {
     if (near.pinned) continue;
     const std::size_t i = at(near.particle);
-    const Vec3& n = near.point.normal;
+    const Vec3& n = near.normal;
     const Vec3 velocity =
         state.v[i] + dv[i] - near.body_travel / step.h_s;  // relative to the body, at the end of the step
     if (near.touch == Touch::none) {

@@ -8,6 +8,8 @@
 //              it, so that friction stops a particle and never turns it round
 //   sticks     S = 0,          z = v_body - v                    while |lambda_t| <= mu_s lambda_n
 //              entered from a slide that ended slower than v_0: friction then needed less than its cone
+//   n          the contact's normal in the middle of the step.  With that of its start a round body that turns by theta under cloth that
+//              stays would draw the cloth in by R theta^2/2, with that of its end push it out by as much; midway neither.
 //   y          position alteration: min(r - gap, 0.2 r) n, zero while 0 <= r - gap < 0.02 r; negative lets a predicted contact land exactly
 //              on the offset.  It moves the particle and tells its neighbours through K y, and is never part of v.
 //   release    lambda_n < 0: the body would have to pull.  Within the same step (the paper: in the next), once per particle and step.
@@ -71,10 +73,12 @@ class BodyConstraints {
     Index particle;
     BodyPoint point;
     Vec3 body_travel;  // of the contact's material point over the step, m
+    Vec3 normal;       // of the contact, in the middle of the step
     Touch touch = Touch::none;
     bool released = false, slipped = false, pinned = false;
     double lambda_n = 0;      // N
     double slip_m_per_s = 0;  // |v_t| relative to the body
+    void follow(const BodySurface& body);
   };
   void find_what_came_far(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step);
   void touch_down(Near& near, const Vec3& v, double h_s) const;
