@@ -15,7 +15,8 @@ namespace {
 template <class T>
 constexpr double rounding_floor = sizeof(T) == sizeof(float) ? 1e-5 : 1e-13;
 
-constexpr int usual_long_waits = 4;  // of a solve on a quiet machine: residuals in double, made by one
+constexpr int usual_long_waits =
+    4;  // of a solve on a quiet machine, besides one per iteration: residuals in double, made by one
 constexpr int solves_until_next_try = 100;
 
 }  // namespace
@@ -302,7 +303,7 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
     if (member == 0) report = own;
   };
   team_->run(std::cref(work));  // by reference: no copy of the lambda on the heap
-  if (team_->take_long_waits() > usual_long_waits + report.iterations / 4) solves_alone_ = solves_until_next_try;
+  if (team_->take_long_waits() > usual_long_waits + report.iterations) solves_alone_ = solves_until_next_try;
 
   for (std::size_t i = 0; i < n; ++i) {
     const auto particle = static_cast<Index>(i);
