@@ -307,8 +307,8 @@ void read_time(const Json& value, Scene& scene) {
 }
 
 void read_solver(const Json& value, Scene& scene) {
-  value.allow_only(
-      {"preconditioner", "tolerance", "procedure", "newton_iterations", "paper_scaling", "damping_jacobian"});
+  value.allow_only({"preconditioner", "tolerance", "procedure", "newton_iterations", "relinearisations",
+                    "paper_scaling", "damping_jacobian"});
   static constexpr std::array<std::string_view, 2> procedures = {"prefiltered", "paper_1998"};
   if (const Json* procedure = value.find("procedure"))
     scene.procedure = one_of(*procedure, procedures) == 0 ? PcgProcedure::prefiltered : PcgProcedure::paper_1998;
@@ -316,6 +316,11 @@ void read_solver(const Json& value, Scene& scene) {
     const double count = number_in(*iterations, 1, 3);
     if (count != std::floor(count)) iterations->fail("1, 2 or 3", iterations->describe());
     scene.newton_iterations = static_cast<int>(count);
+  }
+  if (const Json* relinearisations = value.find("relinearisations")) {
+    const double count = number_in(*relinearisations, 0, 10);
+    if (count != std::floor(count)) relinearisations->fail("a whole number from 0 to 10", relinearisations->describe());
+    scene.relinearisations = static_cast<int>(count);
   }
   if (const Json* name = value.find("preconditioner")) {
     static constexpr std::array all = {Preconditioner::diagonal, Preconditioner::block_jacobi,

@@ -331,6 +331,7 @@ StepOptions step_options(const Scene& scene, const Fabric& fabric, double edge_m
   step.pcg.procedure = scene.procedure;
   step.integrator = scene.integrator;
   step.newton_iterations = scene.newton_iterations;
+  step.relinearisations = scene.relinearisations;
   step.rows.cloth_cloth = scene.self_contact;
   step.body.offset_m = scene.body.offset_m.value_or(default_offset_m(edge_m));
   step.body.friction = scene.body.friction.value_or(fabric.friction);
@@ -406,6 +407,7 @@ void add_to_hash(const Scene& scene, Hash& hash) {
   add(hash, static_cast<double>(scene.procedure));
   add(hash, static_cast<double>(scene.integrator));
   add(hash, static_cast<double>(scene.newton_iterations));
+  add(hash, static_cast<double>(scene.relinearisations));
   add(hash, scene.paper_scaling ? 1.0 : 0.0);
   add(hash, static_cast<double>(scene.damping_jacobian));
   add(hash, scene.contact_thickness_m);

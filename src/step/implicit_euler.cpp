@@ -9,6 +9,8 @@ namespace toile {
 namespace {
 
 constexpr double loose_passes = 10;  // times the residual at which the last pass stops
+constexpr int contact_passes =
+    2;  // before the ends of a step are worth judging: the first guess of the contacts is poor
 
 }  // namespace
 
@@ -121,6 +123,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
       elements_.evaluate(*model_, state);  // Newton iterations of a refused attempt left them elsewhere
     evaluated_at_state_ = true;
     assemble(state, t_s, step);
+    linearised_is_old_ = true;
     force_linearised_ = force_;
     if (world_->air.density_kg_per_m3 > 0) air_.add_forces(force_linearised_);
     x_linearised_ = state.x;
@@ -137,12 +140,8 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   candidate.x.resize(n);
   candidate.v.resize(n);
   for (int iteration = 1;; ++iteration) {
-    if (!solve_with_contacts(state, t_s, step, iteration, report)) return report;
-    for (std::size_t i = 0; i < n; ++i) {
-      candidate.v[i] = state.v[i] + dv_[i];
-      moved_[i] = step.drift(static_cast<Index>(i)) + step.weight_s * candidate.v[i];
-      candidate.x[i] = state.x[i] + moved_[i] + y_[i];
-    }
+    if (!solve_with_contacts(state, t_s, step, iteration, limits, candidate, report)) return report;
+    find_end(state, step, candidate);
     if (iteration >= options_.newton_iterations) break;
     const Timed timed(seconds_.eval);
     relinearise(state, t_s, step, candidate);
@@ -167,11 +166,21 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   return report;
 }
 
+// Where the step ends by the last solve.
+void ImplicitEuler::find_end(const ClothState& state, const StepFormula& step, ClothState& candidate) {
+  for (std::size_t i = 0; i < dv_.size(); ++i) {
+    candidate.v[i] = state.v[i] + dv_[i];
+    moved_[i] = step.drift(static_cast<Index>(i)) + step.weight_s * candidate.v[i];
+    candidate.x[i] = state.x[i] + moved_[i] + y_[i];
+  }
+}
+
 // About the end x^k that the last solve found, with the unknown dv still counted from v:
 //   f(x', v') = f(x^k, v) - K (x' - x^k) - D dv          at x' = x + drift + H (v + dv) + y
 void ImplicitEuler::relinearise(const ClothState& state, double t_s, const StepFormula& step,
                                 const ClothState& candidate) {
   evaluated_at_state_ = false;
+  linearised_is_old_ = true;
   x_linearised_ = candidate.x;
   elements_.evaluate(*model_, {candidate.x, state.v});
   elements_.forces(force_linearised_);
@@ -185,7 +194,7 @@ void ImplicitEuler::relinearise(const ClothState& state, double t_s, const StepF
 }
 
 bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, const StepFormula& step, int iteration,
-                                        StepReport& report) {
+                                        const StepLimits& limits, ClothState& candidate, StepReport& report) {
   const std::size_t n = force_.size();
   const double H = step.weight_s;
   // Passes that only look for the active set are solved loosely; the one that is kept, to the tolerance asked for.
@@ -211,13 +220,14 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
       implicit_rows_.clear();
       for (const LinearSpring& spring : springs_)
         implicit_rows_.push_back(implicit_row(spring, H, state.v, drifts ? displacement_ : y_known_, step.h_s));
-      if (pass == 1 || y_known_ != y_linearised_) {  // f - K (x + drift + H v + y - x^k) changes with y only
+      if (linearised_is_old_ || y_known_ != y_linearised_) {  // f - K (x + drift + H v + y - x^k)
+        linearised_is_old_ = false;
         y_linearised_ = y_known_;
         linearised_ = force_linearised_;
         for (std::size_t i = 0; i < n; ++i) {
           displacement_[i] = H * state.v[i] + y_known_[i];
           if (drifts) displacement_[i] += step.drift_m[i];
-          if (iteration > 1) displacement_[i] += state.x[i] - x_linearised_[i];
+          if (!evaluated_at_state_) displacement_[i] += state.x[i] - x_linearised_[i];
         }
         elements_.subtract_stiffness(displacement_, linearised_);
       }
@@ -247,13 +257,23 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
     const BodyConstraints::Change body = body_.update(state, dv_, e_, step, report.passes <= 2);
     const ContactRows::Change change = rows_.update(state, dv_, y_known_, step, report.passes <= 4);
     report.rows = change.active;
+    if (pass >= contact_passes && report.relinearised < options_.relinearisations) {
+      find_end(state, step, candidate);
+      if (largest_stretch_change(candidate).change > limits.stretch) {
+        const Timed again(seconds_.eval);
+        relinearise(state, t_s, step, candidate);
+        ++report.relinearised;
+        continue;
+      }
+    }
     const bool last = pcg_options.loosen == options_.pcg.loosen;
     // A few particles that begin to slip, leave the body or end a little below the offset, or rows that come and go, can wait for
     // the next step; cloth that would end near the body's surface cannot.
     const bool settled = body.deep == 0 && 50 * (body.released + body.added) <= body.touching &&
                          20 * body.slipped <= body.touching && 20 * (change.added + change.dropped) <= change.active;
-    if ((settled && last) || pass >= options_.max_passes) return true;
-    if (settled || pass + 1 >= options_.max_passes) pcg_options.loosen = options_.pcg.loosen;
+    const int passes_left = options_.max_passes + report.relinearised - pass;
+    if ((settled && last) || passes_left <= 0) return true;
+    if (settled || passes_left == 1) pcg_options.loosen = options_.pcg.loosen;
   }
 }
 
@@ -274,18 +294,28 @@ void ImplicitEuler::judge(const StepLimits& limits, const ClothState& candidate,
   }
   if (!report) return;
   const Timed timed(seconds_.eval);
+  const StretchChange largest = largest_stretch_change(candidate);
+  report.stretch_change = largest.change;
+  report.worst_triangle = largest.triangle;
+  if (largest.change > limits.stretch) report.status = StepStatus::stretched;
+}
+
+// Only changes away from the rest length count: a thread that relaxes is not diverging, however fast.  One that is pushed together
+// counts by its energy, k c C^2 / 2: a squeeze of s is as much as a stretch of sqrt(c) s.
+ImplicitEuler::StretchChange ImplicitEuler::largest_stretch_change(const ClothState& candidate) {
   elements_.stretch(candidate.x, stretch_candidate_);
+  StretchChange largest;
   for (std::size_t t = 0; t < stretch_.size(); ++t) {
-    // Only changes away from the rest length count: a thread that relaxes is not diverging, however fast.
-    const Vec2 rest(model_->membrane[t].b_u, model_->membrane[t].b_v);
-    const auto away = (stretch_candidate_[t] - rest).array().abs() > (stretch_[t] - rest).array().abs();
-    const double change = away.select((stretch_candidate_[t] - stretch_[t]).array().abs(), 0.0).maxCoeff();
-    if (change > report.stretch_change) {
-      report.stretch_change = change;
-      report.worst_triangle = static_cast<Index>(t);
+    const std::array<double, 2> rest{model_->membrane[t].b_u, model_->membrane[t].b_v};
+    for (Eigen::Index k = 0; k < 2; ++k) {
+      const double b = rest[static_cast<std::size_t>(k)], before = stretch_[t][k], after = stretch_candidate_[t][k];
+      if (std::abs(after - b) <= std::abs(before - b)) continue;
+      double change = std::abs(after - before);
+      if (after < b) change *= std::sqrt(model_->stiffness[t].compression);
+      if (change > largest.change) largest = {change, static_cast<Index>(t)};
     }
   }
-  if (report.stretch_change > limits.stretch) report.status = StepStatus::stretched;
+  return largest;
 }
 
 void ImplicitEuler::keep_apart(const ClothState& state, double h_s, bool truncate, ClothState& candidate,

@@ -6,7 +6,8 @@
 //
 //   data flow   state -> elements -> A, f          (once per state: a halved step needs no element again)
 //                     -> near pairs                 (once per state)
-//                     -> [ constraints, rows -> b -> modified PCG -> dv, e -> active set ] until consistent
+//                     -> [ constraints, rows -> b -> modified PCG -> dv, e -> active set ] until consistent; about the end
+//                        found so far, once more, while a thread stretches too much there
 //                     -> candidate -> safe filter
 #pragma once
 #include "assembly/air.hpp"
@@ -39,14 +40,18 @@ struct StepOptions {
   BodyContactOptions body;
   PositionAlteration position_alteration = PositionAlteration::in_solve;
   Integrator integrator = Integrator::backward_euler;
-  int newton_iterations = 1;       // linear solves per step, each about the end that the last one found; the paper: 1
+  int newton_iterations = 1;  // linear solves per step, each about the end that the last one found; the paper: 1
+  // More solves about where the last one ended, before a step is refused because a thread changes too much; the paper: none.  Scenes
+  // run with three (sim/scene.hpp).
+  int relinearisations = 0;
   int max_passes = 8;              // of the active set, per linear solve
   double max_speed_m_per_s = 100;  // beyond this the step is refused
 };
 
 // What a step must not do.
 struct StepLimits {
-  double stretch = 0.05;  // largest accepted change of |w_u| or |w_v| away from rest
+  double stretch =
+      0.05;  // largest accepted change of |w_u| or |w_v| away from rest; of a squeezed thread, times sqrt(c)
   bool truncate = false;  // cut the motion short where cloth would pass through cloth, instead of refusing the step
 };
 
@@ -97,7 +102,13 @@ class ImplicitEuler {
   void assemble(const ClothState& at, double t_s, const StepFormula& step);
   void relinearise(const ClothState& state, double t_s, const StepFormula& step, const ClothState& candidate);
   bool solve_with_contacts(const ClothState& state, double t_s, const StepFormula& step, int iteration,
-                           StepReport& report);
+                           const StepLimits& limits, ClothState& candidate, StepReport& report);
+  void find_end(const ClothState& state, const StepFormula& step, ClothState& candidate);
+  struct StretchChange {
+    double change = 0;
+    Index triangle = -1;
+  };
+  StretchChange largest_stretch_change(const ClothState& candidate);
   void judge(const StepLimits& limits, const ClothState& candidate, StepReport& report);
   void keep_apart(const ClothState& state, double h_s, bool truncate, ClothState& candidate, StepReport& report);
 
@@ -123,7 +134,7 @@ class ImplicitEuler {
   Vec3s body_start_, body_end_;               // world_->body_at at the two ends of the step
   double body_start_s_ = 0, body_end_s_ = 0;  // the times of the two
   MotionHistory history_;
-  bool evaluated_at_state_ = false;
+  bool evaluated_at_state_ = false, linearised_is_old_ = true;
   double base_h_s_ = 0, h_last_s_ = 0;
   PhaseSeconds seconds_;
 };

@@ -21,6 +21,7 @@ struct StepReport {  // what happened, in numbers a log can plot
   StepStatus status = StepStatus::accepted;
   double h_s = 0;
   int passes = 0, cg_iterations = 0;
+  int relinearised = 0;        // solves about an end found before
   FilterReport filter;         // of the end of the step
   int touching = 0, rows = 0;  // body constraints and contact rows of the last pass
   double stretch_change = 0;   // max over triangles of | |w|' - |w| | away from rest

@@ -1,0 +1,149 @@
+// A step whose threads would change too much is solved again about its end before it is refused: what that mends.
+#include "support/run_cloth.hpp"
+
+#include "core/hash.hpp"
+
+#include <cmath>
+
+namespace toile {
+namespace {
+
+using test::ClothRun;
+
+ModelOptions weightless() {
+  ModelOptions options;
+  options.gravity_m_per_s2.setZero();
+  return options;
+}
+
+Vec3 centre_of_mass(const ClothRun& run) {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < run.state.x.size(); ++i) {
+    sum += run.model.mass_kg[i] * run.state.x[i];
+    mass += run.model.mass_kg[i];
+  }
+  return sum / mass;
+}
+
+Vec3 angular_momentum(const ClothRun& run, const ClothState& state, const Vec3& centre) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < state.x.size(); ++i)
+    sum += run.model.mass_kg[i] * (state.x[i] - centre).cross(state.v[i]);
+  return sum;
+}
+
+struct End {
+  StepReport report;
+  ClothState state;
+  double largest = 0, smallest = 2;  // |w| at the end
+};
+End attempt(ClothRun& run, double h_s, int relinearisations) {
+  run.step.relinearisations = relinearisations;
+  run.step.rows.cloth_cloth = false;
+  run.step.pcg.tolerance = 1e-5;
+  run.start();
+  ImplicitEuler& integrator = run.stepper->integrator();
+  integrator.prepare(run.state, 0, h_s, h_s);
+  End end;
+  end.report = integrator.attempt(run.state, 0, h_s, {}, end.state);
+  std::vector<Vec2> w(run.model.mesh.triangles.size());
+  integrator.elements().stretch(end.state.x, w);
+  for (const Vec2& s : w) {
+    end.largest = std::max(end.largest, s.maxCoeff());
+    end.smallest = std::min(end.smallest, s.minCoeff());
+  }
+  return end;
+}
+
+// A sheet that turns by omega h = 0.4 in a step: its straight ways lengthen every thread by sqrt(1 + 0.4^2) - 1 = 7.7 %.  The end of a
+// backward Euler step keeps the length, and turns by atan(0.4).
+TEST(Relinearise, ASheetThatTurnsByATwentyThirdOfATurnKeepsItsLength) {
+  const double h = 1.0 / 60, omega = 0.4 / h;
+  const auto spin = [&](int relinearisations) {
+    ClothRun run(test::equilateral_sheet(0.2, 0.2, 0.02), test::linear_cotton(), weightless());
+    const Vec3 centre = centre_of_mass(run);
+    for (std::size_t i = 0; i < run.state.x.size(); ++i)
+      run.state.v[i] = Vec3(0, omega, 0).cross(run.state.x[i] - centre);
+    const double before = angular_momentum(run, run.state, centre).y();
+    const End end = attempt(run, h, relinearisations);
+    return std::pair(end, angular_momentum(run, end.state, centre).y() / before);
+  };
+  const auto [once, kept_once] = spin(0);
+  EXPECT_EQ(once.report.status, StepStatus::stretched);
+  EXPECT_NEAR(once.report.stretch_change, std::sqrt(1.16) - 1, 2e-3);
+  const auto [again, kept] = spin(3);
+  EXPECT_TRUE(again.report) << again.report.explain();
+  EXPECT_GE(again.report.relinearised, 1);
+  EXPECT_LT(again.report.stretch_change, 0.01);
+  EXPECT_GT(kept_once, 0.99);
+  EXPECT_NEAR(kept, 1 / std::sqrt(1.16), 0.01);  // omega' h = sin(atan(omega h)): what backward Euler keeps
+}
+
+// Threads pushed together by 3 % and drawn apart at 9 /s: by the stiffness they had while slack they would pass their length by as much
+// as 12 %; taut they stop at it.
+TEST(Relinearise, AThreadThatIsDrawnTautStopsAtItsLength) {
+  Fabric soft;
+  soft.compression_ratio = 1e-4;
+  soft.stretch_damping_s = soft.shear_damping_s = 0;
+  const auto draw = [&](int relinearisations) {
+    ClothRun run(test::equilateral_sheet(0.2, 0.2, 0.02), soft, weightless());
+    const Vec3 centre = centre_of_mass(run);
+    for (std::size_t i = 0; i < run.state.x.size(); ++i) {
+      const double from_middle = run.state.x[i].x() - centre.x();
+      run.state.x[i].x() = centre.x() + 0.97 * from_middle;
+      run.state.v[i] = Vec3(9 * from_middle, 0, 0);
+    }
+    return attempt(run, 1.0 / 60, relinearisations);
+  };
+  const End once = draw(0), again = draw(3);
+  EXPECT_EQ(once.report.status, StepStatus::stretched);
+  EXPECT_GT(once.largest, 1.055);
+  EXPECT_TRUE(again.report) << again.report.explain();
+  EXPECT_GE(again.report.relinearised, 1);
+  EXPECT_LT(again.largest, 1.02);
+  EXPECT_GT(again.smallest, 0.97);
+}
+
+TEST(Relinearise, StepsThatHoldAreThePapersToTheLastBit) {
+  const auto hang = [](int relinearisations) {
+    ClothRun run(test::equilateral_sheet(0.3, 0.3, 0.03), Fabric{});
+    run.pin(0);
+    run.step.relinearisations = relinearisations;
+    Hash hash;
+    for (int f = 0; f < 10; ++f) {
+      const FrameReport report = run.frame(1.0 / 60);
+      EXPECT_EQ(report.rejected, 0);
+      EXPECT_EQ(report.last.relinearised, 0);
+      hash.add(std::span<const Vec3>(run.state.x));
+    }
+    return hash.hex();
+  };
+  EXPECT_EQ(hang(3), hang(0));
+}
+
+// The squeeze that is refused has the energy of the stretch that is: c s^2 = 0.05^2.
+TEST(Relinearise, ASqueezeCountsByItsEnergy) {
+  const auto squeeze = [](double compression_ratio, double by) {
+    Fabric fabric;
+    fabric.compression_ratio = compression_ratio;
+    ClothRun run(test::equilateral_sheet(0.1, 0.1, 0.02), fabric, weightless());
+    for (std::size_t i = 0; i < run.state.x.size(); ++i) {  // every particle is led, so that the end is known
+      Pin pin;
+      pin.particle = static_cast<Index>(i);
+      const Vec3 end((1 - by) * run.state.x[i].x(), run.state.x[i].y(), run.state.x[i].z());
+      pin.path = [end](double) -> Vec3 { return end; };
+      run.world.pins.push_back(pin);
+    }
+    return attempt(run, 1.0 / 60, 0).report;
+  };
+  EXPECT_FALSE(squeeze(1, 0.06));
+  EXPECT_TRUE(squeeze(1, 0.04));
+  EXPECT_TRUE(squeeze(0.1, 0.15));
+  EXPECT_FALSE(squeeze(0.1, 0.17));
+  EXPECT_FALSE(squeeze(0.1, -0.06));  // a stretch is a stretch
+  EXPECT_NEAR(squeeze(0.1, 0.15).stretch_change, 0.15 * std::sqrt(0.1), 1e-9);
+}
+
+}  // namespace
+}  // namespace toile
