@@ -372,7 +372,7 @@ def collar(garment, body, stand, fall, angle_deg, fabric):
 def pants(name, body, ease, band, band_height, band_b, waist_y, hem_y, hem):
     """hem = widths of the front and the back leg there."""
     garment = Garment(name)
-    cy = body["crotch_y"] - 1.5
+    cy = body["crotch_y"] - 3.5
     quarter = (body["hips"] + ease) / 4
     hip_y = body["hip_y"]
     quarter_band, gather = band / 4, 1.03
@@ -427,7 +427,7 @@ def garments():
     collar(shirt, MAN, 3.0, 5.0, -120, None)
     return [
         shirt,
-        pants("man_pants", MAN, 8, 88, 4, 0.86, 104, 9.5, (22, 24)),
+        pants("man_pants", MAN, 10, 88, 4, 0.80, 104, 9.5, (22, 24)),
         skirt("short_skirt", DANCER, 38, 72, 1.04, 46, slit=15),
         skirt("long_skirt", DANCER, 84, 72, 1.12, 84),
         top("blouse", DANCER, (26.2, 26.6), (27, 26.5), 120.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve, 1.5),
