@@ -9,8 +9,8 @@ namespace toile {
 namespace {
 
 constexpr double loose_passes = 10;  // times the residual at which the last pass stops
-constexpr int contact_passes =
-    2;  // before the ends of a step are worth judging: the first guess of the contacts is poor
+// Passes before the end of a step is worth judging: the first guess of the contacts is poor.
+constexpr int contact_passes = 2;
 
 }  // namespace
 
@@ -242,25 +242,30 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
         }
       }
     }
-    const Timed timed(seconds_.cg);
-    system_.update(implicit_rows_, constraints_);
-    pcg_.prepare(system_, pcg_options);
-    report.pcg = pcg_.solve(system_, b_, reference_, pcg_options, dv_);
-    report.cg_iterations += report.pcg.iterations;
-    if (!report.pcg) {
-      report.status = StepStatus::solver_failed;
-      return false;
+    {
+      const Timed timed(seconds_.cg);
+      system_.update(implicit_rows_, constraints_);
+      pcg_.prepare(system_, pcg_options);
+      report.pcg = pcg_.solve(system_, b_, reference_, pcg_options, dv_);
+      report.cg_iterations += report.pcg.iterations;
+      if (!report.pcg) {
+        report.status = StepStatus::solver_failed;
+        return false;
+      }
+      system_.multiply_unfiltered(dv_, e_);
+      for (std::size_t i = 0; i < n; ++i) e_[i] -= b_[i];
     }
-    system_.multiply_unfiltered(dv_, e_);
-    for (std::size_t i = 0; i < n; ++i) e_[i] -= b_[i];
-
-    const BodyConstraints::Change body = body_.update(state, dv_, e_, step, report.passes <= 2);
+    BodyConstraints::Change body;
+    {
+      const Timed timed(seconds_.cloth_solid);
+      body = body_.update(state, dv_, e_, step, report.passes <= 2);
+    }
     const ContactRows::Change change = rows_.update(state, dv_, y_known_, step, report.passes <= 4);
     report.rows = change.active;
     if (pass >= contact_passes && report.relinearised < options_.relinearisations) {
+      const Timed timed(seconds_.eval);
       find_end(state, step, candidate);
       if (largest_stretch_change(candidate).change > limits.stretch) {
-        const Timed again(seconds_.eval);
         relinearise(state, t_s, step, candidate);
         ++report.relinearised;
         continue;

@@ -50,8 +50,7 @@ struct StepOptions {
 
 // What a step must not do.
 struct StepLimits {
-  double stretch =
-      0.05;  // largest accepted change of |w_u| or |w_v| away from rest; of a squeezed thread, times sqrt(c)
+  double stretch = 0.05;  // largest accepted change of |w_u| or |w_v| away from rest; a squeeze counts sqrt(c)
   bool truncate = false;  // cut the motion short where cloth would pass through cloth, instead of refusing the step
 };
 
