@@ -110,6 +110,9 @@ TEST(Scene, NamesThePlaceOfEveryRefusal) {
   expect_refused(R"({"cloth": [{"grid": {}}], "time": {"integrator": "rk4"}})", {"/time/integrator", "backward_euler"});
   expect_refused(R"({"cloth": [{"grid": {}}], "solver": {"preconditioner": "block_jacbi"}})",
                  {"/solver/preconditioner", "nearest is \"block_jacobi\""});
+  for (const char* count : {"2.5", "-1", "11"})
+    expect_refused(std::string(R"({"cloth": [{"grid": {}}], "solver": {"relinearisations": )") + count + "}}",
+                   {"/solver/relinearisations"});
   expect_refused(R"({"cloth": [{"grid": {}}], "output": {"preview": 1}})", {"/output/preview"});
 }
 
