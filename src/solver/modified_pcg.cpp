@@ -15,6 +15,11 @@ namespace {
 template <class T>
 constexpr double rounding_floor = sizeof(T) == sizeof(float) ? 1e-5 : 1e-13;
 
+// The stop rule (docs/theory/solver.md):  target = max( min( tol |b'|, max( 0.02 |g|, 0.2 tol |b'| ) ),  0.1 tol |g| )
+constexpr double share_of_gravity = 0.02;  // what is left may not be felt beside the weight,
+constexpr double violent_share = 0.2;      // but where a body throws cloth about, not finer than this part of tol |b'|
+constexpr double resting_share = 0.1;      // of tol |g|: finer than this is work for nothing
+
 constexpr int usual_long_waits =
     4;  // of a solve on a quiet machine, besides one per iteration: residuals in double, made by one
 constexpr int solves_until_next_try = 100;
@@ -281,7 +286,9 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
   for (std::size_t i = 0; i < n; ++i) work2_[i] = b[i] - work2_[i];
   const double scale = std::sqrt(norm2(work2_)), gravity = std::sqrt(norm2(reference));
   PcgReport report;
-  report.target = std::max(std::min(options.tolerance * scale, 0.02 * gravity), 0.1 * options.tolerance * gravity);
+  const double relative = options.tolerance * scale;
+  const double felt = std::max(share_of_gravity * gravity, violent_share * relative);
+  report.target = std::max(std::min(relative, felt), resting_share * options.tolerance * gravity);
   // Gravity that acts along held directions only, but for rounding (all of the cloth flat on the ground), says nothing.
   if (gravity <= 1e-9 * scale) report.target = options.tolerance * scale;
   report.target = std::max(report.target, rounding_floor<T> * scale);

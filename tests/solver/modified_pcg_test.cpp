@@ -218,7 +218,7 @@ TEST(ModifiedPcg, DeflationLeavesNoResidualInATranslationOfTheWholeSheet) {
 }
 
 TEST(ModifiedPcg, LoosenMultipliesTheTargetWhateverTermOfTheStopRuleDecides) {
-  for (const double tolerance : {1e-4, 0.5}) {  // decided by |b'|, and by 2 % of gravity
+  for (const double tolerance : {1e-4, 0.5}) {  // decided by |b'|, and by gravity or a part of |b'|
     Problem<float> p;
     ModifiedPcg<float> pcg(p.model.mesh);
     PcgOptions options;
@@ -232,6 +232,37 @@ TEST(ModifiedPcg, LoosenMultipliesTheTargetWhateverTermOfTheStopRuleDecides) {
     EXPECT_DOUBLE_EQ(report.target, 10 * target);
     EXPECT_LE(report.residual, report.target);
   }
+}
+
+// Scaling the reference moves |g| against |b'| through all four terms; |b'| stays.
+TEST(ModifiedPcg, StopsAtAPartOfGravityUnlessTheLoadDwarfsItOrIsNothingBesideIt) {
+  Problem<float> p;
+  ModifiedPcg<float> pcg(p.model.mesh);
+  PcgOptions options;
+  options.tolerance = 1e-2;
+  pcg.prepare(p.system, options);
+  const auto target = [&](double gravity_over_load) {
+    double load2 = 0, gravity2 = 0;
+    Vec3s start(p.b.size()), Az(p.b.size());
+    for (std::size_t i = 0; i < p.b.size(); ++i) start[i] = p.constraints.z(static_cast<Index>(i));
+    p.system.multiply_unfiltered(start, Az);
+    for (std::size_t i = 0; i < p.b.size(); ++i) {
+      const Mat3& G = p.system.filtered_inverse(static_cast<Index>(i));
+      const Vec3 load = p.b[i] - Az[i];
+      load2 += load.dot(G * load);
+      gravity2 += p.reference[i].dot(G * p.reference[i]);
+    }
+    Vec3s reference = p.reference, dv(p.b.size(), Vec3::Zero());
+    const double scale = gravity_over_load * std::sqrt(load2 / gravity2);
+    for (Vec3& g : reference) g *= scale;
+    const PcgReport report = pcg.solve(p.system, p.b, reference, options, dv);
+    EXPECT_TRUE(report) << report.explain();
+    return report.target / std::sqrt(load2);
+  };
+  EXPECT_NEAR(target(1e-3), 2e-3, 1e-8);  // 0.2 tol |b'|
+  EXPECT_NEAR(target(0.2), 4e-3, 1e-8);   // 0.02 |g|
+  EXPECT_NEAR(target(2), 1e-2, 1e-8);     // tol |b'|
+  EXPECT_NEAR(target(100), 0.1, 1e-7);    // 0.1 tol |g|
 }
 
 // 2,900 particles are swept in two domains, and rows and held particles lie in both.

@@ -208,9 +208,9 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "48127aa1d9247733");
-  EXPECT_EQ(folding(), "75e6a8c5844d287b");
-  EXPECT_EQ(drop(1), "f435d72b5c6c664c");
+  EXPECT_EQ(hanging(), "85517b348a8e63b9");
+  EXPECT_EQ(folding(), "62204e68e423698e");
+  EXPECT_EQ(drop(1), "078b68515325d253");
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST(Air, AFlagReachesOutInWindAsPressureAndWeightSay) {
     for (std::size_t i = 0; i < sheet.x.size(); ++i) {
       if (sheet.x[i].y() > -1e-9) run.pin(static_cast<Index>(i));
     }
-    run.run(150);
+    run.run(400);  // at 2 m/s the free end flutters for long
     EXPECT_LT(run.fastest(), 0.05) << wind << " m/s";
     Vec3 end = Vec3::Zero();
     for (std::size_t i = 0; i < sheet.x.size(); ++i) {
