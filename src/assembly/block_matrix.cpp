@@ -1,10 +1,17 @@
 #include "assembly/block_matrix.hpp"
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace toile {
+namespace {
+
+constexpr std::size_t grain = 512;  // rows
+
+}  // namespace
 
 BlockPattern::BlockPattern(Index particle_count, std::vector<std::pair<Index, Index>> links) {
   for (auto& [a, b] : links) {
@@ -20,6 +27,16 @@ BlockPattern::BlockPattern(Index particle_count, std::vector<std::pair<Index, In
     column_.push_back(b);
   }
   for (std::size_t i = 1; i < row_begin_.size(); ++i) row_begin_[i] += row_begin_[i - 1];
+
+  above_begin_.assign(row_begin_.size(), 0);
+  for (const Index j : column_) ++above_begin_[static_cast<std::size_t>(j) + 1];
+  for (std::size_t i = 1; i < above_begin_.size(); ++i) above_begin_[i] += above_begin_[i - 1];
+  above_.resize(column_.size());
+  std::vector<std::int32_t> next(above_begin_.begin(), above_begin_.end() - 1);
+  for (Index i = 0; i < rows(); ++i) {
+    for (Slot s = first_slot(i); s < end_slot(i); ++s)
+      above_[static_cast<std::size_t>(next[static_cast<std::size_t>(column(s))]++)] = {i, s};
+  }
 }
 
 Slot BlockPattern::slot(Index row, Index column) const {
@@ -39,18 +56,15 @@ BlockMatrix<T>::BlockMatrix(std::shared_ptr<const BlockPattern> pattern)
 
 template <class T>
 void BlockMatrix<T>::update_diagonal() {
-  for (std::size_t i = 0; i < grounded_.size(); ++i) {
-    diagonal_[i] = grounded_[i];
+  parallel_for(grounded_.size(), grain, [&](std::size_t i) {
     for (Eigen::Index k = 0; k < 3; ++k)
       grounded_columns_[3 * i + static_cast<std::size_t>(k)] = to_lane<T>(grounded_[i].col(k));
-  }
-  for (Index i = 0; i < rows(); ++i) {
-    for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s) {
-      const Mat3 L = off_diagonal(s).to_mat3();
-      diagonal_[static_cast<std::size_t>(i)] -= L;
-      diagonal_[static_cast<std::size_t>(pattern_->column(s))] -= L.transpose();
-    }
-  }
+    const auto row = static_cast<Index>(i);
+    Mat3 diagonal = grounded_[i];
+    for (const auto& above : pattern_->above(row)) diagonal -= off_diagonal(above.slot).to_mat3().transpose();
+    for (Slot s = pattern_->first_slot(row); s < pattern_->end_slot(row); ++s) diagonal -= off_diagonal(s).to_mat3();
+    diagonal_[i] = diagonal;
+  });
 }
 
 template <class T>
@@ -78,15 +92,22 @@ void BlockMatrix<T>::multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) 
 
 template <class T>
 void BlockMatrix<T>::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
-  for (std::size_t i = 0; i < grounded_.size(); ++i) y[i] = grounded_[i] * x[i];
-  for (Index i = 0; i < rows(); ++i) {
-    for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s) {
-      const auto j = static_cast<std::size_t>(pattern_->column(s));
-      const Mat3 L = off_diagonal(s).to_mat3();
-      const Vec3 d = x[j] - x[static_cast<std::size_t>(i)];
-      y[static_cast<std::size_t>(i)] += L * d;
-      y[j] -= L.transpose() * d;
-    }
+  const auto rows = [&](std::size_t begin, std::size_t end) {
+    multiply_rows(static_cast<Index>(begin), static_cast<Index>(end), x, y);
+  };
+  parallel_blocks(grounded_.size(), grain, std::cref(rows));  // by reference: no copy of the lambda on the heap
+}
+
+template <class T>
+void BlockMatrix<T>::multiply_rows(Index begin, Index end, std::span<const Vec3> x, std::span<Vec3> y) const {
+  for (Index i = begin; i < end; ++i) {
+    const Vec3 x_i = x[static_cast<std::size_t>(i)];
+    Vec3 sum = grounded(i) * x_i;
+    for (const auto& above : pattern_->above(i))
+      sum += off_diagonal(above.slot).to_mat3().transpose() * (x[static_cast<std::size_t>(above.row)] - x_i);
+    for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s)
+      sum += off_diagonal(s).to_mat3() * (x[static_cast<std::size_t>(pattern_->column(s))] - x_i);
+    y[static_cast<std::size_t>(i)] = sum;
   }
 }
 

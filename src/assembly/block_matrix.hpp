@@ -34,10 +34,21 @@ class BlockPattern {
   Slot end_slot(Index row) const { return row_begin_[static_cast<std::size_t>(row) + 1]; }
   Index column(Slot slot) const { return column_[static_cast<std::size_t>(slot)]; }
   Slot slot(Index row, Index column) const;  // row < column; asserts that the block exists
+  // The stored blocks of column i, rows ascending: what a gather over the rows of the whole matrix needs besides row i.
+  struct Above {
+    Index row;
+    Slot slot;
+  };
+  std::span<const Above> above(Index i) const {
+    const auto first = static_cast<std::size_t>(above_begin_[static_cast<std::size_t>(i)]);
+    return {above_.data() + first, static_cast<std::size_t>(above_begin_[static_cast<std::size_t>(i) + 1]) - first};
+  }
 
  private:
   std::vector<Slot> row_begin_;
   std::vector<Index> column_;
+  std::vector<std::int32_t> above_begin_;
+  std::vector<Above> above_;
 };
 
 template <class T>
@@ -65,6 +76,8 @@ class BlockMatrix {
   void multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
   // y = A x with the stored blocks but double vectors: for residuals that decide constraint forces.
   void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;
+  // Rows [begin, end) of it, for those who share the work.
+  void multiply_rows(Index begin, Index end, std::span<const Vec3> x, std::span<Vec3> y) const;
 
   Eigen::MatrixXd to_dense() const;  // for tests and small inspections only
 

@@ -14,6 +14,7 @@ double wanted_aggregates(std::size_t particles) { return std::clamp(static_cast<
 
 constexpr std::size_t pivots = 4;           // of the dense factor, that are taken from the rows below in one go
 constexpr std::size_t rows_per_block = 64;  // of the dense factor
+constexpr std::size_t particles_per_block = 256;
 
 // Splits members[begin, end) into `parts` of equal size, always across the longer pattern direction.
 void bisect(std::vector<Index>& members, std::size_t begin, std::size_t end, std::size_t parts, const Vec2s& uv,
@@ -85,6 +86,9 @@ CoarseSpace<T>::CoarseSpace(const ClothMesh& mesh) {
     const Vec2 local = (uv[p] - centre) / half;
     basis_[p] = Vec3(1, local.x(), local.y());
   }
+  members_.resize(static_cast<std::size_t>(aggregate_count_));
+  for (std::size_t p = 0; p < particles; ++p)
+    members_[static_cast<std::size_t>(aggregate_[p])].push_back(static_cast<Index>(p));
   const auto n = static_cast<std::size_t>(dimension());
   E_.resize(n * n);
   transpose_.resize(n * n);
@@ -156,57 +160,46 @@ template <class T>
 void CoarseSpace<T>::multiply_basis(const LinearSystem<T>& system) {
   const BlockPattern& pattern = system.A().pattern();
   const ParticleConstraints& constraints = system.constraints();
-  const Lane<T> zero = to_lane<T>(Vec3::Zero());
-  Columns none;
-  none.fill(zero);
-  std::fill(AZ_.begin(), AZ_.end(), none);
   const auto q_of = [&](Index i) {
     const Vec3& q = basis_[static_cast<std::size_t>(i)];
     return std::array<T, 3>{static_cast<T>(q[0]), static_cast<T>(q[1]), static_cast<T>(q[2])};
   };
   const auto minus = [](const std::array<T, 3>& q) { return std::array<T, 3>{-q[0], -q[1], -q[2]}; };
-  for (Index i = 0; i < pattern.rows(); ++i) {
+  parallel_for(static_cast<std::size_t>(pattern.rows()), particles_per_block, [&](std::size_t row) {
+    const auto i = static_cast<Index>(row);
+    const auto own = static_cast<std::size_t>(entry_begin_[row]), end = static_cast<std::size_t>(entry_begin_[row + 1]);
+    Columns none;
+    none.fill(to_lane<T>(Vec3::Zero()));
+    std::fill(AZ_.begin() + entry_begin_[row], AZ_.begin() + entry_begin_[row + 1], none);
     const std::array<T, 3> q_i = q_of(i);
     const bool i_free = constraints.is_free(i);
     const Block<T> S_i = Block<T>::from(constraints.S(i));
-    const auto own_i = static_cast<std::size_t>(entry_begin_[static_cast<std::size_t>(i)]);
-    const Block<T> G = system.A().grounded_block(i);
-    add_columns(AZ_[own_i], i_free ? G : product(G, S_i), q_i);
-    for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s) {
-      const Index j = pattern.column(s);
-      const Block<T>& L = system.A().off_diagonal(s);
-      const Block<T> U = L.transpose();
+    // L_ij (S_j Z_j - S_i Z_i)
+    const auto add = [&](const Block<T>& L, Index j, std::size_t other) {
       const std::array<T, 3> q_j = q_of(j);
-      const auto own_j = static_cast<std::size_t>(entry_begin_[static_cast<std::size_t>(j)]);
-      const auto [e_i, e_j] = slot_entry_[static_cast<std::size_t>(s)];
-      const auto other_i = static_cast<std::size_t>(e_i), other_j = static_cast<std::size_t>(e_j);
-      if (i_free && constraints.is_free(j)) {
-        if (other_i == own_i) {
-          const std::array<T, 3> d{0, q_j[1] - q_i[1], q_j[2] - q_i[2]};
-          add_columns(AZ_[own_i], L, d);
-          add_columns(AZ_[own_j], U, minus(d));
-        } else {
-          add_columns(AZ_[own_i], L, minus(q_i));
-          add_columns(AZ_[other_i], L, q_j);
-          add_columns(AZ_[own_j], U, minus(q_j));
-          add_columns(AZ_[other_j], U, q_i);
-        }
+      if (!i_free || !constraints.is_free(j)) {
+        add_columns(AZ_[own], product(L, S_i), minus(q_i));
+        add_columns(AZ_[other], product(L, Block<T>::from(constraints.S(j))), q_j);
+      } else if (other == own) {
+        add_columns(AZ_[own], L, {0, q_j[1] - q_i[1], q_j[2] - q_i[2]});
       } else {
-        const Block<T> S_j = Block<T>::from(constraints.S(j));
-        const Block<T> LS_i = product(L, S_i), LS_j = product(L, S_j), US_i = product(U, S_i), US_j = product(U, S_j);
-        add_columns(AZ_[own_i], LS_i, minus(q_i));
-        add_columns(AZ_[other_i], LS_j, q_j);
-        add_columns(AZ_[own_j], US_j, minus(q_j));
-        add_columns(AZ_[other_j], US_i, q_i);
+        add_columns(AZ_[own], L, minus(q_i));
+        add_columns(AZ_[other], L, q_j);
       }
+    };
+    for (const auto& [above, slot] : pattern.above(i))
+      add(system.A().off_diagonal(slot).transpose(), above,
+          static_cast<std::size_t>(slot_entry_[static_cast<std::size_t>(slot)][1]));
+    const Block<T> G = system.A().grounded_block(i);
+    add_columns(AZ_[own], i_free ? G : product(G, S_i), q_i);
+    for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s)
+      add(system.A().off_diagonal(s), pattern.column(s),
+          static_cast<std::size_t>(slot_entry_[static_cast<std::size_t>(s)][0]));
+    if (i_free) return;
+    for (std::size_t e = own; e < end; ++e) {
+      for (Lane<T>& column : AZ_[e]) column = S_i.times(column);
     }
-  }
-  for (const Index i : constraints.constrained()) {
-    const Block<T> S_i = Block<T>::from(constraints.S(i));
-    for (auto e = entry_begin_[static_cast<std::size_t>(i)]; e < entry_begin_[static_cast<std::size_t>(i) + 1]; ++e) {
-      for (Lane<T>& column : AZ_[static_cast<std::size_t>(e)]) column = S_i.times(column);
-    }
-  }
+  });
 }
 
 // The upper triangle of E = Z^T (A Z) + rows.
@@ -214,23 +207,26 @@ template <class T>
 void CoarseSpace<T>::sum_coarse_matrix(const LinearSystem<T>& system) {
   const auto n = static_cast<std::size_t>(dimension());
   std::fill(E_.begin(), E_.end(), 0.0);
-  for (std::size_t i = 0; i < aggregate_.size(); ++i) {
-    const Index a = aggregate_[i];
-    const double q[3] = {basis_[i][0], basis_[i][1], basis_[i][2]};
-    for (auto e = static_cast<std::size_t>(entry_begin_[i]); e < static_cast<std::size_t>(entry_begin_[i + 1]); ++e) {
-      const Index b = entry_aggregate_[e];
-      if (b > a) continue;
-      for (std::size_t m = 0; m < 9; ++m) {
-        double* row = &E_[(static_cast<std::size_t>(b) * 9 + m) * n + static_cast<std::size_t>(a) * 9];
-        const Lane<T>& column = AZ_[e][m];
-        const double c[3] = {static_cast<double>(column[0]), static_cast<double>(column[1]),
-                             static_cast<double>(column[2])};
-        for (std::size_t k = 0; k < 3; ++k) {
-          for (std::size_t r = 0; r < 3; ++r) row[3 * k + r] += q[k] * c[r];
+  parallel_for(members_.size(), 1, [&](std::size_t aggregate) {  // each to its own columns
+    const auto a = static_cast<Index>(aggregate);
+    for (const Index member : members_[aggregate]) {
+      const auto i = static_cast<std::size_t>(member);
+      const double q[3] = {basis_[i][0], basis_[i][1], basis_[i][2]};
+      for (auto e = static_cast<std::size_t>(entry_begin_[i]); e < static_cast<std::size_t>(entry_begin_[i + 1]); ++e) {
+        const Index b = entry_aggregate_[e];
+        if (b > a) continue;
+        for (std::size_t m = 0; m < 9; ++m) {
+          double* row = &E_[(static_cast<std::size_t>(b) * 9 + m) * n + aggregate * 9];
+          const Lane<T>& column = AZ_[e][m];
+          const double c[3] = {static_cast<double>(column[0]), static_cast<double>(column[1]),
+                               static_cast<double>(column[2])};
+          for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t r = 0; r < 3; ++r) row[3 * k + r] += q[k] * c[r];
+          }
         }
       }
     }
-  }
+  });
   const ParticleConstraints& constraints = system.constraints();
   for (const ImplicitRow& row : system.rows()) {
     // Z^T g, nine numbers for each of at most four aggregates.

@@ -53,8 +53,9 @@ class CoarseSpace {
   using Columns = std::array<Lane<T>, 9>;  // [3 l + c]: basis function l, direction c
 
   int aggregate_count_ = 0;
-  std::vector<Index> aggregate_;  // [particle]
-  std::vector<Vec3> basis_;       // [particle] (1, u', v')
+  std::vector<Index> aggregate_;             // [particle]
+  std::vector<std::vector<Index>> members_;  // [aggregate] particles, ascending
+  std::vector<Vec3> basis_;                  // [particle] (1, u', v')
   const BlockPattern* pattern_ = nullptr;
   std::vector<std::int32_t> entry_begin_;                // [particle] the first entry is that of its own aggregate
   std::vector<Index> entry_aggregate_;                   // [entry]

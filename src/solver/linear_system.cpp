@@ -100,6 +100,11 @@ void LinearSystem<T>::filter(std::span<Lane<T>> y) const {
 template <class T>
 void LinearSystem<T>::multiply_unfiltered(std::span<const Vec3> x, std::span<Vec3> y) const {
   A_->multiply(x, y);
+  add_rows(x, y);
+}
+
+template <class T>
+void LinearSystem<T>::add_rows(std::span<const Vec3> x, std::span<Vec3> y) const {
   for (const ImplicitRow& row : rows_) {
     double sum = 0;
     for (std::size_t k = 0; k < 4; ++k) {

@@ -46,6 +46,8 @@ class LinearSystem {
   void filter(std::span<Lane<T>> y) const;  // all of them
   // y = (A + sum a g g^T) x, unfiltered, in double.
   void multiply_unfiltered(std::span<const Vec3> x, std::span<Vec3> y) const;
+  // y += sum a g g^T x, its part of the rows.
+  void add_rows(std::span<const Vec3> x, std::span<Vec3> y) const;
 
   // G_i = S_i D_i^-1 S_i with D_i the diagonal block of A', in double and in T.
   const Mat3& filtered_inverse(Index i) const { return inverse_[static_cast<std::size_t>(i)]; }

@@ -189,18 +189,28 @@ double ModifiedPcg<T>::residual_norm2(const LinearSystem<T>& system, Share& shar
   });
 }
 
-// r = S (b - A (start + w)), with the product in double; by one member, for all.
+// r = S (b - A (start + w)), with the product in double.
 template <class T>
 void ModifiedPcg<T>::true_residual(const LinearSystem<T>& system, std::span<const Vec3> b, const Share& share) {
+  const auto each = [&](const auto& work) {
+    for_own_domains(share, [&](std::size_t d) {
+      for (auto i = static_cast<std::size_t>(domains_.begin(d)); i < static_cast<std::size_t>(domains_.end(d)); ++i)
+        work(i);
+    });
+    team_->barrier();
+  };
+  each([&](std::size_t i) { work_[i] = start_[i] + to_vec3(w_[i]); });
+  for_own_domains(share,
+                  [&](std::size_t d) { system.A().multiply_rows(domains_.begin(d), domains_.end(d), work_, work2_); });
   team_->barrier();
-  if (share.member == 0) {
-    for (std::size_t i = 0; i < r_.size(); ++i) work_[i] = start_[i] + to_vec3(w_[i]);
-    system.multiply_unfiltered(work_, work2_);
-    for (std::size_t i = 0; i < r_.size(); ++i) work2_[i] = b[i] - work2_[i];
-    system.constraints().filter(work2_);
-    for (std::size_t i = 0; i < r_.size(); ++i) r_[i] = to_lane<T>(work2_[i]);
-  }
+  if (share.member == 0) system.add_rows(work_, work2_);
   team_->barrier();
+  const ParticleConstraints& constraints = system.constraints();
+  each([&](std::size_t i) {
+    const auto particle = static_cast<Index>(i);
+    const Vec3 residual = b[i] - work2_[i];
+    r_[i] = to_lane<T>(constraints.is_free(particle) ? residual : Vec3(constraints.S(particle) * residual));
+  });
 }
 
 // What every member goes through.
