@@ -22,7 +22,7 @@ cat >"$folder/machine.json" <<JSON
   "commit": "$(git -C "$root" rev-parse HEAD)",
   "changed_since_commit": $changed,
   "version": "$("$toile" --version)",
-  "system": "$(uname -srm)",
+  "system": "$(uname -sm)",
   "compiler": "$(c++ --version | head -n 1)",
   "options": "${OPTIONS:-}"
 }
