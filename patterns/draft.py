@@ -421,7 +421,7 @@ def pants(name, body, ease, band, band_height, band_b, waist_y, hem_y, hem):
 # ---- the garments ----
 
 def garments():
-    blouse_sleeve = dict(half_arm=9.5, cap=11, sleeve_end=51, wrist=14, cuff=11.5, cuff_height=4, cuff_b=0.76, drop=3)
+    blouse_sleeve = dict(half_arm=10.5, cap=11, sleeve_end=55.5, wrist=14, cuff=11.5, cuff_height=4, cuff_b=0.76, drop=3)
     shirt_sleeve = dict(half_arm=11, cap=13, sleeve_end=54.5, wrist=13, cuff=12, cuff_height=5, cuff_b=1)
     shirt = top("man_shirt", MAN, (28.0, 27.6), (25.0, 24.6), 126, 85, (9.0, 9.5, 1.5), 0, shirt_sleeve, 1.5)
     collar(shirt, MAN, 3.0, 5.0, -120, None)
