@@ -5,6 +5,7 @@
 //                    own forces   as a step would pose it.  The state is that of the base cloth; a cloth 1000 times as stiff is as far
 //                                 from its rest there as b' is large, and the stop rule is not relative to b' (solver/modified_pcg.hpp)
 //                    same b       the base cloth's b for all: what the matrix alone does
+//   states         the iterations with the same b over bend, again at other frames of the base cloth's drape
 //
 // 1998: bend x 0.1, 1, 10, 100, 1000 at 2,602 particles; the running times differ by less than 5 %.
 #include "bench.hpp"
@@ -19,22 +20,25 @@ namespace {
 
 constexpr int drape_frames = 75;
 constexpr int state_frame = 30;  // the cloth has met itself, and still moves
+// It lands, folds (state_frame lies here), swings out and hangs.
+constexpr std::array<int, 6> other_state_frames = {5, 15, 25, 45, 60, 75};
 constexpr double state_h_s = 1.0 / 60;
 constexpr int most_iterations = 5000;
 
 struct Multiple {
   std::string_view of;  // "bend" or "stretch"
   double factor;
+  std::string_view key, title;  // of a column
 };
-constexpr std::array<Multiple, 9> multiples = {{{"bend", 0.1},
-                                                {"bend", 1},
-                                                {"bend", 10},
-                                                {"bend", 100},
-                                                {"bend", 1000},
-                                                {"stretch", 0.1},
-                                                {"stretch", 1},
-                                                {"stretch", 10},
-                                                {"stretch", 100}}};
+constexpr std::array<Multiple, 9> multiples = {{{"bend", 0.1, "bend_x_0_1", "bend x 0.1"},
+                                                {"bend", 1, "bend_x_1", "x 1"},
+                                                {"bend", 10, "bend_x_10", "x 10"},
+                                                {"bend", 100, "bend_x_100", "x 100"},
+                                                {"bend", 1000, "bend_x_1000", "x 1000"},
+                                                {"stretch", 0.1, "", ""},
+                                                {"stretch", 1, "", ""},
+                                                {"stretch", 10, "", ""},
+                                                {"stretch", 100, "", ""}}};
 
 Fabric multiplied(Fabric fabric, const Multiple& by) {
   double& u = by.of == "bend" ? fabric.bend_u_N_m : fabric.stretch_u_N_per_m;
@@ -46,6 +50,12 @@ Fabric multiplied(Fabric fabric, const Multiple& by) {
 
 void add_iterations(BenchRow& row, std::string_view key, std::string_view title, const PcgReport& report) {
   report ? row.add(key, title, static_cast<long>(report.iterations)) : row.add_empty(key, title);
+}
+
+// (largest - least) / least, %.
+double variation_percent(const std::vector<double>& values) {
+  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  return 100 * (*largest - *least) / *least;
 }
 
 // (largest - least) / least of the values under `key` in the rows of `of`, %; nothing when one is missing.
@@ -67,14 +77,48 @@ void add_variation(BenchRow& facts, std::string_view fact, std::string_view titl
     }
   }
   if (values.size() < 2) return facts.add_empty(fact, title);
-  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
-  facts.add(fact, title, 100 * (*largest - *least) / *least, 1);
+  facts.add(fact, title, variation_percent(values), 1);
+}
+
+PcgOptions block_jacobi() {
+  PcgOptions options;
+  options.preconditioner = Preconditioner::block_jacobi;
+  options.max_iterations = most_iterations;
+  return options;
+}
+
+// A row per state of the drape of `scene`, whose cloth is the base cloth; as many as lie in its `frames`.
+std::vector<BenchRow> iterations_along_the_drape(const Scene& scene, int frames) {
+  std::vector<BenchRow> rows;
+  Drape drape(scene);
+  int frame = 0;
+  for (const int state : other_state_frames) {
+    if (state > frames || interrupted() || !drape.advance(state - frame)) break;
+    frame = state;
+    const StepSystem base_system(drape, state_h_s);
+    BenchRow row;
+    row.add("state_frame", "frame", static_cast<long>(state));
+    std::vector<double> iterations;
+    bool all = true;
+    for (const Multiple& by : multiples) {
+      if (by.of != "bend") continue;
+      StepSystem system(drape, state_h_s, multiplied(scene.cloth.front().fabric, by));
+      const PcgReport report = system.solve(block_jacobi(), base_system.b());
+      add_iterations(row, by.key, by.title, report);
+      iterations.push_back(report.iterations);
+      all = all && report;
+    }
+    all ? row.add("vary_percent", "vary by, %", variation_percent(iterations), 1)
+        : row.add_empty("vary_percent", "vary by, %");
+    rows.push_back(std::move(row));
+  }
+  return rows;
 }
 
 }  // namespace
 
 BenchResult bench_stiffness(BenchRuns& runs) {
-  BenchResult result{"stiffness", {{"rows", {}, false}}, {}, {}, true};
+  BenchResult result{"stiffness", {{"rows", {}, false}, {"states", {}, false}}, {}, {}, true};
   std::vector<BenchRow>& rows = result.tables.front().rows;
   Scene scene = embedded_scene("cylinder");
   SceneCloth& cloth = scene.cloth.front();
@@ -83,13 +127,11 @@ BenchResult bench_stiffness(BenchRuns& runs) {
   set_frames(scene, frames);
   const Fabric base = cloth.fabric;
 
-  runs.say("state", 0);
+  runs.say("states", 0);
+  result.tables.back().rows = iterations_along_the_drape(scene, frames);
   Drape drape(scene);
   if (!drape.advance(std::min(frames, state_frame)))
     throw Error(ExitCode::simulation_failed, "bench stiffness: the base drape failed before its state was reached");
-  PcgOptions block_jacobi;
-  block_jacobi.preconditioner = Preconditioner::block_jacobi;
-  block_jacobi.max_iterations = most_iterations;
   const StepSystem base_system(drape, state_h_s);
 
   for (const Multiple& by : multiples) {
@@ -110,8 +152,8 @@ BenchResult bench_stiffness(BenchRuns& runs) {
     add_contacts(row, phase);
     add_phases(row, phase);
     StepSystem system(drape, state_h_s, cloth.fabric);
-    add_iterations(row, "iterations_block_jacobi", "own forces", system.solve(block_jacobi));
-    add_iterations(row, "iterations_block_jacobi_same_b", "same b", system.solve(block_jacobi, base_system.b()));
+    add_iterations(row, "iterations_block_jacobi", "own forces", system.solve(block_jacobi()));
+    add_iterations(row, "iterations_block_jacobi_same_b", "same b", system.solve(block_jacobi(), base_system.b()));
     add_quality(row, report);
     rows.push_back(std::move(row));
   }
@@ -127,6 +169,7 @@ BenchResult bench_stiffness(BenchRuns& runs) {
                   bend ? "block Jacobi, same b, over bend varies by, %" : "  over stretch, %", rows, of,
                   "iterations_block_jacobi_same_b");
   }
+  result.notes.push_back("Second table: block Jacobi with the same b at other frames of the base cloth's drape.");
   result.notes.push_back("Block Jacobi: iterations of one solve at frame " +
                          std::to_string(std::min(frames, state_frame)) + ", h = 1/60 s; - is more than " +
                          std::to_string(most_iterations) + ".");

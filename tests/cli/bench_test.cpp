@@ -66,12 +66,12 @@ TEST(Bench, ScalingFindsTheSizesOfThePaperWithinThreePercent) {
 
 TEST(Bench, StiffnessHasARowPerFactorAndIterationsFromOneState) {
   const Scratch scratch;
-  const Json json = bench(scratch, {"stiffness", "--size", "100", "--frames", "4"});
+  const Json json = bench(scratch, {"stiffness", "--size", "100", "--frames", "6"});
   const auto& rows = json.at("rows").array();
   ASSERT_EQ(rows.size(), 9u);
   std::vector<double> same_b;
   for (const Json& row : rows) {
-    EXPECT_EQ(row.at("frames").integer(), 4);
+    EXPECT_EQ(row.at("frames").integer(), 6);
     EXPECT_GT(row.at("touching_mean").number(), 0);
     const bool bend = row.at("varied").string() == "bend";
     EXPECT_NEAR(row.at("bend_u_N_m").number(), 1e-5 * (bend ? row.at("factor").number() : 1), 1e-12);
@@ -86,6 +86,30 @@ TEST(Bench, StiffnessHasARowPerFactorAndIterationsFromOneState) {
             rows[5].at("iterations_block_jacobi_same_b").number());
   const auto [least, largest] = std::minmax_element(same_b.begin(), same_b.end());
   EXPECT_NEAR(json.at("bend_iterations_same_b_vary_percent").number(), 100 * (*largest / *least - 1), 1e-9);
+}
+
+TEST(Bench, StiffnessAsksAgainAtEveryStateThatTheDrapeReaches) {
+  const Scratch scratch;
+  EXPECT_TRUE(bench(scratch, {"stiffness", "--size", "100", "--frames", "4"}).at("states").array().empty());
+  const Json json = bench(scratch, {"stiffness", "--size", "100", "--frames", "15"});
+  const auto& states = json.at("states").array();
+  ASSERT_EQ(states.size(), 2u);
+  std::vector<double> first;
+  for (const Json& state : states) {
+    std::vector<double> iterations;
+    for (const char* key : {"bend_x_0_1", "bend_x_1", "bend_x_10", "bend_x_100", "bend_x_1000"})
+      iterations.push_back(state.at(key).number());
+    const auto [least, largest] = std::minmax_element(iterations.begin(), iterations.end());
+    EXPECT_GT(*largest, *least);
+    EXPECT_NEAR(state.at("vary_percent").number(), 100 * (*largest / *least - 1), 1e-9);
+    if (first.empty()) {
+      first = iterations;
+    } else {
+      EXPECT_NE(iterations, first);  // another state is another system
+    }
+  }
+  EXPECT_EQ(states[0].at("state_frame").integer(), 5);
+  EXPECT_EQ(states[1].at("state_frame").integer(), 15);
 }
 
 TEST(Bench, PaperHasItsColumnsBesideThoseOf1998) {
