@@ -1,9 +1,8 @@
 #include "step/contact_rows.hpp"
 
 #include "core/stopwatch.hpp"
-#include "step/tangents.hpp"
 
-#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,14 +10,24 @@
 namespace toile {
 namespace {
 
-constexpr double rest_share = 0.45;     // of the shortest rest edge: pairs that are neighbours at rest do not repel
-constexpr double stiffness_factor = 1;  // c
-constexpr double load_share = 0.1;      // of r: how far the load of the last step may press the spring
+constexpr double rest_share = 0.45;  // of the shortest rest edge: pairs that are neighbours at rest do not repel
+constexpr double load_share = 0.1;   // of r: how far the load of the last step may press the spring
 constexpr double most_growth =
     10;  // a hit in a short step is a huge load for a moment, and would leave a stiffness that no solver likes
-constexpr double slowest_slip = 1e-3;  // m/s
+// A bristle lets go when its contact has been open for so many steps, or by so much of r.
+constexpr int most_idle_steps = 2;
+constexpr double idle_gap = 1.5;
+constexpr double same_way = 0.9, too_near = 0.1;  // cosine; of r
+constexpr double same_side =
+    0.7;  // cosine between the normals of a contact before and after its vertex came to another face
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// The vertices whose contact this is; -1: none.  Edges that pass over edges are other contacts all the time.
+std::array<Index, 2> vertices_of(ContactKind kind, bool body, const std::array<Index, 5>& feature) {
+  if (body || kind == ContactKind::edge_edge) return {-1, -1};
+  return {feature[0], kind == ContactKind::vertex_vertex ? feature[1] : Index{-1}};
+}
 
 double drift_along(const LinearSpring& spring, const StepFormula& step) {
   return step.drift_m.empty() ? 0 : along(spring, step.drift_m);
@@ -104,7 +113,8 @@ void ContactRows::detect(const ClothState& state, double h_s) {
                 friction};
       pair.spring.particle = contact.particle;
       pair.spring.weight = contact.weight;
-      pair.spring.direction = contact.normal;
+      pair.spring.direction = pair.normal = contact.normal;
+      pair.weight = contact.weight;
       const double closing = std::max(0.0, -contact.normal.dot(relative_velocity(pair, state.v, h_s))) * h_s;
       if (contact.gap_m <
           r + std::min(options_.look_ahead * std::max(r, full), closing + h_s * h_s * model_->gravity_m_per_s2.norm()))
@@ -139,33 +149,14 @@ void ContactRows::detect(const ClothState& state, double h_s) {
 void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step, double base_h_s,
                         std::span<const Mat3> diagonal) {
   auto memory = memory_.begin();
+  kept_.assign(memory_.size(), 0);
   for (Pair& pair : pairs_) {
+    place(pair, state, dv, step, base_h_s, diagonal);
     LinearSpring& spring = pair.spring;
-    if (pair.key.body) {
-      const Index first = pair.key.feature[3], second = pair.key.feature[4];
-      pair.body_travel_m = body_->vertex_travel(first);
-      if (second >= 0) pair.body_travel_m += pair.body_parameter * (body_->vertex_travel(second) - pair.body_travel_m);
-      spring.body_displacement_m = spring.direction.dot(pair.body_travel_m);
-    }
-    double inverse_mass = 0, elastic = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (spring.particle[k] < 0) continue;
-      const std::size_t i = at(spring.particle[k]);
-      const double w2 = spring.weight[k] * spring.weight[k];
-      inverse_mass += w2 / model_->mass_kg[i];
-      elastic +=
-          w2 * (spring.direction.dot(diagonal[i] * spring.direction) - model_->mass_kg[i]);  // h^2 k_n (and damping)
-    }
-    const double h = base_h_s;
-    spring.stiffness_N_per_m =
-        stiffness_factor * (1 / inverse_mass + elastic * (h * h) / (step.weight_s * step.weight_s)) / (h * h);
-    pair.lambda_N = 0;
-    pair.slip_m_per_s.setZero();
     while (memory != memory_.end() && memory->key < pair.key) ++memory;
-    const bool lived = memory != memory_.end() && memory->key == pair.key;
+    const bool known = memory != memory_.end() && memory->key == pair.key;
+    const bool lived = known && memory->idle_steps == 0;
     if (lived) {
-      pair.lambda_N = memory->lambda_N;
-      pair.slip_m_per_s = memory->slip_m_per_s;
       const double load = std::min(memory->lambda_N / (load_share * pair.r_m), most_growth * spring.stiffness_N_per_m);
       spring.stiffness_N_per_m = std::max({spring.stiffness_N_per_m, memory->stiffness, load});
     }
@@ -173,26 +164,128 @@ void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, const
     spring.force_N = spring.stiffness_N_per_m * (pair.r_m - pair.gap_m);
     const double predicted = pair.gap_m + step.weight_s * (along(spring, state.v) + along(spring, dv)) -
                              spring.body_displacement_m + drift_along(spring, step);
-    pair.active = lived || predicted < pair.r_m;
+    pair.active = !pair.passes_by && (lived || predicted < pair.r_m);
+    pair.lambda_N = 0;
+    pair.loaded = false;
+    pair.bristle = {};
+    pair.idle_steps = most_idle_steps;
+    if (known) carry_on(pair, static_cast<std::size_t>(memory - memory_.begin()));
+  }
+  take_over_bristles();
+}
+
+// Where the pair is, which way its spring acts, and how stiff it is at least.
+void ContactRows::place(Pair& pair, const ClothState& state, std::span<const Vec3> dv, const StepFormula& step,
+                        double base_h_s, std::span<const Mat3> diagonal) const {
+  LinearSpring& spring = pair.spring;
+  if (!pair.key.body && pair.key.kind != ContactKind::vertex_face) aim_at_the_end(pair, state, dv, step);
+  const double to_base = (base_h_s * base_h_s) / (step.weight_s * step.weight_s);  // h^2 K, of the frame's own step
+  double inverse_mass = 0, elastic_kg = 0, compliance = 0;
+  pair.start_m.setZero();
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (spring.particle[k] < 0) continue;
+    const std::size_t i = at(spring.particle[k]);
+    const double m = model_->mass_kg[i], w2 = spring.weight[k] * spring.weight[k];
+    const Mat3 elastic = to_base * (diagonal[i] - m * Mat3::Identity());
+    const Vec3& n = spring.direction;
+    pair.start_m += spring.weight[k] * state.x[i];
+    inverse_mass += w2 / m;
+    elastic_kg += w2 * n.dot(elastic * n);
+    if (!pair.key.body) compliance += w2 * n.dot((m * Mat3::Identity() + elastic).inverse() * n);
+  }
+  const double effective_kg = pair.key.body ? 1 / inverse_mass + elastic_kg : 1 / compliance;
+  spring.stiffness_N_per_m = effective_kg / (base_h_s * base_h_s);
+  if (!pair.key.body) {
+    pair.gap_m = spring.direction.dot(pair.start_m);
+    return;
+  }
+  const Index first = pair.key.feature[3], second = pair.key.feature[4];
+  pair.body_travel_m = body_->vertex_travel(first);
+  if (second >= 0) pair.body_travel_m += pair.body_parameter * (body_->vertex_travel(second) - pair.body_travel_m);
+  spring.body_displacement_m = spring.direction.dot(pair.body_travel_m);
+}
+
+// A contact goes on: with the load and the friction that it had.
+void ContactRows::carry_on(Pair& pair, std::size_t memory) {
+  const Memory& before = memory_[memory];
+  kept_[memory] = 1;
+  pair.loaded = before.idle_steps == 0;
+  pair.lambda_N = pair.loaded ? before.lambda_N : 0;
+  pair.idle_steps = before.idle_steps;
+  pair.bristle = before.bristle;
+  pair.bristle.carry_on(pair.spring.direction, pair.spring.stiffness_N_per_m);
+  pair.bristle.decide(before.way_m, pair.friction * pair.lambda_N);
+}
+
+// Two edges, or a vertex and an edge, meet along a direction that turns while they pass each other: the hem of a sheet that slides comes
+// to lie over the vertices before it, and a row along the way to them would be a wall.  Such a row is made about the end of the step,
+// as far as it is known.
+void ContactRows::aim_at_the_end(Pair& pair, const ClothState& state, std::span<const Vec3> dv,
+                                 const StepFormula& step) const {
+  LinearSpring& spring = pair.spring;
+  spring.direction = pair.normal;
+  spring.weight = pair.weight;
+  pair.passes_by = false;
+  std::array<Vec3, 4> end;
+  for (std::size_t k = 0; k < 4 && spring.particle[k] >= 0; ++k) {
+    const std::size_t i = at(spring.particle[k]);
+    end[k] = state.x[i] + step.drift(spring.particle[k]) + step.weight_s * (state.v[i] + dv[i]);
+  }
+  std::array<double, 4> weight = pair.weight;
+  if (pair.key.kind == ContactKind::edge_edge) {
+    EdgeEdge closest;
+    if (!interior_edge_edge(end[0], end[1], end[2], end[3], closest)) return;
+    weight = {1 - closest.s, closest.s, closest.t - 1, -closest.t};
+  } else if (pair.key.kind == ContactKind::vertex_edge) {
+    const Vec3 edge = end[2] - end[1];
+    const double t = std::clamp((end[0] - end[1]).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    weight = {1, t - 1, -t, 0};
+  }
+  Vec3 between = Vec3::Zero();
+  for (std::size_t k = 0; k < 4 && spring.particle[k] >= 0; ++k) between += weight[k] * end[k];
+  const double distance = between.norm(), turned = between.dot(pair.normal);
+  if (distance >= pair.r_m) {  // others have taken over, on whatever side, unless it only moved away
+    pair.passes_by = turned < same_way * distance;
+    return;
+  }
+  // Through each other, or so near that the direction means nothing: the side is that of the start.
+  if (turned <= 0 || distance < too_near * pair.r_m) return;
+  spring.weight = weight;
+  spring.direction = between / distance;
+}
+
+// A vertex that comes to the next face, or to the edge between two, has another pair; what holds it there is the same contact.
+void ContactRows::take_over_bristles() {
+  orphans_.clear();
+  for (std::size_t m = 0; m < memory_.size(); ++m) {
+    if (kept_[m] != 0) continue;
+    for (const Index vertex : vertices_of(memory_[m].key.kind, memory_[m].key.body, memory_[m].key.feature)) {
+      if (vertex >= 0) orphans_.push_back({vertex, m});
+    }
+  }
+  if (orphans_.empty()) return;
+  std::sort(orphans_.begin(), orphans_.end());
+  for (Pair& pair : pairs_) {
+    if (pair.bristle.begun()) continue;
+    for (const Index vertex : vertices_of(pair.key.kind, pair.key.body, pair.key.feature)) {
+      if (vertex < 0 || pair.bristle.begun()) continue;
+      auto orphan = std::lower_bound(orphans_.begin(), orphans_.end(), Orphan{vertex, 0});
+      const auto fits = [&] {
+        return kept_[orphan->memory] == 0 && memory_[orphan->memory].normal.dot(pair.spring.direction) >= same_side;
+      };
+      while (orphan != orphans_.end() && orphan->vertex == vertex && !fits()) ++orphan;
+      if (orphan != orphans_.end() && orphan->vertex == vertex) carry_on(pair, orphan->memory);
+    }
   }
 }
 
 void ContactRows::append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const {
   (void)state;
+  (void)h_s;
   for (const Pair& pair : pairs_) {
     if (!pair.active) continue;
     springs.push_back(pair.spring);
-    if (pair.friction <= 0 || pair.lambda_N <= 0) continue;
-    const double drag = std::min(pair.spring.stiffness_N_per_m * h_s,
-                                 pair.friction * pair.lambda_N / std::max(pair.slip_m_per_s.norm(), slowest_slip));
-    for (const Vec3& t : tangents(pair.spring.direction)) {
-      LinearSpring friction = pair.spring;
-      friction.direction = t;
-      friction.force_N = friction.stiffness_N_per_m = 0;
-      friction.body_displacement_m = t.dot(pair.body_travel_m);
-      friction.damping_N_s_per_m = drag;
-      springs.push_back(friction);
-    }
+    if (pair.friction > 0) pair.bristle.append_springs(pair.spring, pair.body_travel_m, options_.damping_s, springs);
   }
 }
 
@@ -201,26 +294,41 @@ ContactRows::Change ContactRows::update(const ClothState& state, std::span<const
   Change change;
   for (Pair& pair : pairs_) {
     const LinearSpring& spring = pair.spring;
-    pair.predicted_m = pair.gap_m + step.weight_s * (along(spring, state.v) + along(spring, dv)) + along(spring, y) -
-                       spring.body_displacement_m + drift_along(spring, step);
+    Vec3 way = -pair.body_travel_m;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (spring.particle[k] < 0) continue;
+      const std::size_t i = at(spring.particle[k]);
+      way += spring.weight[k] * (step.weight_s * (state.v[i] + dv[i]) + y[i] + step.drift(spring.particle[k]));
+    }
+    const Vec3& n = spring.direction;
+    pair.predicted_m = pair.gap_m + n.dot(way);
     if (pair.active && pair.predicted_m > pair.r_m && may_drop) {
       pair.active = false;
       ++change.dropped;
-    } else if (!pair.active && pair.predicted_m < 0.98 * pair.r_m) {
+    } else if (!pair.active && !pair.passes_by && pair.predicted_m < 0.98 * pair.r_m) {
       pair.active = true;
       ++change.added;
     }
     change.active += pair.active ? 1 : 0;
+    if (!pair.active || pair.friction <= 0) continue;
+    if (!pair.bristle.begun()) pair.bristle.carry_on(n, spring.stiffness_N_per_m);
+    if (!pair.loaded) pair.lambda_N = spring.stiffness_N_per_m * std::max(0.0, pair.r_m - pair.predicted_m);
+    change.turned_back += pair.bristle.decide(way - n.dot(way) * n, pair.friction * pair.lambda_N) ? 1 : 0;
   }
   return change;
 }
 
 bool ContactRows::changed() const {
   auto memory = memory_.begin();
+  const auto skip_idle = [&] {
+    while (memory != memory_.end() && memory->idle_steps > 0) ++memory;
+  };
+  skip_idle();
   for (const Pair& pair : pairs_) {
     if (!pair.active) continue;
     if (memory == memory_.end() || memory->key != pair.key) return true;
     ++memory;
+    skip_idle();
   }
   return memory != memory_.end();
 }
@@ -228,12 +336,19 @@ bool ContactRows::changed() const {
 void ContactRows::accept(const ClothState& end_state) {
   memory_.clear();
   for (const Pair& pair : pairs_) {
-    if (!pair.active) continue;
-    const Vec3 velocity = relative_velocity(pair, end_state.v, h_s_);
+    const int idle = pair.active ? 0 : pair.idle_steps + 1;
+    if (idle > most_idle_steps || (idle > 0 && pair.predicted_m > idle_gap * pair.r_m)) continue;
+    Vec3 way = -pair.start_m - pair.body_travel_m;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (pair.spring.particle[k] >= 0) way += pair.spring.weight[k] * end_state.x[at(pair.spring.particle[k])];
+    }
     const Vec3& n = pair.spring.direction;
-    memory_.push_back({pair.key, pair.spring.stiffness_N_per_m,
-                       pair.spring.stiffness_N_per_m * std::max(0.0, pair.r_m - pair.predicted_m),
-                       velocity - n.dot(velocity) * n});
+    way -= n.dot(way) * n;
+    const double k = pair.spring.stiffness_N_per_m, lambda = k * std::max(0.0, pair.r_m - pair.predicted_m);
+    memory_.push_back({pair.key, k, lambda, pair.bristle, way, n, idle});
+    Bristle& bristle = memory_.back().bristle;
+    // An open contact forgets no stretch: it may close again at once.
+    if (idle == 0 && bristle.begun()) bristle.end(way, pair.friction * lambda);
   }
 }
 

@@ -2,15 +2,18 @@
 //
 //   gap after the step, linear in dv:   g(dv) = d + n . ( sum_i w_i (h (v_i + dv_i) + y_i) - body travel )
 //   active while g < r:                 E = k/2 (r - g)^2         -> one rank-one row of the system (assembly/implicit_row.hpp)
-//   k = c (m_eff + h^2 k_n) / h^2,      m_eff = 1 / sum(w_i^2/m_i),   k_n = sum w_i^2 n.K_ii n      matched to inertia and elasticity
+//   k = 1 / (h^2 sum w_i^2 n.D_i^-1 n),  D_i = M_i + h^2 K_ii     by how much the pair gives way along n, free in all directions: matched
+//       to inertia and elasticity.  With n.K n a layer's hem, whose n leans into the cloth, is a hundred times as stiff, and locks.
+//   k = (m_eff + h^2 k_n) / h^2,  m_eff = 1 / sum(w_i^2/m_i),  k_n = sum w_i^2 n.K_ii n     of a body's rows: nothing may give way
 //   k grows while the contact lives so that the load of the last step takes a tenth of r, and never shrinks: a spring
 //   that softened under load would give back more energy than it took.
-//   friction: viscous along the surface, min(k h, mu lambda / |v_t|) with lambda and v_t of the step before.
+//   friction: a bristle with k_t = k (step/bristle.hpp), with lambda and the way along the surface of the pass before.
 #pragma once
 #include "assembly/block_matrix.hpp"
 #include "assembly/cloth_model.hpp"
 #include "assembly/implicit_row.hpp"
 #include "contact/proximity.hpp"
+#include "step/bristle.hpp"
 #include "step/step_formula.hpp"
 
 #include <span>
@@ -43,6 +46,7 @@ class ContactRows {
 
   struct Change {
     int dropped = 0, added = 0, active = 0;
+    int turned_back = 0;  // slid against a friction that would now drive them
   };
   Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> y, const StepFormula& step,
                 bool may_drop);
@@ -75,19 +79,37 @@ class ContactRows {
     Key key;
     LinearSpring spring;  // direction, particles, weights, stiffness, body travel
     double gap_m, r_m, friction;
-    double lambda_N = 0;          // of the step before, then of this one
-    Vec3 slip_m_per_s{0, 0, 0};   // tangential velocity of the step before
+    Vec3 normal{0, 0, 0};  // at the start of the step; the spring may be made about its end
+    std::array<double, 4> weight{0, 0, 0, 0};
+    bool passes_by = false;  // is nowhere near at the end of the step
+    bool loaded = false;     // carried a load in the step before
+    double lambda_N = 0;     // that friction knows: of the step before, of a new contact that of the last pass
+    Bristle bristle{};
+    Vec3 start_m{0, 0, 0};        // sum of weight x at the start of the step
     Vec3 body_travel_m{0, 0, 0};  // of the body's point over the step; cloth-cloth: 0
     double body_parameter = 0;    // of the point on the body's edge
     bool active = false;
+    int idle_steps = 0;      // since it was active last
     double predicted_m = 0;  // gap of the last update
   };
   struct Memory {  // what outlives a step
     Key key;
     double stiffness, lambda_N;
-    Vec3 slip_m_per_s;
+    Bristle bristle;
+    Vec3 way_m, normal;  // along the surface, in the last step
+    int idle_steps;      // 0: was active
+  };
+  struct Orphan {  // a contact of a vertex that is not among the pairs any more
+    Index vertex;
+    std::size_t memory;
+    auto operator<=>(const Orphan&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   Vec3 relative_velocity(const Pair& pair, const Vec3s& v, double h_s) const;
+  void place(Pair& pair, const ClothState& state, std::span<const Vec3> dv, const StepFormula& step, double base_h_s,
+             std::span<const Mat3> diagonal) const;
+  void carry_on(Pair& pair, std::size_t memory);
+  void take_over_bristles();
+  void aim_at_the_end(Pair& pair, const ClothState& state, std::span<const Vec3> dv, const StepFormula& step) const;
   void measure_reach();
 
   const ClothModel* model_;
@@ -105,6 +127,8 @@ class ContactRows {
   std::vector<BodyContact> body_contacts_;
   std::vector<Pair> pairs_;     // sorted by key
   std::vector<Memory> memory_;  // sorted by key
+  std::vector<Orphan> orphans_;
+  std::vector<char> kept_;  // [memory] its pair is still there
   double h_s_ = 0;
 };
 

@@ -267,44 +267,48 @@ TEST(BodyContact, BodyRowsDragTheClothAlongTheMovingBody) {
 }
 
 // A ball that spins under cloth which stays: the ball is the same at every moment, and so must be the cloth's distance.
+// The largest depth of all particles and frames is a matter of chance, 1.0 to 1.8 mm for rates that differ by a thousandth: so the median of
+// five runs.
 TEST(BodyContact, ABallThatSpinsUnderClothDoesNotDrawItIn) {
   const double radius = 0.2;
-  BodySurface ball = test::sphere(Vec3(0.15, -radius, -0.15), radius, 5);
-  const std::vector<Vec3> rest(ball.positions().begin(), ball.positions().end());
-  Sheet sheet = test::equilateral_sheet(0.3, 0.3, 0.02);
-  for (Vec3& p : sheet.x) p.y() += offset;
-  ClothRun run(sheet, Fabric{});
-  run.world.body = &ball;
-  run.step.body.friction = 0;
-  run.step.body.offset_m = offset;
-  run.adaptive.step_max_s = 1.0 / 60;
-  const auto turned = [&](double rate) {
-    return [&, rate](double t_s, std::span<Vec3> x) {
-      const Vec3 centre(0.15, -radius, -0.15);
-      const Eigen::AngleAxisd turn(rate * t_s, Vec3::UnitX());
-      for (std::size_t i = 0; i < x.size(); ++i) x[i] = centre + turn * (rest[i] - centre);
+  const Vec3 centre(0.15, -radius, -0.15);
+  std::vector<double> deepest_of;
+  for (const double rate : {11.6, 11.8, 12.0, 12.2, 12.4}) {  // two turns in a second: R theta^2/2 is 4 mm in a step
+    BodySurface ball = test::sphere(centre, radius, 5);
+    const std::vector<Vec3> rest(ball.positions().begin(), ball.positions().end());
+    Sheet sheet = test::equilateral_sheet(0.3, 0.3, 0.02);
+    for (Vec3& p : sheet.x) p.y() += offset;
+    ClothRun run(sheet, Fabric{});
+    run.world.body = &ball;
+    run.step.body.friction = 0;
+    run.step.body.offset_m = offset;
+    run.adaptive.step_max_s = 1.0 / 60;
+    const auto turned = [&](double at_rate) {
+      return [&, at_rate](double t_s, std::span<Vec3> x) {
+        const Eigen::AngleAxisd turn(at_rate * t_s, Vec3::UnitX());
+        for (std::size_t k = 0; k < x.size(); ++k) x[k] = centre + turn * (rest[k] - centre);
+      };
     };
-  };
-  const auto deepest = [&] {
-    double most = 0;
-    for (const Vec3& p : run.state.x)
-      most = std::max(most, offset - ((p - Vec3(0.15, -radius, -0.15)).norm() - radius));
-    return most;
-  };
-  run.pin(0);
-  run.pin(15);
-  run.world.body_at = turned(0);
-  run.run(30);
-  const double still = deepest();
-  run.world.body_at = turned(12);  // two turns in a second: R theta^2/2 is 4 mm in a step
-  run.start();
-  double spinning = 0;
-  for (int f = 0; f < 15; ++f) {
-    run.frame();
-    spinning = std::max(spinning, deepest());
+    const auto deepest = [&] {
+      double most = 0;
+      for (const Vec3& p : run.state.x) most = std::max(most, offset - ((p - centre).norm() - radius));
+      return most;
+    };
+    run.pin(0);
+    run.pin(15);
+    run.world.body_at = turned(0);
+    run.run(30);
+    run.world.body_at = turned(rate);
+    run.start();
+    double spinning = 0;
+    for (int f = 0; f < 15; ++f) {
+      run.frame();
+      spinning = std::max(spinning, deepest());
+    }
+    deepest_of.push_back(spinning);
   }
-  std::printf("inside the offset: %.2f mm on the ball at rest, %.2f mm while it spins\n", 1e3 * still, 1e3 * spinning);
-  EXPECT_LT(spinning, 0.6 * offset);
+  std::sort(deepest_of.begin(), deepest_of.end());
+  EXPECT_LT(deepest_of[2], 0.6 * offset);
 }
 
 }  // namespace

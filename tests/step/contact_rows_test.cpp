@@ -190,6 +190,7 @@ TEST(ContactRows, EveryRowConservesMomentumAndPushesAlongAUnitNormal) {
     for (const double w : spring.weight) sum += w;
     EXPECT_NEAR(sum, 0, 1e-12);
     EXPECT_NEAR(spring.direction.norm(), 1, 1e-12);
+    if (std::abs(spring.direction.y()) < 0.5) continue;  // friction
     EXPECT_GT(spring.force_N, 0);
     EXPECT_NEAR(spring.force_N, spring.stiffness_N_per_m * 1e-3, 0.05 * spring.force_N)
         << "k (r - g), r = 2.5 mm, g = 1.5 mm";
@@ -280,8 +281,7 @@ TEST(ContactRows, ARowThatOpensIsDroppedInsteadOfPulling) {
 
 TEST(ContactRows, FrictionActsAlongBothTangentsOfEveryLoadedRow) {
   Rows rows(two_sheets(0.12, 0.02, 1.5e-3), Fabric{});
-  rows.step(1.0 / 60, 1.0 / 60);  // friction takes its size from the load of the step before
-  const auto springs = rows.step(1.0 / 60, 1.0 / 60);
+  const auto springs = rows.step(1.0 / 60, 1.0 / 60);  // friction takes its size from the load of the pass before
   ASSERT_GT(springs.size(), 60U);
   ASSERT_EQ(springs.size() % 3, 0U);
   for (std::size_t k = 0; k < springs.size(); k += 3) {
@@ -290,11 +290,10 @@ TEST(ContactRows, FrictionActsAlongBothTangentsOfEveryLoadedRow) {
     EXPECT_NEAR(s.direction.dot(push.direction), 0, 1e-12);
     EXPECT_NEAR(t.direction.dot(push.direction), 0, 1e-12);
     EXPECT_NEAR(s.direction.dot(t.direction), 0, 1e-12);
-    for (const LinearSpring* drag : {&s, &t}) {
-      EXPECT_EQ(drag->particle, push.particle);
-      EXPECT_EQ(drag->stiffness_N_per_m, 0);
-      EXPECT_EQ(drag->force_N, 0);
-      EXPECT_GT(drag->damping_N_s_per_m, 0);
+    for (const LinearSpring* bristle : {&s, &t}) {  // nothing has moved: all stick, none is stretched
+      EXPECT_EQ(bristle->particle, push.particle);
+      EXPECT_EQ(bristle->stiffness_N_per_m, push.stiffness_N_per_m);
+      EXPECT_NEAR(bristle->force_N, 0, 1e-12);
     }
   }
 }
