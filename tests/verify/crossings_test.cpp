@@ -4,7 +4,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "io/obj.hpp"
-#include "verify/exact.hpp"
+#include "support/exact.hpp"
 #include "verify/predicates.hpp"
 
 #include <gtest/gtest.h>

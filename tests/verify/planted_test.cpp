@@ -4,8 +4,8 @@
 //   point     T = w_a A' + w_b B' + w_c C'          of its plane, with w_a + w_b + w_c = W: whole, exact
 //   segment   from T + t u to T - s u               u whole, not in the plane: passes through T, ends on both sides
 // All coordinates are below 2^52, so every double is exact.
+#include "support/exact.hpp"
 #include "verify/crossings.hpp"
-#include "verify/exact.hpp"
 #include "verify/predicates.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Orientation against whole-number arithmetic, and the perturbation against a literal power series.
 #include "verify/predicates.hpp"
 
-#include "verify/exact.hpp"
+#include "support/exact.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "verify/statistics.hpp"
 
 #include "core/error.hpp"
-#include "verify/exact.hpp"
+#include "support/exact.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

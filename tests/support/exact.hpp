@@ -1,4 +1,4 @@
-// tests/verify/exact.hpp: whole numbers of any size, and random bits: what the judge is judged by.
+// tests/support/exact.hpp: whole numbers of any size, and random bits: what the judges are judged by.
 //
 // Doubles are multiples of a power of two, so a set of them becomes whole numbers on one scale; signs of determinants
 // of those are the truth.  Schoolbook arithmetic, slow and obvious.
@@ -96,27 +96,36 @@ class Whole {
 
 using Point = std::array<Whole, 3>;
 
-// The points times one power of two that makes all of them whole.
+// value = mantissa * 2^exponent with an odd mantissa, or 0.
+struct Split {
+  explicit Split(double value) {
+    if (value == 0) return;
+    mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
+    exponent -= 53;
+    for (; mantissa % 2 == 0; mantissa /= 2) ++exponent;
+  }
+  std::int64_t mantissa = 0;
+  int exponent = 0;
+};
+
+// The points times one power of two that makes all of them whole, the smallest that does.
 inline std::vector<Point> whole_points(std::span<const Vec3> points) {
   int lowest = 0;
   bool any = false;
   for (const Vec3& p : points)
     for (const double x : p) {
-      int exponent = 0;
-      if (x == 0) continue;
-      std::frexp(x, &exponent);
-      lowest = any ? std::min(lowest, exponent - 53) : exponent - 53;
+      const Split split(x);
+      if (split.mantissa == 0) continue;
+      lowest = any ? std::min(lowest, split.exponent) : split.exponent;
       any = true;
     }
   std::vector<Point> result;
   for (const Vec3& p : points) {
     Point whole;
     for (int k = 0; k < 3; ++k) {
-      int exponent = 0;
-      const double fraction = std::frexp(p[k], &exponent);
-      if (p[k] != 0)
-        whole[static_cast<std::size_t>(k)] =
-            Whole(static_cast<std::int64_t>(std::ldexp(fraction, 53))).shifted(exponent - 53 - lowest);
+      const Split split(p[k]);
+      if (split.mantissa != 0)
+        whole[static_cast<std::size_t>(k)] = Whole(split.mantissa).shifted(split.exponent - lowest);
     }
     result.push_back(whole);
   }
