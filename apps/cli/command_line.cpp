@@ -21,6 +21,17 @@ void add_common(CLI::App& command, CommandLine& line) {
   command.add_flag("--json", line.json, "Print the result as one JSON object");
 }
 
+void add_untangle_options(CLI::App& command, CommandLine& line) {
+  command.add_option("CLOTH", line.inputs, "Cloth mesh (OBJ)")->required()->expected(1);
+  command.add_option("--body", line.body, "Body mesh (OBJ), or a mannequin: woman (also: mannequin), dancer, man");
+  command.add_option("--body-unit", line.body_unit, "Unit of both files")->check(CLI::IsMember({"m", "dm", "cm"}));
+  command.add_option("--out", line.out, "Where the cloth goes (default: out/NAME_untangled.obj)");
+  command.add_option("--threads", line.threads, "Threads; 0: one per core. The result does not depend on it")
+      ->check(CLI::Range(0, 1024));
+  command.add_flag("--quiet", line.quiet, "Print errors only");
+  command.add_flag("--json", line.json, "Print the result as one JSON object");
+}
+
 void add_garment_options(CLI::App& command, CommandLine& line) {
   command.add_option("--fabric", line.fabric, "silk, cotton, wool, denim or knit");
   command.add_option("--resolution", line.resolution_cm, "Edge length of the cloth's triangles, cm")
@@ -112,6 +123,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       ->delimiter(',')
       ->check(CLI::Range(0, 1000000));
 
+  CLI::App* untangle =
+      app.add_subcommand("untangle", "Move a cloth that passes through itself or a body until it does not");
+  add_untangle_options(*untangle, line);
+
   CLI::App* bench = add_bench(app, line);
   for (CLI::App* command : {demo, dress, run, check, verify, preview}) add_common(*command, line);
 
@@ -128,7 +143,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   }
   if (app.get_subcommands().empty())
     throw Error(ExitCode::usage,
-                "a command is missing: demo, dress, run, check, verify, preview or bench (toile --help)");
+                "a command is missing: demo, dress, run, check, verify, preview, untangle or bench (toile --help)");
 
   const CLI::App* chosen = app.get_subcommands().front();
   for (const auto& [option, value] :
@@ -137,8 +152,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       throw Error(ExitCode::usage, std::string(option) + ": expected a finite number");  // Range lets NaN pass
   using Command = CommandLine::Command;
   const std::pair<const CLI::App*, Command> commands[] = {
-      {demo, Command::demo},     {dress, Command::dress},     {run, Command::run},    {check, Command::check},
-      {verify, Command::verify}, {preview, Command::preview}, {bench, Command::bench}};
+      {demo, Command::demo},     {dress, Command::dress},     {run, Command::run},           {check, Command::check},
+      {verify, Command::verify}, {preview, Command::preview}, {untangle, Command::untangle}, {bench, Command::bench}};
   for (const auto& [command, value] : commands)
     if (command == chosen) line.command = value;
   if (chosen == bench && bench->get_subcommands().empty())

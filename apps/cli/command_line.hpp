@@ -7,7 +7,7 @@
 namespace toile {
 
 struct CommandLine {
-  enum class Command { help, demo, dress, run, check, verify, preview, bench };
+  enum class Command { help, demo, dress, run, check, verify, preview, untangle, bench };
   Command command = Command::help;
   std::string help;                 // Command::help: what to print
   std::vector<std::string> inputs;  // patterns, scene, files, directory, the demo's or the benchmark's name

@@ -9,6 +9,7 @@ ExitCode simulate_command(const CommandLine& line);  // demo, dress, run
 ExitCode check_command(const CommandLine& line);
 ExitCode verify_command(const CommandLine& line);
 ExitCode preview_command(const CommandLine& line);
+ExitCode untangle_command(const CommandLine& line);
 ExitCode bench_command(const CommandLine& line);
 
 }  // namespace toile

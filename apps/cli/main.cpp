@@ -26,6 +26,8 @@ ExitCode run_command(const CommandLine& line) {
       return verify_command(line);
     case CommandLine::Command::preview:
       return preview_command(line);
+    case CommandLine::Command::untangle:
+      return untangle_command(line);
     case CommandLine::Command::bench:
       return bench_command(line);
   }

@@ -1,0 +1,238 @@
+// apps/cli/untangle_command.cpp: `toile untangle`: cloth that passes through itself or a body, moved until it does not.
+#include "commands.hpp"
+#include "io/file.hpp"
+#include "io/obj.hpp"
+#include "io/obj_replace.hpp"
+#include "mesh/check.hpp"
+#include "sim/json_text.hpp"
+#include "sim/setup.hpp"
+#include "sim/untangle.hpp"
+#include "terminal.hpp"
+#include "verify/crossings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+
+namespace toile {
+namespace {
+
+constexpr std::size_t told_contours = 3, told_pairs = 2;  // in the one line on stderr; --json has them all
+
+struct ClothFile {
+  std::string name, text;
+  ObjMesh mesh;
+  std::vector<Index> particles;     // of the file's vertices those that a face uses
+  std::vector<Triangle> triangles;  // of these particles
+  Vec3s x;
+};
+
+ClothFile load_cloth_file(const std::string& path) {
+  ClothFile cloth;
+  cloth.name = printable(path);
+  cloth.text = read_file(path);
+  cloth.mesh = parse_obj(cloth.text, cloth.name);
+  std::vector<Index> particle_of(cloth.mesh.positions.size(), -1);
+  for (const Triangle& t : cloth.mesh.triangles)
+    for (const Index i : t) particle_of[static_cast<std::size_t>(i)] = 0;
+  for (std::size_t i = 0; i < particle_of.size(); ++i) {
+    if (particle_of[i] < 0) continue;
+    particle_of[i] = static_cast<Index>(cloth.particles.size());
+    cloth.particles.push_back(static_cast<Index>(i));
+    cloth.x.push_back(cloth.mesh.positions[i]);
+  }
+  for (Triangle t : cloth.mesh.triangles) {
+    for (Index& i : t) i = particle_of[static_cast<std::size_t>(i)];
+    cloth.triangles.push_back(t);
+  }
+  check_triangles(cloth.name, cloth.x, cloth.triangles);
+  check_areas(cloth.name, cloth.x, cloth.triangles);
+  return cloth;
+}
+
+// In the unit of the cloth's file.
+SolidMesh load_solid(const CommandLine& line) {
+  if (line.body.empty()) return {};
+  SceneBody body;
+  double units_per_m = 1;
+  if (line.body_unit == "dm") units_per_m = 10;
+  if (line.body_unit == "cm") units_per_m = 100;
+  if (line.body == "mannequin" || line.body == "woman" || line.body == "dancer" || line.body == "man") {
+    body.kind = SceneBody::Kind::mannequin;
+    if (line.body != "mannequin") body.mannequin = mannequin_kind(line.body);
+  } else {
+    body.kind = SceneBody::Kind::mesh;
+    body.mesh = line.body;
+    if (line.body_unit == "m") body.unit = LengthUnit::m;
+    if (line.body_unit == "dm") body.unit = LengthUnit::dm;
+    if (line.body_unit == "cm") body.unit = LengthUnit::cm;
+  }
+  Hash hash;
+  SolidMesh solid = load_body(body, hash).solid;
+  for (Vec3& p : solid.positions) p *= units_per_m;
+  return solid;
+}
+
+std::string words(const char* format, auto... values) {
+  std::array<char, 256> text;
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+// "triangle 12 (shirt/sleeve)": counted from 0, quads split into fans, as `check` counts.
+std::string name_of(const ClothFile& cloth, Index triangle) {
+  const auto t = static_cast<std::size_t>(triangle);
+  std::string name;
+  const auto add = [&](const std::vector<Index>& of, const std::vector<std::string>& names) {
+    if (t >= of.size() || names[static_cast<std::size_t>(of[t])].empty()) return;
+    if (!name.empty()) name += '/';
+    name += printable(names[static_cast<std::size_t>(of[t])]);
+  };
+  add(cloth.mesh.object, cloth.mesh.object_names);
+  add(cloth.mesh.group, cloth.mesh.group_names);
+  return "triangle " + std::to_string(triangle) + (name.empty() ? "" : " (" + name + ')');
+}
+
+std::string describe(const ClothFile& cloth, const Tangle& tangle) {
+  std::string text = std::string(tangle.closed ? "closed" : "open") + (tangle.with_body ? " with the body, " : ", ");
+  text += words("length %.4g at (%.4g %.4g %.4g): ", tangle.length, tangle.position.x(), tangle.position.y(),
+                tangle.position.z());
+  for (std::size_t k = 0; k < std::min(told_pairs, tangle.triangles.size()); ++k) {
+    const auto& [a, b] = tangle.triangles[k];
+    text += (k == 0 ? "" : ", ") + name_of(cloth, a) + " through " +
+            (tangle.with_body ? "body triangle " + std::to_string(b) : name_of(cloth, b));
+  }
+  if (tangle.triangles.size() > told_pairs) text += words(" and %zu more", tangle.triangles.size() - told_pairs);
+  return text;
+}
+
+void add(JsonText& json, std::string_view key, int cloth, int body) {
+  json.key(key);
+  json.begin_object();
+  json.member("cloth_cloth", cloth);
+  json.member("cloth_body", body);
+  json.end_object();
+}
+
+void add(JsonText& json, std::string_view key, const ClothFile& cloth, const std::vector<Tangle>& tangles) {
+  json.key(key);
+  json.begin_array();
+  for (const Tangle& tangle : tangles) {
+    json.begin_object();
+    json.member("closed", tangle.closed);
+    json.member("with_body", tangle.with_body);
+    json.member("length", tangle.length);
+    json.key("position");
+    json.begin_array();
+    for (const double coordinate : tangle.position) json.value(coordinate);
+    json.end_array();
+    json.member("first", name_of(cloth, tangle.triangles.front()[0]));
+    json.member("second", tangle.with_body ? "body" : name_of(cloth, tangle.triangles.front()[1]));
+    json.key("triangles");
+    json.begin_array();
+    for (const auto& pair : tangle.triangles) {
+      json.begin_array();
+      for (const Index t : pair) json.value(t);
+      json.end_array();
+    }
+    json.end_array();
+    json.end_object();
+  }
+  json.end_array();
+}
+
+std::string out_path(const CommandLine& line, bool resolved) {
+  std::filesystem::path path = line.out.empty()
+                                   ? std::filesystem::path("out") /
+                                         (std::filesystem::path(line.inputs.front()).stem().string() + "_untangled.obj")
+                                   : std::filesystem::path(line.out);
+  if (!resolved) path.replace_filename(path.stem().string() + "_still_tangled.obj");
+  return path.string();
+}
+
+}  // namespace
+
+ExitCode untangle_command(const CommandLine& line) {
+  ClothFile cloth = load_cloth_file(line.inputs.front());
+  const SolidMesh solid = load_solid(line);
+
+  ProgressBar progress(line);
+  bool stopped = false;
+  int first = 0;
+  UntangleReport report =
+      untangle(cloth.triangles, cloth.x, solid.triangles, solid.positions, {}, [&](int iteration, int crossings) {
+        if (iteration == 0) first = crossings;
+        Progress shown;
+        shown.phase = "untangling";
+        shown.share = 1 - static_cast<double>(crossings) / std::max(first, 1);
+        progress.show(shown);
+        stopped = interrupted();
+        return !stopped;
+      });
+  progress.clear();
+
+  // What counts is the file as somebody will read it.
+  Vec3s all = cloth.mesh.positions;
+  for (std::size_t k = 0; k < cloth.particles.size(); ++k)
+    all[static_cast<std::size_t>(cloth.particles[k])] = cloth.x[k];
+  const std::string text = with_positions(cloth.text, all, cloth.name);
+  const ObjMesh written = parse_obj(text, cloth.name);
+  report.cloth_crossings = static_cast<int>(find_cloth_crossings(written.triangles, written.positions).size());
+  report.body_crossings = 0;
+  if (!solid.triangles.empty())
+    report.body_crossings = static_cast<int>(
+        find_body_crossings(written.triangles, written.positions, solid.triangles, solid.positions).size());
+  report.resolved = report.cloth_crossings + report.body_crossings == 0;
+
+  const std::string out = out_path(line, report.resolved);
+  make_directories(std::filesystem::path(out).parent_path().string());
+  AtomicFile file(out);
+  file.write(text);
+  file.commit();
+
+  const ExitCode code = report.resolved ? ExitCode::ok : stopped ? ExitCode::interrupted : ExitCode::simulation_failed;
+  if (line.json) {
+    JsonText json;
+    json.begin_object();
+    json.member("resolved", report.resolved);
+    json.member("out", out);
+    json.member("vertices", cloth.x.size());
+    json.member("triangles", cloth.triangles.size());
+    add(json, "crossings_before", report.cloth_crossings_before, report.body_crossings_before);
+    add(json, "crossings", report.cloth_crossings, report.body_crossings);
+    add(json, "contours_before", cloth, report.before);
+    add(json, "contours", cloth, report.left);
+    json.member("inside_body", report.inside);
+    json.member("iterations", report.iterations);
+    json.member("largest_move", report.largest_move);
+    json.member("mean_move", report.mean_move);
+    json.member("edge_change_p99", report.edge_change_p99);
+    json.member("edge_change_max", report.edge_change_max);
+    json.member("exit_code", static_cast<int>(code));
+    json.end_object();
+    print(json.str() + '\n');
+  } else if (!line.quiet) {
+    std::string said = words("%d crossings (%d with the body) in %zu contours before, %d (%d) in %zu after %d trials\n",
+                             report.cloth_crossings_before + report.body_crossings_before, report.body_crossings_before,
+                             report.before.size(), report.cloth_crossings + report.body_crossings,
+                             report.body_crossings, report.left.size(), report.iterations);
+    said += words(
+        "moved by %.3g at most, %.3g on average; edges changed by %.1f %% at most, 99 of 100 by less than %.1f %%\n",
+        report.largest_move, report.mean_move, 100 * report.edge_change_max, 100 * report.edge_change_p99);
+    if (report.inside > 0) said += words("%d vertices are inside the body\n", report.inside);
+    for (const Tangle& tangle : report.left) said += "left: " + describe(cloth, tangle) + '\n';
+    print(said + out + '\n');
+  }
+  if (!report.resolved) {
+    std::string what = cloth.name + ": " + std::to_string(report.cloth_crossings + report.body_crossings) +
+                       " crossings are left in " + std::to_string(report.left.size()) + " contours";
+    for (std::size_t k = 0; k < std::min(told_contours, report.left.size()); ++k)
+      what += (k == 0 ? ": " : "; ") + describe(cloth, report.left[k]);
+    if (report.left.size() > told_contours) what += "; ...";
+    std::fprintf(stderr, "toile: %s%s\n", stopped ? "interrupted, " : "", what.c_str());
+  }
+  return code;
+}
+
+}  // namespace toile
