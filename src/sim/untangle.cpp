@@ -1,9 +1,11 @@
+// sim/untangle.cpp: see the header.  `Untangler` holds what stays the same over the trials; untangle() decides which states
+// are kept.
 #include "sim/untangle.hpp"
 
 #include "contact/contour_motion.hpp"
-#include "core/elementary.hpp"
 #include "core/parallel.hpp"
 #include "mesh/check.hpp"
+#include "sim/model_as_it_is.hpp"
 #include "step/implicit_euler.hpp"
 #include "verify/crossings.hpp"
 
@@ -28,10 +30,10 @@ constexpr int unguarded_rings = 2;
 constexpr int ways = 3;         // to push a contour
 constexpr int eased_rings = 4;  // around tangles that no way undoes, doubled every time
 constexpr double eased_bend_N_m = 1e-3;
-constexpr int most_undone = 8;
-constexpr double progress = 0.995;
-constexpr double most_work = 1e6;  // particles times trials: about 20 s on two cores
-constexpr int most_settling = 30;
+constexpr int most_undone = 8;      // rounds of taking back what a trial made
+constexpr double progress = 0.995;  // a trial that leaves less than this share of the least so far
+constexpr double most_work = 7e5;   // particles times trials: about 20 s on two cores
+constexpr int most_settling = 30, most_halved = 3;
 constexpr double thin = 0.1, thicker = 1.3;  // share of the thickness once nothing crosses, and its growth per step
 constexpr double settled_m = 0.05 * edge_m;
 
@@ -46,38 +48,6 @@ Fabric fabric() {
   f.thickness_m = 0.15 * edge_m;
   f.friction = 0;
   return f;
-}
-
-// Every triangle is cut as it is: rest lengths are those of x.  The threads of neighbours do not line up, which is why the
-// fabric is the same both ways.
-ClothMesh cut_as_it_is(std::span<const Triangle> triangles, std::span<const Vec3> x) {
-  ClothMesh mesh;
-  mesh.particle_count = static_cast<Index>(x.size());
-  mesh.triangles.assign(triangles.begin(), triangles.end());
-  mesh.panel.assign(triangles.size(), 0);
-  mesh.panel_names = {"cloth"};
-  for (const Triangle& t : triangles) {
-    const Vec3 a = x[at(t[1])] - x[at(t[0])], b = x[at(t[2])] - x[at(t[0])];
-    const double length = a.norm();
-    mesh.uv.push_back({Vec2(0, 0), Vec2(length, 0), Vec2(a.dot(b) / length, a.cross(b).norm() / length)});
-  }
-  return mesh;
-}
-
-double angle_of(const Hinge& hinge, std::span<const Vec3> x) {
-  const Vec3 &x0 = x[at(hinge.particle[0])], &x1 = x[at(hinge.particle[1])];
-  const Vec3 e = x1 - x0, a = e.cross(x[at(hinge.particle[2])] - x0), b = (x[at(hinge.particle[3])] - x0).cross(e);
-  const double length = e.norm();
-  return length > 0 ? ieee_atan2(a.cross(b).dot(e) / length, a.dot(b)) : 0;
-}
-
-ClothModel model_of(std::span<const Triangle> triangles, std::span<const Vec3> x) {
-  ModelOptions weightless;
-  weightless.gravity_m_per_s2.setZero();
-  const Fabric one = fabric();
-  ClothModel model = build_model(cut_as_it_is(triangles, x), {&one, 1}, weightless);
-  for (std::size_t h = 0; h < model.bend.size(); ++h) model.bend[h].theta_0 = angle_of(model.topology.hinges[h], x);
-  return model;
 }
 
 std::vector<double> particle_areas(std::span<const Triangle> triangles, std::span<const Vec3> x) {
@@ -116,7 +86,7 @@ class Untangler {
         all_(joined(cloth, x.size(), body)),
         all_x_(x.size() + body_x.size()),
         topology_(build_topology(static_cast<Index>(all_x_.size()), all_)),
-        model_(model_of(cloth, x)),
+        model_(model_as_it_is(cloth, x, fabric())),
         regions_(topology_, all_x_.size(), areas(x)),
         eased_(model_.bend.size(), 0) {
     std::copy(body_x.begin(), body_x.end(), all_x_.begin() + static_cast<std::ptrdiff_t>(particles_));
@@ -124,10 +94,7 @@ class Untangler {
     world_.springs = [this](const ClothState&, double, double, std::vector<LinearSpring>& springs) {
       springs.insert(springs.end(), springs_.begin(), springs_.end());
     };
-    StepOptions options;
-    options.pcg.tolerance = 1e-2;
-    options.max_passes = 3;
-    step_.emplace(model_, world_, options);
+    begin();
   }
 
   Look look(const Vec3s& x) {
@@ -176,6 +143,14 @@ class Untangler {
   }
 
  private:
+  // The integrator takes the stiffness of the bends with it.
+  void begin() {
+    StepOptions options;
+    options.pcg.tolerance = 1e-2;
+    options.max_passes = 3;
+    step_.emplace(model_, world_, options);
+  }
+
   void step(const Vec3s& x, double thickness, Vec3s& end) {
     std::vector<double> scale(particles_, thickness);
     for (std::size_t i = 0; i < particles_; ++i)
@@ -192,15 +167,11 @@ class Untangler {
   }
 
  public:
-  // Creases around the crossings at x are forgotten: there the cloth wants to be flat.  What was modelled folded into
-  // itself would otherwise fold back.
-  void ease(const Vec3s& x, int rings) {
-    const Look seen = look(x);
+  // Creases around contours are forgotten: there the cloth wants to be flat.  What was modelled folded into itself would
+  // otherwise fold back.
+  void ease(const Look& seen, int rings) {
     std::vector<char> flat(all_x_.size(), 0);
-    for (const SurfaceCrossing& crossing : seen.crossings) {
-      for (const Index i : crossing.edge) flat[at(i)] = 1;
-      for (const Index i : all_[at(crossing.triangle)]) flat[at(i)] = 1;
-    }
+    for (const SurfaceCrossing& crossing : seen.crossings) mark(crossing, flat);
     regions_.grow(flat, rings);
     const double stiffer = eased_bend_N_m / fabric().bend_u_N_m;
     for (std::size_t h = 0; h < model_.bend.size(); ++h) {
@@ -210,6 +181,7 @@ class Untangler {
       model_.bend[h].theta_0 = 0;
       model_.bend[h].kappa_N_m *= stiffer;
     }
+    begin();
   }
 
   int inside(const Vec3s& x) const {
@@ -251,6 +223,11 @@ class Untangler {
   void set_positions(const Vec3s& x) { std::copy(x.begin(), x.end(), all_x_.begin()); }
 
  private:
+  void mark(const SurfaceCrossing& crossing, std::vector<char>& particles) const {
+    for (const Index i : crossing.edge) particles[at(i)] = 1;
+    for (const Index i : all_[at(crossing.triangle)]) particles[at(i)] = 1;
+  }
+
   bool of_body(Index particle) const { return at(particle) >= particles_; }
   bool of_body_triangle(Index triangle) const { return at(triangle) >= cloth_.size(); }
 
@@ -281,11 +258,7 @@ class Untangler {
   }
 
   double push(const IntersectionContour& contour, const Look& seen, int way) {
-    for (const ContourPoint& point : contour.points) {
-      const SurfaceCrossing& crossing = seen.crossings[at(point.crossing)];
-      for (const Index i : crossing.edge) unguarded_[at(i)] = 1;
-      for (const Index i : all_[at(crossing.triangle)]) unguarded_[at(i)] = 1;
-    }
+    for (const ContourPoint& point : contour.points) mark(seen.crossings[at(point.crossing)], unguarded_);
     if (with_body(contour, seen)) {
       leave_body(contour, seen);
       return contour_length(contour, seen.crossings, all_x_) * edge_m;
@@ -369,11 +342,7 @@ class Untangler {
         };
         if (with_body(contour, made) || std::any_of(contour.points.begin(), contour.points.end(), known)) continue;
         any = true;
-        for (const ContourPoint& point : contour.points) {
-          const SurfaceCrossing& c = made.crossings[at(point.crossing)];
-          for (const Index i : c.edge) back[at(i)] = 1;
-          for (const Index i : all_[at(c.triangle)]) back[at(i)] = 1;
-        }
+        for (const ContourPoint& point : contour.points) mark(made.crossings[at(point.crossing)], back);
       }
       if (!any) return;
       if (round == most_undone) {
@@ -456,7 +425,7 @@ UntangleReport untangle(std::span<const Triangle> cloth, Vec3s& x, std::span<con
     }
     if (waited >= options.patience) {
       way = (way + 1) % ways;
-      if (way == 0) untangler.ease(best, eased_rings << std::min(eased++, 8));
+      if (way == 0) untangler.ease(untangler.look(best), eased_rings << std::min(eased++, 8));
       waited = 0;
       least = std::numeric_limits<double>::infinity();
       at_x = best;
@@ -468,6 +437,8 @@ UntangleReport untangle(std::span<const Triangle> cloth, Vec3s& x, std::span<con
   for (int k = 0;
        best_count == 0 && report.cloth_crossings_before + report.body_crossings_before > 0 && k < most_settling; ++k) {
     untangler.settle(best, thickness, end);
+    for (int halved = 0; halved < most_halved && untangler.look(end).count() > 0; ++halved)
+      for (std::size_t i = 0; i < end.size(); ++i) end[i] = (end[i] + best[i]) / 2;
     if (untangler.look(end).count() > 0) break;
     double moved = 0;
     for (std::size_t i = 0; i < end.size(); ++i) moved = std::max(moved, (end[i] - best[i]).norm());

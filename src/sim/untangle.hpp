@@ -25,7 +25,7 @@
 namespace toile {
 
 struct UntangleOptions {
-  int most_iterations = 0;  // trials; 0: 600, and fewer for more than 1,700 particles
+  int most_iterations = 0;  // trials; 0: 600, and fewer for more than 1,170 particles
   int patience = 20;        // trials without progress until contours are pushed another way
 };
 

@@ -1,8 +1,10 @@
 // Cloth that starts tangled: a few of the fifty starts here, all of them in the suite UntangleLong (label `long`).
 #include "sim/untangle.hpp"
 
+#include "assembly/elements.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "sim/model_as_it_is.hpp"
 #include "support/crossings.hpp"
 #include "support/tangled_starts.hpp"
 #include "verify/crossings.hpp"
@@ -39,6 +41,18 @@ void expect_resolved(int kind, int seed, double most_edge_change = 0.02) {
   EXPECT_TRUE(report.left.empty());
   EXPECT_EQ(report.inside, 0);
   EXPECT_LT(report.edge_change_max, most_edge_change) << "it keeps its shape";
+}
+
+TEST(ModelAsItIs, ACrumpledSheetIsAtRest) {
+  TangledStart start;
+  test::Random random(3);
+  test::add_crumpled_sheet(start, random, test::tangled_edge_m);
+  const ClothModel model = model_as_it_is(start.triangles, start.x, fabric_preset("cotton", "", ""));
+  Elements elements(model);
+  elements.evaluate(model, {start.x, Vec3s(start.x.size(), Vec3::Zero())});
+  Vec3s force(start.x.size());
+  elements.forces(force);
+  for (const Vec3& f : force) EXPECT_LT(f.norm(), 1e-9);
 }
 
 TEST(Untangle, TwoSheetsThatCross) { expect_resolved(0, 0); }

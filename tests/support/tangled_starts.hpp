@@ -23,8 +23,8 @@ inline constexpr double tangled_edge_m = 0.012;
 
 // A sheet in the plane y = 0 about the origin, moved.
 template <class Map>
-void add_sheet(TangledStart& start, double width_m, double height_m, Map&& map) {
-  const Sheet sheet = equilateral_sheet(width_m, height_m, tangled_edge_m);
+void add_sheet(TangledStart& start, double width_m, double height_m, Map&& map, double edge_m = tangled_edge_m) {
+  const Sheet sheet = equilateral_sheet(width_m, height_m, edge_m);
   const auto first = static_cast<Index>(start.x.size());
   for (const Vec3& p : sheet.x) start.x.push_back(map(Vec3(p + Vec3(-width_m / 2, 0, height_m / 2))));
   for (Triangle t : sheet.mesh.triangles) {
@@ -59,6 +59,25 @@ void add_tube(TangledStart& start, double radius_m, double length_m, Map&& map) 
 
 inline Mat3 turn(double degrees, const Vec3& axis) {
   return Eigen::AngleAxisd(degrees * 3.14159265358979324 / 180, axis.normalized()).toRotationMatrix();
+}
+
+// A sheet squeezed and waved so that it passes through itself many times.
+inline void add_crumpled_sheet(TangledStart& start, Random& random, double edge_m) {
+  std::array<Vec3, 6> wave, way;
+  std::array<double, 6> phase;
+  for (std::size_t k = 0; k < 6; ++k) {
+    wave[k] = random.vector(45);
+    way[k] = random.vector(0.02);
+    phase[k] = random(0, 6);
+  }
+  add_sheet(
+      start, 0.35, 0.35,
+      [&](const Vec3& p) {
+        Vec3 q(0.7 * p);
+        for (std::size_t k = 0; k < 6; ++k) q += std::sin(wave[k].dot(p) + phase[k]) * way[k];
+        return q;
+      },
+      edge_m);
 }
 
 inline TangledStart tangled_start(int kind, int seed) {
@@ -96,18 +115,7 @@ inline TangledStart tangled_start(int kind, int seed) {
     case 3: {
       if (seed >= 3) {
         start.name = "a sheet crumpled through itself";
-        std::array<Vec3, 6> wave, way;
-        std::array<double, 6> phase;
-        for (std::size_t k = 0; k < 6; ++k) {
-          wave[k] = random.vector(45);
-          way[k] = random.vector(0.02);
-          phase[k] = random(0, 6);
-        }
-        add_sheet(start, 0.35, 0.35, [&](const Vec3& p) {
-          Vec3 q(0.7 * p);
-          for (std::size_t k = 0; k < 6; ++k) q += std::sin(wave[k].dot(p) + phase[k]) * way[k];
-          return q;
-        });
+        add_crumpled_sheet(start, random, tangled_edge_m);
         break;
       }
       start.name = "a folded sheet through itself";
