@@ -338,7 +338,7 @@ class Untangler {
           const SurfaceCrossing& c = made.crossings[at(point.crossing)];
           const auto is = [&](Index i) { return !of_body(i) && unguarded_[at(i)]; };
           const Triangle& t = all_[at(c.triangle)];
-          return std::any_of(c.edge.begin(), c.edge.end(), is) || std::any_of(t.begin(), t.end(), is);
+          return std::any_of(c.edge.begin(), c.edge.end(), is) && std::any_of(t.begin(), t.end(), is);
         };
         if (with_body(contour, made) || std::any_of(contour.points.begin(), contour.points.end(), known)) continue;
         any = true;

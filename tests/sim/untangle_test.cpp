@@ -68,6 +68,8 @@ TEST(Untangle, ATubeThroughASheetLeavesByItsShorterEnd) {
   EXPECT_TRUE(report.resolved);
   // The sheet is not torn by the tube: none of its particles goes farther than the tube's end was.
   EXPECT_LT(report.largest_move, 0.12);
+  // The disc that the tube cuts out of the sheet is smaller than the tube's end; pinching it would have cost more.
+  EXPECT_LT(report.iterations, 25);
 }
 TEST(Untangle, TwoSheetsSlottedIntoEachOther) { expect_resolved(8, 0); }
 TEST(Untangle, ASleeveInTheMannequinsArm) { expect_resolved(9, 3); }
@@ -124,6 +126,35 @@ TEST(Untangle, NeverReturnsMoreCrossingsForMoreTrials) {
     EXPECT_EQ(now == 0, report.resolved);
     before = now;
   }
+}
+
+// A sheet under one that is pushed down beside a contour, where contact is off: it must not be passed through.
+TEST(Untangle, MakesNoContourWithAThirdLayer) {
+  TangledStart start;
+  test::Random random(5);
+  test::add_sheet(start, 0.3, 0.3, [](const Vec3& p) { return p; });
+  const std::size_t lying_triangles = start.triangles.size();
+  test::add_sheet(start, 0.3, 0.3, [](const Vec3& p) { return Vec3(p.x(), p.z() + 0.09, 0.001 - p.y()); });
+  const std::size_t standing_triangles = start.triangles.size();
+  test::add_sheet(start, 0.2, 0.08, [](const Vec3& p) { return Vec3(p + Vec3(0, -0.0015, 0.052)); });
+  for (Vec3& p : start.x) p += random.vector(3e-4);
+
+  // The lying sheet and the one below it alone.
+  std::vector<Triangle> pair(start.triangles.begin(),
+                             start.triangles.begin() + static_cast<std::ptrdiff_t>(lying_triangles));
+  pair.insert(pair.end(), start.triangles.begin() + static_cast<std::ptrdiff_t>(standing_triangles),
+              start.triangles.end());
+  ASSERT_TRUE(find_cloth_crossings(pair, start.x).empty());
+  ASSERT_GT(crossings_of(start, start.x), 10);
+  for (const int trials : {1, 2, 4, 8}) {
+    UntangleOptions options;
+    options.most_iterations = trials;
+    Vec3s x;
+    untangled(start, x, options);
+    EXPECT_TRUE(find_cloth_crossings(pair, x).empty()) << "after " << trials;
+  }
+  Vec3s x;
+  EXPECT_TRUE(untangled(start, x).resolved);
 }
 
 TEST(Untangle, SaysWhatIsLeft) {
