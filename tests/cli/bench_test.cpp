@@ -91,7 +91,7 @@ TEST(Bench, StiffnessHasARowPerFactorAndIterationsFromOneState) {
 TEST(Bench, StiffnessAsksAgainAtEveryStateThatTheDrapeReaches) {
   const Scratch scratch;
   EXPECT_TRUE(bench(scratch, {"stiffness", "--size", "100", "--frames", "4"}).at("states").array().empty());
-  const Json json = bench(scratch, {"stiffness", "--size", "100", "--frames", "15"});
+  const Json json = bench(scratch, {"stiffness", "--size", "400", "--frames", "15"});
   const auto& states = json.at("states").array();
   ASSERT_EQ(states.size(), 2u);
   std::vector<double> first;
