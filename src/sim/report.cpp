@@ -109,6 +109,15 @@ void add_measurements(JsonText& text, const Report& report) {
   text.member("p99", s.shear_p99_deg);
   text.member("max", s.shear_max_deg);
   text.end_object();
+  text.key("start");
+  text.begin_object();
+  text.member("cloth_cloth_edges", report.start.cloth_cloth);
+  text.member("cloth_body_edges", report.start.cloth_body);
+  text.member("cloth_cloth_edges_left", report.start.cloth_cloth_left);
+  text.member("cloth_body_edges_left", report.start.cloth_body_left);
+  text.member("trials", report.start.trials);
+  text.member("largest_move_mm", report.start.largest_move_mm);
+  text.end_object();
   text.key("penetrations");
   text.begin_object();
   add(text, "cloth_body_edges", report.audit.cloth_body_edges);

@@ -24,6 +24,13 @@ struct PhaseReport {  // of the sewing, or of everything after it
   double simulated_s = 0;
 };
 
+struct StartReport {  // of cloth that passed through itself or the body before the first frame; edges
+  int cloth_cloth = 0, cloth_body = 0;
+  int cloth_cloth_left = 0, cloth_body_left = 0;
+  int trials = 0;
+  double largest_move_mm = 0;
+};
+
 struct Report {
   std::string command, name;
   std::string input_hash, state_hash;
@@ -39,6 +46,7 @@ struct Report {
   int motion_first_frame = -1;  // sample of cloth.pc2 at which the body still stands; -1: no motion
   std::string motion_name;
   Vec3 shift_m{0, 0, 0};  // by which the flat panels were moved before sewing
+  StartReport start;
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, std::array<double, 2>>> rest_stretch;  // panel, b along the two axes of vt
   VerifyReport audit;

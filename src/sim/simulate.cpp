@@ -3,11 +3,13 @@
 #include "core/parallel.hpp"
 #include "core/stopwatch.hpp"
 #include "garment/placement.hpp"
+#include "mesh/check.hpp"
 #include "sim/dressing.hpp"
 #include "sim/outfit_run.hpp"
 #include "sim/recorder.hpp"
 #include "sim/setup.hpp"
 #include "sim/start_run.hpp"
+#include "sim/untangle.hpp"
 #include "verify/crossings.hpp"
 
 #include <sys/resource.h>
@@ -26,6 +28,15 @@ double peak_memory_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+bool is_closed(std::span<const Vec3> x, std::span<const Triangle> triangles) {
+  try {
+    check_closed("body", x, triangles);
+  } catch (const InputError&) {
+    return false;
+  }
+  return true;
 }
 
 void add(PhaseReport& phase, const FrameReport& frame) {
@@ -117,13 +128,33 @@ class Run {
       cloth_.push_back(toile::load_cloth(scene_, cloth, options_.read, inputs));
   }
 
-  void check_start() {
+  // Cloth that passes through itself or the body is taken apart before the first frame, as far as it can be (sim/untangle.hpp).
+  void free_start() {
     const auto self = find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x);
-    const std::string& name = outfit_.parts.front().name;
-    if (!self.empty()) bad_start(name, std::to_string(count_edges(self)) + " edges of the cloth pass through it");
-    if (!body_) return;
-    const auto through = find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_);
-    if (!through.empty()) bad_start(name, std::to_string(count_edges(through)) + " edges pass between cloth and body");
+    const auto through = body_ ? find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_)
+                               : std::vector<Crossing>{};
+    if (self.empty() && through.empty()) return;
+    std::string what = std::to_string(count_edges(self)) + " edges of the cloth pass through it";
+    if (body_) what += ", " + std::to_string(count_edges(through)) + " between cloth and body";
+    if (scene_.strict_start)
+      throw Error(ExitCode::bad_start, printable(outfit_.parts.front().name) + ": bad start: " + what);
+    say("untangling", 0);
+    // Inside and outside of a body that has holes are not known; then the cloth alone is untangled.
+    const bool with_body = body_ && is_closed(body_x_, body_triangles_);
+    const UntangleReport report = untangle(
+        outfit_.mesh.triangles, outfit_.state.x,
+        with_body ? std::span<const Triangle>(body_triangles_) : std::span<const Triangle>{},
+        with_body ? std::span<const Vec3>(body_x_) : std::span<const Vec3>{}, {}, [&](int, int) { return !stopped(); });
+    const auto self_left = find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x);
+    const auto through_left =
+        body_ ? find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_)
+              : std::vector<Crossing>{};
+    report_.start = {count_edges(self),         count_edges(through), count_edges(self_left),
+                     count_edges(through_left), report.iterations,    1e3 * report.largest_move};
+    std::string then = std::to_string(count_edges(self_left) + count_edges(through_left)) + " are left";
+    if (self_left.empty() && through_left.empty()) then = "none is left";
+    report_.warnings.push_back("bad start: " + what + "; after " + std::to_string(report.iterations) +
+                               " trials of untangling " + then);
   }
 
   void place(GarmentMesh& garment) {
@@ -143,12 +174,12 @@ class Run {
   bool put_on() {
     if (!scene_.start.empty()) {
       outfit_ = start_from(scene_.start, cloth_, body_x_);
-      check_start();
+      free_start();
       return true;
     }
     if (!sewn()) {
       outfit_ = outfit_of_grids(cloth_);
-      check_start();
+      free_start();
       return true;
     }
     for (std::size_t k = 0; k < cloth_.size(); ++k) {
@@ -219,6 +250,7 @@ class Run {
     }
     settling_ = {true, outfit_.mesh.particle_count, dressing.labels()};
     outfit_ = dressing.worn();
+    free_start();
     return true;
   }
 

@@ -174,6 +174,39 @@ TEST(Run, AStartInsideTheBodyIsWarnedOfOrRefused) {
       << "neither the run nor the one before it looks finished";
 }
 
+// Two sheets through each other at a right angle, and one of them through the body.
+Scene tangled() {
+  return parse_scene(R"({"cloth": [
+    {"name": "lying", "grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.03},
+     "placement": {"translation_m": [0, 0.05, 0], "rotation_deg": [-90, 0, 0]}},
+    {"name": "standing", "grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.03}, "fabric": "silk",
+     "placement": {"translation_m": [0.02, 0.06, 0], "rotation_deg": [0, 20, 0]}}],
+    "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.5}}, "time": {"seconds": 0.5}})",
+                     "s.json");
+}
+
+TEST(Run, ATangledStartIsTakenApartBeforeTheFirstFrame) {
+  const Scratch scratch;
+  const Report report = run(scratch, tangled());
+  EXPECT_GT(report.start.cloth_cloth, 3);
+  EXPECT_GT(report.start.cloth_body, 3);
+  EXPECT_EQ(report.start.cloth_cloth_left, 0);
+  EXPECT_EQ(report.start.cloth_body_left, 0);
+  EXPECT_GT(report.start.trials, 0);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(report.warnings[0].find("none is left"), std::string::npos) << report.warnings[0];
+  EXPECT_EQ(report.audit.cloth_cloth_edges.max, 0) << "in any written frame";
+  EXPECT_EQ(report.audit.cloth_body_edges.max, 0);
+}
+
+TEST(Run, ACleanStartIsNotTouched) {
+  const Scratch scratch;
+  const Report report = run(scratch, falling_cloth());
+  EXPECT_EQ(report.start.trials, 0);
+  EXPECT_EQ(report.start.largest_move_mm, 0);
+  EXPECT_TRUE(report.warnings.empty());
+}
+
 TEST(Run, APanelThatTheClothDoesNotHaveIsNamed) {
   const Scratch scratch;
   try {
