@@ -39,6 +39,34 @@ BendRest hinge_rest(const ClothModel& model, std::span<const Fabric> fabrics, co
   return rest;
 }
 
+// A number per name, in the order of first use; and the friction of each two of them.
+void set_pair_friction(ClothModel& model, std::span<const Fabric> fabrics, const std::vector<PairFriction>& pairs) {
+  std::vector<std::string_view> names;
+  const auto number = [&](std::string_view name) {
+    const auto place = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    if (place == names.size()) names.push_back(name);
+    return static_cast<Index>(place);
+  };
+  model.fabric.assign(static_cast<std::size_t>(model.mesh.particle_count), -1);
+  for (std::size_t t = 0; t < model.mesh.triangles.size(); ++t) {
+    const Fabric& fabric = fabrics[fabrics.size() == 1 ? 0 : static_cast<std::size_t>(model.mesh.panel[t])];
+    for (const Index corner : model.mesh.triangles[t]) {
+      Index& of = model.fabric[static_cast<std::size_t>(corner)];
+      if (of < 0) of = number(fabric.name);
+    }
+  }
+  if (pairs.empty()) return;
+  model.pair_friction.assign(names.size(), std::vector<double>(names.size(), -1));
+  for (const PairFriction& pair : pairs) {
+    const auto place = [&](std::string_view name) {
+      return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    };
+    const std::size_t first = place(pair.first), second = place(pair.second);
+    if (first == names.size() || second == names.size()) continue;  // not in this cloth
+    model.pair_friction[first][second] = model.pair_friction[second][first] = pair.friction;
+  }
+}
+
 void check_rest_stretch(const Vec2& b) {
   if (b.allFinite() && b.minCoeff() > 0) return;
   throw InputError("cloth", "rest stretch", "two numbers above zero",
@@ -82,7 +110,15 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
     model.bend.push_back(hinge_rest(model, fabrics, hinge, options.paper_scaling));
   }
   set_folds(model, 1);
+  set_pair_friction(model, fabrics, options.pair_friction);
   return model;
+}
+
+double ClothModel::friction_between(Index i, Index j, double usual) const {
+  if (pair_friction.empty()) return usual;
+  const auto of = [&](Index particle) { return static_cast<std::size_t>(fabric[static_cast<std::size_t>(particle)]); };
+  const double own = pair_friction[of(i)][of(j)];
+  return own < 0 ? usual : own;
 }
 
 void set_folds(ClothModel& model, double share) {

@@ -22,23 +22,29 @@ struct ModelOptions {
   // Brakes every motion, f = -drag m v.  Physics has none (it would brake falling too); sewing uses it to keep loose
   // panels from whipping.
   double drag_per_s = 0;
+  // Layers of these fabrics have this friction; all others the larger one of their two.
+  std::vector<PairFriction> pair_friction;
 };
 
 struct ClothModel {
   ClothMesh mesh;
   Topology topology;
-  std::vector<MembraneRest> membrane;        // [triangle]
-  std::vector<MembraneStiffness> stiffness;  // [triangle]
-  std::vector<BendRest> bend;                // [hinge]
-  std::vector<double> mass_kg;               // [particle]
-  std::vector<double> thickness_m;           // [particle] contact distance of two layers
-  std::vector<double> friction;              // [particle]
+  std::vector<MembraneRest> membrane;              // [triangle]
+  std::vector<MembraneStiffness> stiffness;        // [triangle]
+  std::vector<BendRest> bend;                      // [hinge]
+  std::vector<double> mass_kg;                     // [particle]
+  std::vector<double> thickness_m;                 // [particle] contact distance of two layers
+  std::vector<double> friction;                    // [particle] of its fabrics, the largest
+  std::vector<Index> fabric;                       // [particle] of its first triangle: a number per name
+  std::vector<std::vector<double>> pair_friction;  // [fabric][fabric], < 0: none of its own; empty: no pair has
   Vec3 gravity_m_per_s2{0, -9.81, 0};
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   double drag_per_s = 0;
   int rest_version = 0;  // counts changes of b, so that what depends on rest lengths knows
 
   Index particle_count() const { return mesh.particle_count; }
+  // Of layers whose fabrics are those of particles i and j, where the pair has one of its own; else `usual`.
+  double friction_between(Index i, Index j, double usual) const;
 };
 
 // `fabric_of_panel` has one entry, or one per panel of the mesh.  Hinges on a seam take the mean of both sides.

@@ -21,6 +21,12 @@ struct Fabric {
   double thickness_m = 2.5e-3;  // rest distance of two layers in contact, and of cloth from a body
 };
 
+// Of two fabrics on each other, by name, in either order.
+struct PairFriction {
+  std::string first, second;
+  double friction = 0;
+};
+
 std::span<const Fabric> fabric_presets();  // silk, cotton, wool, denim, knit
 
 // Throws InputError(where, place, ...) with the nearest preset when there is none of that name.

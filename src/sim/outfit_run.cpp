@@ -26,6 +26,7 @@ OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, std::vector<Pin> pins, 
   options.gravity_m_per_s2 = scene.gravity_m_per_s2;
   options.paper_scaling = scene.paper_scaling;
   options.damping_jacobian = scene.damping_jacobian;
+  options.pair_friction = scene.friction_between;
   model_ = build_model(outfit.mesh, outfit.fabrics, options);
   world_.body = body;
   world_.air = scene.air;

@@ -93,6 +93,17 @@ Fabric read_fabric(const Json& value) {
   return fabric;
 }
 
+// [fabric, fabric, friction]
+PairFriction read_pair_friction(const Json& value) {
+  if (!value.is_array() || value.array().size() != 3)
+    value.fail("two names of fabrics and a number, [\"silk\", \"cotton\", 0.2]", value.describe());
+  const auto name = [&](std::size_t k) {
+    const Json& given = value.array()[k];
+    return fabric_preset(given.string(), given.where(), given.pointer()).name;
+  };
+  return {name(0), name(1), number_in(value.array()[2], 0, 100)};
+}
+
 // [[t_s, x, y, z], ...], ascending.
 std::vector<ScenePin::Key> read_path(const Json& path) {
   std::vector<ScenePin::Key> keys;
@@ -361,9 +372,11 @@ Scene parse_scene(std::string_view text, const std::string& file) {
   if (const Json* time = root.find("time")) read_time(*time, scene);
   if (const Json* solver = root.find("solver")) read_solver(*solver, scene);
   if (const Json* contact = root.find("contact")) {
-    contact->allow_only({"thickness_mm", "friction", "self_contact", "strict_start"});
+    contact->allow_only({"thickness_mm", "friction", "friction_between", "self_contact", "strict_start"});
     read_number(*contact, "thickness_mm", scene.contact_thickness_m, 1e-3, 0.1, 100);
     read_number(*contact, "friction", scene.contact_friction, 1, 0, 100);
+    if (const Json* pairs = contact->find("friction_between"))
+      for (const Json& pair : pairs->array()) scene.friction_between.push_back(read_pair_friction(pair));
     scene.self_contact = contact->boolean_or("self_contact", true);
     scene.strict_start = contact->boolean_or("strict_start", false);
   }

@@ -124,6 +124,7 @@ struct Scene {
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
 
   std::optional<double> contact_thickness_m, contact_friction;  // of all fabrics, when given
+  std::vector<PairFriction> friction_between;
   bool self_contact = true;
   bool strict_start = false;
 

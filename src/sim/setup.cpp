@@ -412,6 +412,11 @@ void add_to_hash(const Scene& scene, Hash& hash) {
   add(hash, static_cast<double>(scene.damping_jacobian));
   add(hash, scene.contact_thickness_m);
   add(hash, scene.contact_friction);
+  for (const PairFriction& pair : scene.friction_between) {
+    add(hash, std::string_view(pair.first));
+    add(hash, std::string_view(pair.second));
+    add(hash, pair.friction);
+  }
   add(hash, scene.self_contact ? 1.0 : 0.0);
 }
 

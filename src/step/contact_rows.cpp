@@ -17,7 +17,9 @@ constexpr double most_growth =
 // A bristle lets go when its contact has been open for so many steps, or by so much of r.
 constexpr int most_idle_steps = 2;
 constexpr double idle_gap = 1.5;
+constexpr double most_of_faces = 10;  // stiffness of a row with a face, in terms of what its pair gives way by
 constexpr double same_way = 0.9, too_near = 0.1;  // cosine; of r
+constexpr double moves_on = 0.5;  // of r: way of a pair in a step from which its end says more than its start
 constexpr double same_side =
     0.7;  // cosine between the normals of a contact before and after its vertex came to another face
 
@@ -104,6 +106,8 @@ void ContactRows::detect(const ClothState& state, double h_s) {
         friction = std::max(friction, model_->friction[at(contact.particle[k])]);
       }
       if (r <= 0) continue;  // contact is switched off here
+      const std::size_t other = contact.kind == ContactKind::edge_edge ? 2 : 1;
+      friction = model_->friction_between(contact.particle[0], contact.particle[other], friction);
       Pair pair{{contact.kind,
                  false,
                  {contact.particle[0], contact.particle[1], contact.particle[2], contact.particle[3], -1}},
@@ -191,9 +195,13 @@ void ContactRows::place(Pair& pair, const ClothState& state, std::span<const Vec
     pair.start_m += spring.weight[k] * state.x[i];
     inverse_mass += w2 / m;
     elastic_kg += w2 * n.dot(elastic * n);
-    if (!pair.key.body) compliance += w2 * n.dot((m * Mat3::Identity() + elastic).inverse() * n);
+    compliance += w2 * n.dot((m * Mat3::Identity() + elastic).inverse() * n);
   }
-  const double effective_kg = pair.key.body ? 1 / inverse_mass + elastic_kg : 1 / compliance;
+  double effective_kg = 1 / inverse_mass + elastic_kg;
+  if (!pair.key.body) {
+    const bool face = pair.key.kind == ContactKind::vertex_face;
+    effective_kg = std::min(effective_kg, (face ? most_of_faces : 1) / compliance);
+  }
   spring.stiffness_N_per_m = effective_kg / (base_h_s * base_h_s);
   if (!pair.key.body) {
     pair.gap_m = spring.direction.dot(pair.start_m);
@@ -227,10 +235,15 @@ void ContactRows::aim_at_the_end(Pair& pair, const ClothState& state, std::span<
   spring.weight = pair.weight;
   pair.passes_by = false;
   std::array<Vec3, 4> end;
+  Vec3 way = Vec3::Zero();
   for (std::size_t k = 0; k < 4 && spring.particle[k] >= 0; ++k) {
     const std::size_t i = at(spring.particle[k]);
-    end[k] = state.x[i] + step.drift(spring.particle[k]) + step.weight_s * (state.v[i] + dv[i]);
+    const Vec3 moved = step.drift(spring.particle[k]) + step.weight_s * (state.v[i] + dv[i]);
+    end[k] = state.x[i] + moved;
+    way += pair.weight[k] * moved;
   }
+  // What is nearly at rest would be kept from it: a fold in an armpit turned its rows back and forth for ever.
+  if (way.norm() < moves_on * pair.r_m) return;
   std::array<double, 4> weight = pair.weight;
   if (pair.key.kind == ContactKind::edge_edge) {
     EdgeEdge closest;

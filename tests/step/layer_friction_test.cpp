@@ -99,6 +99,23 @@ TEST(LayerFriction, AboveTheConeASheetSlidesAsABlockWould) {
   }
 }
 
+TEST(LayerFriction, OfAPairOfFabricsIsItsOwn) {
+  Fabric cotton, silk;
+  silk.name = "silk";
+  silk.friction = 0.3;
+  ModelOptions options = Slope::tilted(20);
+  options.pair_friction = {{"wool", "silk", 0.9}, {"silk", "cotton", 0.1}};
+  const double a = 20 * std::numbers::pi / 180;
+  for (const bool named : {false, true}) {
+    Slope slope(0, 20, 0.02, 1, 0.8);
+    if (!named) options.pair_friction.pop_back();
+    slope.run.model = build_model(slope.run.model.mesh, std::array{cotton, silk}, options);
+    options.pair_friction.push_back({"silk", "cotton", 0.1});
+    const double mu = named ? 0.1 : 0.35;  // the larger one
+    EXPECT_NEAR(acceleration_of(slope), g * (std::sin(a) - mu * std::cos(a)), 0.1) << named;
+  }
+}
+
 TEST(LayerFriction, WithoutItASheetGoesTheWholeWayDownTheSlope) {
   const double exact = g * std::sin(20 * std::numbers::pi / 180) * 0.5 * 0.5 * 0.5;
   for (const double edge_m : {0.02, 0.01}) {
