@@ -17,7 +17,7 @@ constexpr double most_growth =
 // A bristle lets go when its contact has been open for so many steps, or by so much of r.
 constexpr int most_idle_steps = 2;
 constexpr double idle_gap = 1.5;
-constexpr double most_of_faces = 10;  // stiffness of a row with a face, in terms of what its pair gives way by
+constexpr double most_of_faces = 3;  // stiffness of a row with a face, in terms of what its pair gives way by
 constexpr double same_way = 0.9, too_near = 0.1;  // cosine; of r
 constexpr double moves_on = 0.5;  // of r: way of a pair in a step from which its end says more than its start
 constexpr double same_side =

@@ -4,7 +4,7 @@
 //   active while g < r:                 E = k/2 (r - g)^2         -> one rank-one row of the system (assembly/implicit_row.hpp)
 //   k = (m_eff + h^2 k_n) / h^2,  m_eff = 1 / sum(w_i^2/m_i),  k_n = sum w_i^2 n.K_ii n     matched to inertia and elasticity
 //       but between layers at most c / (h^2 sum w_i^2 n.D_i^-1 n),  D_i = M_i + h^2 K_ii:  c times what the pair gives way by along n, free in
-//       all directions; c = 10 with a face, 1 between edges.  n.K n alone makes a hem, whose n leans into the cloth, a hundred times
+//       all directions; c = 3 with a face, 1 between edges.  n.K n alone makes a hem, whose n leans into the cloth, a hundred times
 //       as stiff as its neighbours, and layers lock like gears; c = 1 everywhere lets a fold in an armpit tremble.
 //   k grows while the contact lives so that the load of the last step takes a tenth of r, and never shrinks: a spring
 //   that softened under load would give back more energy than it took.
