@@ -80,7 +80,8 @@ struct BodyContact {
 struct ProximityOptions {
   double range_m = 5e-3;   // report pairs nearer than this
   double depth_m = 10e-3;  // body: and penetrating less than this
-  // 0.1 lets sheets slide over each other; 0.5 keeps contacts in sharp creases, where sewing squeezes folds together.
+  // 0.1 leaves nothing that leans into its own cloth; 0.5 keeps contacts in sharp creases, where sewing squeezes folds together.
+  // Sheets slide with either: what locked them was the stiffness of slanting rows (step/contact_rows.hpp).
   double region_tolerance = toile::region_tolerance;
 };
 

@@ -129,14 +129,15 @@ class Run {
   }
 
   // Cloth that passes through itself or the body is taken apart before the first frame, as far as it can be (sim/untangle.hpp).
-  void free_start() {
+  // `sewn_now`: what sewing left, not what the user gave; --strict-start is about the latter.
+  void free_start(bool sewn_now) {
     const auto self = find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x);
     const auto through = body_ ? find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_)
                                : std::vector<Crossing>{};
     if (self.empty() && through.empty()) return;
     std::string what = std::to_string(count_edges(self)) + " edges of the cloth pass through it";
     if (body_) what += ", " + std::to_string(count_edges(through)) + " between cloth and body";
-    if (scene_.strict_start)
+    if (scene_.strict_start && !sewn_now)
       throw Error(ExitCode::bad_start, printable(outfit_.parts.front().name) + ": bad start: " + what);
     say("untangling", 0);
     // Inside and outside of a body that has holes are not known; then the cloth alone is untangled.
@@ -149,12 +150,17 @@ class Run {
     const auto through_left =
         body_ ? find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_)
               : std::vector<Crossing>{};
-    report_.start = {count_edges(self),         count_edges(through), count_edges(self_left),
-                     count_edges(through_left), report.iterations,    1e3 * report.largest_move};
+    StartReport& start = report_.start;  // of the last garment when several are sewn; trials of all of them
+    start = {count_edges(self),
+             count_edges(through),
+             count_edges(self_left),
+             count_edges(through_left),
+             start.trials + report.iterations,
+             std::max(start.largest_move_mm, 1e3 * report.largest_move)};
     std::string then = std::to_string(count_edges(self_left) + count_edges(through_left)) + " are left";
     if (self_left.empty() && through_left.empty()) then = "none is left";
-    report_.warnings.push_back("bad start: " + what + "; after " + std::to_string(report.iterations) +
-                               " trials of untangling " + then);
+    report_.warnings.push_back((sewn_now ? "as sewn: " : "bad start: ") + what + "; after " +
+                               std::to_string(report.iterations) + " trials of untangling " + then);
   }
 
   void place(GarmentMesh& garment) {
@@ -174,12 +180,12 @@ class Run {
   bool put_on() {
     if (!scene_.start.empty()) {
       outfit_ = start_from(scene_.start, cloth_, body_x_);
-      free_start();
+      free_start(false);
       return true;
     }
     if (!sewn()) {
       outfit_ = outfit_of_grids(cloth_);
-      free_start();
+      free_start(false);
       return true;
     }
     for (std::size_t k = 0; k < cloth_.size(); ++k) {
@@ -250,7 +256,7 @@ class Run {
     }
     settling_ = {true, outfit_.mesh.particle_count, dressing.labels()};
     outfit_ = dressing.worn();
-    free_start();
+    free_start(true);
     return true;
   }
 

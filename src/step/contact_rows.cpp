@@ -242,7 +242,7 @@ void ContactRows::aim_at_the_end(Pair& pair, const ClothState& state, std::span<
     end[k] = state.x[i] + moved;
     way += pair.weight[k] * moved;
   }
-  // What is nearly at rest would be kept from it: a fold in an armpit turned its rows back and forth for ever.
+  // What hardly moves passes nothing by, and needs no guess of its end.
   if (way.norm() < moves_on * pair.r_m) return;
   std::array<double, 4> weight = pair.weight;
   if (pair.key.kind == ContactKind::edge_edge) {
