@@ -3,9 +3,9 @@
 #include "bench_probe.hpp"
 #include "step/explicit_reference.hpp"
 
+#include <fmt/printf.h>
+
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <utility>
 
 namespace toile {
@@ -16,13 +16,6 @@ constexpr int state_frame = 30;     // of the drape: the cloth has met itself, a
 constexpr int most_iterations = 5000;
 constexpr int explicit_particles = 2602;
 constexpr int explicit_steps = 200;
-
-template <class... Values>
-std::string words(const char* format, Values... values) {
-  std::array<char, 256> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
 
 BenchRow claim(std::string key, std::string what, std::string of_1998, double measured, std::string_view unit,
                int digits) {
@@ -53,7 +46,7 @@ void add_cg_claims(BenchRuns& runs, std::vector<BenchRow>& claims) {
   Drape drape = drape_to(runs, cg_particles, "18,000 var");
   reach(drape, std::min(state_frame, runs.line().bench_frames.value_or(state_frame)));
   StepSystem system(drape, 1.0 / 60);
-  const std::string at = words("CG iterations, %d variables, h = 1/60 s, ", 3 * system.model().particle_count());
+  const std::string at = fmt::sprintf("CG iterations, %d variables, h = 1/60 s, ", 3 * system.model().particle_count());
   const auto solve = [&](std::string key, const std::string& how, std::string of_1998, const PcgOptions& options) {
     const PcgReport report = system.solve(options);
     claims.push_back(claim(std::move(key), at + how, std::move(of_1998), report.iterations,
@@ -65,7 +58,8 @@ void add_cg_claims(BenchRuns& runs, std::vector<BenchRow>& claims) {
   options.procedure = PcgProcedure::paper_1998;
   for (const double eps : {1e-2, 1e-3}) {
     options.tolerance = eps;
-    solve(words("cg_paper_1998_eps_%g", eps), words("as printed in 1998, eps = %g", eps), "50 - 100", options);
+    solve(fmt::sprintf("cg_paper_1998_eps_%g", eps), fmt::sprintf("as printed in 1998, eps = %g", eps), "50 - 100",
+          options);
   }
   options.procedure = PcgProcedure::prefiltered;
   options.tolerance = PcgOptions{}.tolerance;
@@ -73,7 +67,7 @@ void add_cg_claims(BenchRuns& runs, std::vector<BenchRow>& claims) {
     options.preconditioner = kind;
     const std::string name(to_string(kind));
     solve("cg_" + name,
-          words("our stop rule, %s%s", name.c_str(), kind == PcgOptions{}.preconditioner ? " (ours)" : ""), "",
+          fmt::sprintf("our stop rule, %s%s", name.c_str(), kind == PcgOptions{}.preconditioner ? " (ours)" : ""), "",
           options);
   }
 }

@@ -73,7 +73,7 @@ void StepSystem::find_contacts(Drape& drape) {
   (void)integrator.attempt(*state_, 0, h_s_, limits, candidate);
   for (const Pin& pin : world.pins) constraints_.hold(pin.particle, -state_->v[static_cast<std::size_t>(pin.particle)]);
   integrator.body_constraints().apply(*state_, h_s_, constraints_, y_, springs_);
-  integrator.contact_rows().append_springs(*state_, h_s_, springs_);
+  integrator.contact_rows().append_springs(springs_);
 }
 
 void StepSystem::assemble() {

@@ -11,9 +11,10 @@
 #include "bench.hpp"
 #include "bench_probe.hpp"
 
+#include <fmt/printf.h>
+
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 namespace toile {
 namespace {
@@ -137,9 +138,7 @@ BenchResult bench_stiffness(BenchRuns& runs) {
   for (const Multiple& by : multiples) {
     if (interrupted()) break;
     cloth.fabric = multiplied(base, by);
-    std::array<char, 32> name;
-    std::snprintf(name.data(), name.size(), "%s-x%g", std::string(by.of).c_str(), by.factor);
-    const Report report = runs.run(scene, name.data());
+    const Report report = runs.run(scene, fmt::sprintf("%s-x%g", std::string(by.of), by.factor));
     const PhaseReport& phase = measured_phase(report);
     if (!reached_its_end(report)) result.complete = false;
     BenchRow row;

@@ -2,11 +2,12 @@
 
 #include "sim/json_text.hpp"
 
+#include <fmt/printf.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 namespace toile {
 namespace {
@@ -17,9 +18,7 @@ struct InTable {
   std::string operator()(long i) const { return std::to_string(i); }
   std::string operator()(double x) const {
     if (!std::isfinite(x)) return "-";
-    std::array<char, 64> text;
-    std::snprintf(text.data(), text.size(), "%.*f", digits, x);
-    return text.data();
+    return fmt::sprintf("%.*f", digits, x);
   }
   std::string operator()(const std::string& text) const { return text; }
 };

@@ -11,7 +11,8 @@
 #include "sim/setup.hpp"
 #include "terminal.hpp"
 
-#include <array>
+#include <fmt/printf.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -20,13 +21,6 @@ namespace toile {
 namespace {
 
 constexpr double checked_resolution_m = 0.01;
-
-template <class... Values>
-std::string words(const char* format, Values... values) {
-  std::array<char, 512> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
 
 // `garment` is the pattern meshed.
 std::string describe(const Pattern& pattern, const GarmentMesh& garment, double resolution_m, JsonText& json) {
@@ -54,11 +48,11 @@ std::string describe(const Pattern& pattern, const GarmentMesh& garment, double 
   json.begin_array();
   for (const std::string& note : summary.notes) json.value(note);
   json.end_array();
-  std::string text = words(
+  std::string text = fmt::sprintf(
       "pattern, %zu panels, %d stitches (%d darts, %d eased, longest ratio %.2f), %.2f m of seam, %.2f m2 of cloth\n",
       summary.panels.size(), summary.stitches, summary.darts, summary.eased_stitches, summary.longest_ratio,
       summary.seam_m, summary.area_m2);
-  text += words(
+  text += fmt::sprintf(
       "  at %.1f cm: %d vertices, %d triangles, smallest angle %.1f degrees, edges %.1f / %.1f / %.1f mm (least, mean, "
       "most)\n",
       100 * resolution_m, garment.mesh.particle_count, garment.mesh.triangle_count(), quality.min_angle_deg,
@@ -90,9 +84,9 @@ std::string check_mesh(const std::string& path, JsonText& json) {
   json.member("closed", open.empty());
   json.member("height", high.y() - low.y());
   std::string text =
-      words("mesh, %zu vertices, %zu triangles, %zu groups, %s, %.3f x %.3f x %.3f units\n", mesh.positions.size(),
-            mesh.triangles.size(), mesh.group_names.size(), open.empty() ? "closed" : "open", high.x() - low.x(),
-            high.y() - low.y(), high.z() - low.z());
+      fmt::sprintf("mesh, %zu vertices, %zu triangles, %zu groups, %s, %.3f x %.3f x %.3f units\n",
+                   mesh.positions.size(), mesh.triangles.size(), mesh.group_names.size(),
+                   open.empty() ? "closed" : "open", high.x() - low.x(), high.y() - low.y(), high.z() - low.z());
   if (!open.empty()) text += "  not a body: " + open + '\n';
   return text;
 }
@@ -122,8 +116,8 @@ std::string check_scene(const std::string& path, const std::string& text, JsonTe
   json.member("vertices", vertices);
   json.member("triangles", triangles);
   json.member("body_vertices", body.solid.positions.size());
-  return words("scene, cloth of %d vertices and %d triangles, body of %zu vertices%s\n", vertices, triangles,
-               body.solid.positions.size(), body.movement ? ", moving" : "");
+  return fmt::sprintf("scene, cloth of %d vertices and %d triangles, body of %zu vertices%s\n", vertices, triangles,
+                      body.solid.positions.size(), body.movement ? ", moving" : "");
 }
 
 std::string check_file(const std::string& path, JsonText& json) {

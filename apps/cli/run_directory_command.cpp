@@ -6,7 +6,8 @@
 #include "terminal.hpp"
 #include "verify/verdict.hpp"
 
-#include <array>
+#include <fmt/printf.h>
+
 #include <cstdio>
 #include <filesystem>
 
@@ -82,37 +83,27 @@ std::string as_json(const VerifyReport& audit, const Verdict& verdict) {
 }
 
 std::string as_text(const std::string& directory, const VerifyReport& audit, const Verdict& verdict) {
-  std::array<char, 512> text;
   std::string out = directory + ": " + (verdict.pass ? "pass" : "fail") + '\n';
   for (const Reason& reason : verdict.reasons) out += "  " + reason.code + ": " + reason.detail + '\n';
-  std::snprintf(text.data(), text.size(), "  %d frames, %s\n", audit.frames,
-                audit.finite ? "all finite" : "not finite");
-  out += text.data();
+  out += fmt::sprintf("  %d frames, %s\n", audit.frames, audit.finite ? "all finite" : "not finite");
   const auto line = [&](const char* what, const PenetrationCount& count) {
-    std::snprintf(text.data(), text.size(), "  edges through triangles, %s: last frame %d, most %d, in %d frames\n",
-                  what, count.last, count.max, count.frames);
-    out += text.data();
+    out += fmt::sprintf("  edges through triangles, %s: last frame %d, most %d, in %d frames\n", what, count.last,
+                        count.max, count.frames);
   };
   if (audit.has_body) line("cloth and body", audit.cloth_body_edges);
   line("cloth and cloth", audit.cloth_cloth_edges);
-  std::snprintf(text.data(), text.size(),
-                "  stretch p50 %.2f %%, p99 %.2f %%, max %.2f %%; shear p99 %.1f degrees; still %.2f mm/s\n",
-                100 * audit.stretch.p50, 100 * audit.stretch.p99, 100 * audit.stretch.max, audit.stretch.shear_p99_deg,
-                audit.still_mm_per_s_p99);
-  out += text.data();
+  out += fmt::sprintf("  stretch p50 %.2f %%, p99 %.2f %%, max %.2f %%; shear p99 %.1f degrees; still %.2f mm/s\n",
+                      100 * audit.stretch.p50, 100 * audit.stretch.p99, 100 * audit.stretch.max,
+                      audit.stretch.shear_p99_deg, audit.still_mm_per_s_p99);
   if (audit.jitter.windows > 0) {
-    std::snprintf(text.data(), text.size(),
-                  "  jitter p50 %.1f mm/s, p99 %.1f mm/s, max %.1f mm/s: vertex %d, frame %d\n",
-                  audit.jitter.p50_mm_per_s, audit.jitter.p99_mm_per_s, audit.jitter.max_mm_per_s,
-                  audit.jitter.worst_vertex, audit.jitter.worst_frame);
-    out += text.data();
+    out += fmt::sprintf("  jitter p50 %.1f mm/s, p99 %.1f mm/s, max %.1f mm/s: vertex %d, frame %d\n",
+                        audit.jitter.p50_mm_per_s, audit.jitter.p99_mm_per_s, audit.jitter.max_mm_per_s,
+                        audit.jitter.worst_vertex, audit.jitter.worst_frame);
   }
   if (audit.has_body) {
-    std::snprintf(
-        text.data(), text.size(),
+    out += fmt::sprintf(
         "  gap to the body: least %.2f mm, median %.2f mm; where it lies on it, median %.2f mm, p90 %.2f mm\n",
         audit.gap.min_mm, audit.gap.p50_mm, audit.gap.hover_p50_mm, audit.gap.hover_p90_mm);
-    out += text.data();
   }
   return out;
 }

@@ -1,5 +1,6 @@
 // apps/cli/simulate_command.cpp: `toile demo`, `toile dress` and `toile run`: from a scene, wherever it comes from, to a run.
 #include "body/motion.hpp"
+#include "body_option.hpp"
 #include "commands.hpp"
 #include "core/parallel.hpp"
 #include "embedded.hpp"
@@ -8,6 +9,8 @@
 #include "sim/picture_run.hpp"
 #include "sim/simulate.hpp"
 #include "terminal.hpp"
+
+#include <fmt/printf.h>
 
 #include <algorithm>
 #include <array>
@@ -83,20 +86,9 @@ std::string name_of_pattern(const std::string& path) {
 }
 
 SceneBody dress_body(const CommandLine& line) {
-  SceneBody body;
-  const bool mannequin =
-      line.body == "mannequin" || line.body == "woman" || line.body == "dancer" || line.body == "man";
-  if (mannequin) {
-    body.kind = SceneBody::Kind::mannequin;
-    if (line.body != "mannequin") body.mannequin = mannequin_kind(line.body);
-    if (!line.body_unit.empty()) throw Error(ExitCode::usage, "--body-unit: mannequins are in metres");
-  } else {
-    body.kind = SceneBody::Kind::mesh;
-    body.mesh = line.body;
-    if (line.body_unit == "m") body.unit = LengthUnit::m;
-    if (line.body_unit == "dm") body.unit = LengthUnit::dm;
-    if (line.body_unit == "cm") body.unit = LengthUnit::cm;
-  }
+  SceneBody body = body_option(line);
+  const bool mannequin = body.kind == SceneBody::Kind::mannequin;
+  if (mannequin && !line.body_unit.empty()) throw Error(ExitCode::usage, "--body-unit: mannequins are in metres");
   if (line.motion.empty()) return body;
   SceneMotion motion;
   motion.where = "--motion";
@@ -201,27 +193,24 @@ std::string directory_of(const CommandLine& line, const Scene& scene) {
 }
 
 std::string summary(const Report& report, const std::string& directory) {
-  std::array<char, 1024> text;
   const PhaseReport& drape = report.drape;
   std::string out = directory + ": " + (report.verdict.pass ? "pass" : "fail") + " (ended: " + report.ended + ")\n";
   for (const Reason& reason : report.verdict.reasons) out += "  " + reason.code + ": " + reason.detail + '\n';
   for (const std::string& warning : report.warnings) out += "  warning: " + warning + '\n';
-  std::snprintf(text.data(), text.size(),
-                "  %d vertices, %d triangles, %d panels, %d seams; body %d vertices\n"
-                "  %d frames, %ld steps (%ld rejected), %.3f s per frame; sewing %.1f s; total %.1f s; %d threads\n",
-                report.vertices, report.triangles, report.panels, report.seams, report.body_vertices, report.frames,
-                drape.steps, drape.steps_rejected, drape.frames > 0 ? drape.seconds / drape.frames : 0.0,
-                report.sewing.seconds, report.seconds_total, report.threads);
-  out += text.data();
+  out += fmt::sprintf(
+      "  %d vertices, %d triangles, %d panels, %d seams; body %d vertices\n"
+      "  %d frames, %ld steps (%ld rejected), %.3f s per frame; sewing %.1f s; total %.1f s; %d threads\n",
+      report.vertices, report.triangles, report.panels, report.seams, report.body_vertices, report.frames, drape.steps,
+      drape.steps_rejected, drape.frames > 0 ? drape.seconds / drape.frames : 0.0, report.sewing.seconds,
+      report.seconds_total, report.threads);
   if (report.frames == 0) return out;
-  std::snprintf(text.data(), text.size(),
-                "  last frame: %d edges cloth-body, %d cloth-cloth; stretch p50 %.2f %%, p99 %.2f %%, max %.2f %%; "
-                "still %.2f mm/s\n"
-                "  state %s\n",
-                report.audit.cloth_body_edges.last, report.audit.cloth_cloth_edges.last, 100 * report.audit.stretch.p50,
-                100 * report.audit.stretch.p99, 100 * report.audit.stretch.max, report.audit.still_mm_per_s_p99,
-                report.state_hash.c_str());
-  return out + text.data();
+  return out + fmt::sprintf(
+                   "  last frame: %d edges cloth-body, %d cloth-cloth; stretch p50 %.2f %%, p99 %.2f %%, max %.2f %%; "
+                   "still %.2f mm/s\n"
+                   "  state %s\n",
+                   report.audit.cloth_body_edges.last, report.audit.cloth_cloth_edges.last,
+                   100 * report.audit.stretch.p50, 100 * report.audit.stretch.p99, 100 * report.audit.stretch.max,
+                   report.audit.still_mm_per_s_p99, report.state_hash.c_str());
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // apps/cli/untangle_command.cpp: `toile untangle`: cloth that passes through itself or a body, moved until it does not.
+#include "body_option.hpp"
 #include "commands.hpp"
 #include "io/file.hpp"
 #include "io/obj.hpp"
@@ -10,8 +11,9 @@
 #include "terminal.hpp"
 #include "verify/crossings.hpp"
 
+#include <fmt/printf.h>
+
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 
@@ -54,30 +56,13 @@ ClothFile load_cloth_file(const std::string& path) {
 // In the unit of the cloth's file.
 SolidMesh load_solid(const CommandLine& line) {
   if (line.body.empty()) return {};
-  SceneBody body;
   double units_per_m = 1;
   if (line.body_unit == "dm") units_per_m = 10;
   if (line.body_unit == "cm") units_per_m = 100;
-  if (line.body == "mannequin" || line.body == "woman" || line.body == "dancer" || line.body == "man") {
-    body.kind = SceneBody::Kind::mannequin;
-    if (line.body != "mannequin") body.mannequin = mannequin_kind(line.body);
-  } else {
-    body.kind = SceneBody::Kind::mesh;
-    body.mesh = line.body;
-    if (line.body_unit == "m") body.unit = LengthUnit::m;
-    if (line.body_unit == "dm") body.unit = LengthUnit::dm;
-    if (line.body_unit == "cm") body.unit = LengthUnit::cm;
-  }
   Hash hash;
-  SolidMesh solid = load_body(body, hash).solid;
+  SolidMesh solid = load_body(body_option(line), hash).solid;
   for (Vec3& p : solid.positions) p *= units_per_m;
   return solid;
-}
-
-std::string words(const char* format, auto... values) {
-  std::array<char, 256> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
 }
 
 // "triangle 12 (shirt/sleeve)": counted from 0, quads split into fans, as `check` counts.
@@ -96,14 +81,14 @@ std::string name_of(const ClothFile& cloth, Index triangle) {
 
 std::string describe(const ClothFile& cloth, const Tangle& tangle) {
   std::string text = std::string(tangle.closed ? "closed" : "open") + (tangle.with_body ? " with the body, " : ", ");
-  text += words("length %.4g at (%.4g %.4g %.4g): ", tangle.length, tangle.position.x(), tangle.position.y(),
-                tangle.position.z());
+  text += fmt::sprintf("length %.4g at (%.4g %.4g %.4g): ", tangle.length, tangle.position.x(), tangle.position.y(),
+                       tangle.position.z());
   for (std::size_t k = 0; k < std::min(told_pairs, tangle.triangles.size()); ++k) {
     const auto& [a, b] = tangle.triangles[k];
     text += (k == 0 ? "" : ", ") + name_of(cloth, a) + " through " +
             (tangle.with_body ? "body triangle " + std::to_string(b) : name_of(cloth, b));
   }
-  if (tangle.triangles.size() > told_pairs) text += words(" and %zu more", tangle.triangles.size() - told_pairs);
+  if (tangle.triangles.size() > told_pairs) text += fmt::sprintf(" and %zu more", tangle.triangles.size() - told_pairs);
   return text;
 }
 
@@ -213,14 +198,15 @@ ExitCode untangle_command(const CommandLine& line) {
     json.end_object();
     print(json.str() + '\n');
   } else if (!line.quiet) {
-    std::string said = words("%d crossings (%d with the body) in %zu contours before, %d (%d) in %zu after %d trials\n",
-                             report.cloth_crossings_before + report.body_crossings_before, report.body_crossings_before,
-                             report.before.size(), report.cloth_crossings + report.body_crossings,
-                             report.body_crossings, report.left.size(), report.iterations);
-    said += words(
+    std::string said =
+        fmt::sprintf("%d crossings (%d with the body) in %zu contours before, %d (%d) in %zu after %d trials\n",
+                     report.cloth_crossings_before + report.body_crossings_before, report.body_crossings_before,
+                     report.before.size(), report.cloth_crossings + report.body_crossings, report.body_crossings,
+                     report.left.size(), report.iterations);
+    said += fmt::sprintf(
         "moved by %.3g at most, %.3g on average; edges changed by %.1f %% at most, 99 of 100 by less than %.1f %%\n",
         report.largest_move, report.mean_move, 100 * report.edge_change_max, 100 * report.edge_change_p99);
-    if (report.inside > 0) said += words("%d vertices are inside the body\n", report.inside);
+    if (report.inside > 0) said += fmt::sprintf("%d vertices are inside the body\n", report.inside);
     for (const Tangle& tangle : report.left) said += "left: " + describe(cloth, tangle) + '\n';
     print(said + out + '\n');
   }

@@ -5,6 +5,8 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
+#include <fmt/printf.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,17 +22,11 @@ constexpr double height_ratio = 4.0;  // first sample to body
 
 std::size_t z(Index i) { return static_cast<std::size_t>(i); }
 
-std::string number(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 double unit_m(LengthUnit unit) { return unit == LengthUnit::dm ? 0.1 : unit == LengthUnit::cm ? 0.01 : 1.0; }
 
 void check_range(std::string_view file, std::string_view place, double value, double low, double high) {
   if (value >= low && value <= high) return;
-  throw InputError(file, place, number("%g", low) + " to " + number("%g", high), number("%g", value));
+  throw InputError(file, place, fmt::sprintf("%g", low) + " to " + fmt::sprintf("%g", high), fmt::sprintf("%g", value));
 }
 
 // max(0, t - start) with its corner rounded over 2 e: tau' = 3w^2 - 2w^3 for w = (t - start + e) / 2e in [0, 1].
@@ -75,14 +71,14 @@ void BodySamples::append(std::string_view file, std::span<const Vec3> positions)
     const auto place = [&] { return frame + ", vertex " + std::to_string(from); };
     if (!p.allFinite()) throw InputError(file, place(), "finite coordinates", "infinity or not a number");
     if (p.cwiseAbs().maxCoeff() > 1e6)
-      throw InputError(file, place(), "coordinates within 1000 km", number("%g m", p.cwiseAbs().maxCoeff()));
+      throw InputError(file, place(), "coordinates within 1000 km", fmt::sprintf("%g m", p.cwiseAbs().maxCoeff()));
     if (frames_ > 0) {
       const double moved = (p - sample(frames_ - 1, i)).norm();
       if (moved > farthest)
         throw InputError(file, place(),
-                         "at most " + number("%.3g m", farthest) + " from the frame before (" +
-                             number("%g m/s", options_.fastest_m_s) + ")",
-                         number("%.3g m", moved));
+                         "at most " + fmt::sprintf("%.3g m", farthest) + " from the frame before (" +
+                             fmt::sprintf("%g m/s", options_.fastest_m_s) + ")",
+                         fmt::sprintf("%.3g m", moved));
     }
     samples_.push_back(p.cast<float>());
   }
@@ -102,9 +98,10 @@ void BodySamples::check_height(std::string_view file) const {
   const double body = height([&](std::size_t i) { return drape_[i].y(); });
   const double first = height([&](std::size_t i) { return sample(0, i).y(); });
   if (first <= height_ratio * body && body <= height_ratio * first) return;
-  throw InputError(file, "frame 0",
-                   "a height near the body's " + number("%.3g m", body) + " (is the unit of the samples another one?)",
-                   number("%.3g m", first));
+  throw InputError(
+      file, "frame 0",
+      "a height near the body's " + fmt::sprintf("%.3g m", body) + " (is the unit of the samples another one?)",
+      fmt::sprintf("%.3g m", first));
 }
 
 void BodySamples::finish(std::string_view file) {

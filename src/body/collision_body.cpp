@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "mesh/check.hpp"
 
+#include <fmt/printf.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -119,20 +120,14 @@ std::optional<LengthUnit> unit_that_fits(double height) {
   return std::nullopt;
 }
 
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 [[noreturn]] void fail_height(std::string_view file, double height) {
   std::string advice = "no unit of m, dm, cm fits: say which one is meant with --body-unit";
   if (const auto unit = unit_that_fits(height)) {
     advice = std::string("pass --body-unit ") + (*unit == LengthUnit::dm ? "dm" : "cm") + " if the body is " +
-             number("%.2f m", height * metres(*unit)) + " tall";
+             fmt::sprintf("%.2f m", height * metres(*unit)) + " tall";
   }
   throw InputError(file, "body height", "0.5 to 2.5 m when coordinates are taken as metres (" + advice + ")",
-                   number("%.4g m", height));
+                   fmt::sprintf("%.4g m", height));
 }
 
 // Before any arithmetic on them: every index in range, every coordinate finite.

@@ -6,6 +6,8 @@
 #include "core/elementary.hpp"
 #include "core/error.hpp"
 
+#include <fmt/printf.h>
+
 #include <cmath>
 #include <cstdio>
 
@@ -53,11 +55,8 @@ Motion Motion::named(std::string_view name, MannequinKind kind) {
 }
 
 void Motion::set_lead_in_s(double seconds) {
-  if (!(seconds >= 0 && seconds <= longest_lead_in_s)) {
-    char got[32];
-    std::snprintf(got, sizeof got, "%g", seconds);
-    throw InputError("", "lead-in", "0 to 10 s", got);
-  }
+  if (!(seconds >= 0 && seconds <= longest_lead_in_s))
+    throw InputError("", "lead-in", "0 to 10 s", fmt::sprintf("%g", seconds));
   lead_in_s_ = seconds;
 }
 

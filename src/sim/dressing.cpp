@@ -2,20 +2,10 @@
 
 #include "sim/tangles.hpp"
 
-#include <array>
-#include <cstdio>
+#include <fmt/printf.h>
 
 namespace toile {
-namespace {
-
-template <class... Values>
-std::string words(const char* format, Values... values) {
-  std::array<char, 512> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Dressing::Dressing(const Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric> fabrics,
                    std::span<const Vec2> rest_stretch, BodySurface* body, const StepOptions& step,
@@ -46,7 +36,7 @@ std::string Dressing::explain() const {
   constexpr double too_small = 0.05;
   if (sewing_->weld_obstacle()) {  // the gaps are small, and not what is in the way
     const Vec3 p = *sewing_->weld_obstacle();
-    return words(
+    return fmt::sprintf(
         "every seam is closed to %.1f mm, but the weld would push cloth through cloth near (%.2f, %.2f, %.2f) m",
         1e3 * sewing_->widest_gap_m(), p.x(), p.y(), p.z());
   }
@@ -55,12 +45,13 @@ std::string Dressing::explain() const {
   for (const SeamGap& gap : sewing_->gaps()) {
     if (gap.gap_m < options_.weld_gap_m) continue;
     if (++open > most) continue;
-    const std::string why = gap.stretch > too_small
-                                ? words("too small: the cloth beside it is stretched by %.0f %%", 100 * gap.stretch)
-                                : std::string("the body is in the way");
+    const std::string why =
+        gap.stretch > too_small
+            ? fmt::sprintf("too small: the cloth beside it is stretched by %.0f %%", 100 * gap.stretch)
+            : std::string("the body is in the way");
     text += (open == 1 ? "" : "; ") + ("seam " + panels_.seams[static_cast<std::size_t>(gap.seam)].name) +
-            words(" is open by %.1f cm near (%.2f, %.2f, %.2f) m, ", 1e2 * gap.gap_m, gap.where.x(), gap.where.y(),
-                  gap.where.z()) +
+            fmt::sprintf(" is open by %.1f cm near (%.2f, %.2f, %.2f) m, ", 1e2 * gap.gap_m, gap.where.x(),
+                         gap.where.y(), gap.where.z()) +
             why;
   }
   if (open > most) text += "; and " + std::to_string(open - most) + " more seams";

@@ -4,6 +4,8 @@
 #include "body/motion.hpp"
 #include "io/file.hpp"
 
+#include <fmt/printf.h>
+
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -16,11 +18,9 @@ constexpr double most_seconds = 3600, most_fps = 1000;
 // A number in low <= x <= high (or low < x when `open`), in words that name the range.
 double number_in(const Json& value, double low, double high, bool open = false) {
   const double x = value.number();
-  if (x > high || x < low || (open && x == low)) {
-    std::array<char, 96> text;
-    std::snprintf(text.data(), text.size(), "a number %s %g and at most %g", open ? "above" : "of at least", low, high);
-    value.fail(text.data(), value.describe());
-  }
+  if (x > high || x < low || (open && x == low))
+    value.fail(fmt::sprintf("a number %s %g and at most %g", open ? "above" : "of at least", low, high),
+               value.describe());
   return x;
 }
 

@@ -7,6 +7,7 @@
 #include "io/file.hpp"
 #include "io/obj.hpp"
 
+#include <fmt/printf.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -188,9 +189,7 @@ void check_areas(std::string_view file, std::span<const Vec3> positions, std::sp
     const Vec3 a = positions[at(triangles[t][1])] - origin, b = positions[at(triangles[t][2])] - origin;
     const double area = 0.5 * a.cross(b).norm();
     if (area > smallest * std::max(a.squaredNorm(), b.squaredNorm())) continue;
-    std::array<char, 32> text;
-    std::snprintf(text.data(), text.size(), "%g", area);
-    throw InputError(file, "triangle " + std::to_string(t), "an area above zero", text.data());
+    throw InputError(file, "triangle " + std::to_string(t), "an area above zero", fmt::sprintf("%g", area));
   }
 }
 

@@ -9,6 +9,8 @@
 #include "io/pc2.hpp"
 #include "sim/run_writer.hpp"
 
+#include <fmt/printf.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -26,12 +28,6 @@ constexpr double farthest_body_m = 1e-3;
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Vec3 flat(const Vec2& p) { return {p.x(), p.y(), 0}; }
-
-std::string number(const char* format, double value) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
 
 // The triangles of one panel of the run, found by a point of the drawing.
 class PanelDrawing {
@@ -141,7 +137,7 @@ void check_body(const std::filesystem::path& run, std::span<const Vec3> body_x) 
     const double distance = (end[i] - body_x[i]).norm();
     if (distance > farthest_body_m)
       throw InputError(printable(pc2), "vertex " + std::to_string(i) + " of the draped frame",
-                       "the pose in which this scene begins", number("%.3g m away from it", distance));
+                       "the pose in which this scene begins", fmt::sprintf("%.3g m away from it", distance));
   }
 }
 
@@ -186,7 +182,7 @@ Outfit start_from(const std::string& directory, std::span<const LoadedCloth> clo
         if (place.distance_m > farthest_drawing_m)
           throw InputError(printable(obj), "panel " + printable(drawn.panel_names[at(drawn.panel[t])]),
                            "the drawing of this scene's pattern",
-                           number("another: a point is %.3g m outside it", place.distance_m));
+                           fmt::sprintf("another: a point is %.3g m outside it", place.distance_m));
         for (std::size_t c = 0; c < 3; ++c)
           garment.x[i] += place.barycentric[static_cast<Eigen::Index>(c)] * x[at(run.triangles[place.triangle][c])];
       }

@@ -3,9 +3,10 @@
 #include "core/parallel.hpp"
 #include "solver/paper_pcg.hpp"
 
+#include <fmt/printf.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
 namespace toile {
@@ -41,25 +42,18 @@ std::string_view to_string(Preconditioner preconditioner) {
 }
 
 std::string PcgReport::explain() const {
-  char text[256];
   switch (status) {
     case PcgStatus::converged:
-      std::snprintf(text, sizeof text, "converged: residual %.3g <= %.3g after %d iterations", residual, target,
-                    iterations);
-      break;
+      return fmt::sprintf("converged: residual %.3g <= %.3g after %d iterations", residual, target, iterations);
     case PcgStatus::iteration_limit:
-      std::snprintf(text, sizeof text, "stopped after %d iterations: residual %.3g, wanted %.3g (started at %.3g)",
-                    iterations, residual, target, initial_residual);
-      break;
+      return fmt::sprintf("stopped after %d iterations: residual %.3g, wanted %.3g (started at %.3g)", iterations,
+                          residual, target, initial_residual);
     case PcgStatus::not_positive_definite:
-      std::snprintf(text, sizeof text, "matrix not positive definite: c.A c = %.3g in iteration %d", curvature,
-                    iterations);
-      break;
+      return fmt::sprintf("matrix not positive definite: c.A c = %.3g in iteration %d", curvature, iterations);
     case PcgStatus::not_finite:
-      std::snprintf(text, sizeof text, "a number was not finite in iteration %d (residual %.3g)", iterations, residual);
-      break;
+      return fmt::sprintf("a number was not finite in iteration %d (residual %.3g)", iterations, residual);
   }
-  return text;
+  return "";
 }
 
 template <class T>

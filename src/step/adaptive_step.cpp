@@ -1,8 +1,9 @@
 #include "step/adaptive_step.hpp"
 
+#include <fmt/printf.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace toile {
@@ -75,7 +76,6 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
 }
 
 std::string AdaptiveStep::diagnose(const ClothState& state, const StepReport& report) const {
-  char text[512];
   std::string words = "the step collapsed below " + std::to_string(report.h_s) + " s: " + report.explain();
   const ClothModel& model = integrator_.model();
   Index triangle = report.worst_triangle;
@@ -94,15 +94,12 @@ std::string AdaptiveStep::diagnose(const ClothState& state, const StepReport& re
   if (triangle >= 0) {
     const Triangle& corners = model.mesh.triangles[static_cast<std::size_t>(triangle)];
     const Vec3& x = state.x[static_cast<std::size_t>(corners[0])];
-    std::snprintf(text, sizeof text, "; triangle %d (particles %d, %d, %d) at (%.3f, %.3f, %.3f) m", triangle,
-                  corners[0], corners[1], corners[2], x.x(), x.y(), x.z());
-    words += text;
+    words += fmt::sprintf("; triangle %d (particles %d, %d, %d) at (%.3f, %.3f, %.3f) m", triangle, corners[0],
+                          corners[1], corners[2], x.x(), x.y(), x.z());
   }
   if (report.worst_particle >= 0) {
     const Vec3& x = state.x[static_cast<std::size_t>(report.worst_particle)];
-    std::snprintf(text, sizeof text, "; particle %d at (%.3f, %.3f, %.3f) m", report.worst_particle, x.x(), x.y(),
-                  x.z());
-    words += text;
+    words += fmt::sprintf("; particle %d at (%.3f, %.3f, %.3f) m", report.worst_particle, x.x(), x.y(), x.z());
   }
   return words;
 }

@@ -292,9 +292,7 @@ void ContactRows::take_over_bristles() {
   }
 }
 
-void ContactRows::append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const {
-  (void)state;
-  (void)h_s;
+void ContactRows::append_springs(std::vector<LinearSpring>& springs) const {
   for (const Pair& pair : pairs_) {
     if (!pair.active) continue;
     springs.push_back(pair.spring);

@@ -43,7 +43,7 @@ class ContactRows {
   // A pair that was active in the last step, or that the guess `dv` brings below r, begins active.
   void begin(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step, double base_h_s,
              std::span<const Mat3> diagonal);
-  void append_springs(const ClothState& state, double h_s, std::vector<LinearSpring>& springs) const;
+  void append_springs(std::vector<LinearSpring>& springs) const;
 
   struct Change {
     int dropped = 0, added = 0, active = 0;

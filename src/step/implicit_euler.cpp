@@ -210,7 +210,7 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
       springs_.clear();
       body_.apply(state, step, constraints_, y_, springs_);
       if (options_.position_alteration == PositionAlteration::in_solve) y_known_ = y_;
-      rows_.append_springs(state, step.h_s, springs_);
+      rows_.append_springs(springs_);
       for (const Drag& drag : world_->drags) toile::append_springs(drag, state, t_s, step.h_s, springs_);
       if (world_->springs) world_->springs(state, t_s + step.h_s, step.h_s, springs_);
       const bool drifts = !step.drift_m.empty();

@@ -1,6 +1,6 @@
 #include "step/step_report.hpp"
 
-#include <cstdio>
+#include <fmt/printf.h>
 
 namespace toile {
 
@@ -23,30 +23,22 @@ std::string_view to_string(StepStatus status) {
 }
 
 std::string StepReport::explain() const {
-  char text[256];
   switch (status) {
     case StepStatus::accepted:
-      std::snprintf(text, sizeof text, "accepted: h = %.3g ms, %d passes, %d CG iterations", 1e3 * h_s, passes,
-                    cg_iterations);
-      break;
+      return fmt::sprintf("accepted: h = %.3g ms, %d passes, %d CG iterations", 1e3 * h_s, passes, cg_iterations);
     case StepStatus::solver_failed:
       return "linear solver: " + pcg.explain();
     case StepStatus::stretched:
-      std::snprintf(text, sizeof text, "h = %.3g ms: stretch of triangle %d changes by %.3g in one step", 1e3 * h_s,
-                    worst_triangle, stretch_change);
-      break;
+      return fmt::sprintf("h = %.3g ms: stretch of triangle %d changes by %.3g in one step", 1e3 * h_s, worst_triangle,
+                          stretch_change);
     case StepStatus::passed_through:
-      std::snprintf(text, sizeof text, "h = %.3g ms: %d pairs of cloth would pass through each other", 1e3 * h_s,
-                    filter.left);
-      break;
+      return fmt::sprintf("h = %.3g ms: %d pairs of cloth would pass through each other", 1e3 * h_s, filter.left);
     case StepStatus::too_fast:
-      std::snprintf(text, sizeof text, "h = %.3g ms: particle %d is faster than the limit", 1e3 * h_s, worst_particle);
-      break;
+      return fmt::sprintf("h = %.3g ms: particle %d is faster than the limit", 1e3 * h_s, worst_particle);
     case StepStatus::not_finite:
-      std::snprintf(text, sizeof text, "h = %.3g ms: position of particle %d is not finite", 1e3 * h_s, worst_particle);
-      break;
+      return fmt::sprintf("h = %.3g ms: position of particle %d is not finite", 1e3 * h_s, worst_particle);
   }
-  return text;
+  return "";
 }
 
 }  // namespace toile

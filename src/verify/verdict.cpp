@@ -1,25 +1,17 @@
 // verify/verdict.cpp: see the header.
 #include "verify/verdict.hpp"
 
+#include <fmt/printf.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace toile {
 namespace {
 
-std::string percent(double fraction) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), "%.3g %%", 100 * fraction);
-  return text.data();
-}
+std::string percent(double fraction) { return fmt::sprintf("%.3g %%", 100 * fraction); }
 
-std::string number(double value) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
+std::string number(double value) { return fmt::sprintf("%.3g", value); }
 
 std::string edges(int found, int limit, const std::vector<Crossing>& crossings, const char* through) {
   std::string text =

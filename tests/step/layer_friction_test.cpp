@@ -46,18 +46,8 @@ struct Slope {
     const Sheet one = test::equilateral_sheet(0.2, 0.2, edge_m);
     all.mesh.panel_names = {"lower"};
     for (int layer = 1; layer <= layers; ++layer) {
-      const Index first = all.mesh.particle_count;
       const Vec3 aside(0.05 + 0.29 * layer * edge_m, layer * gap_m, -0.05 - 0.17 * layer * edge_m);
-      for (const Vec3& p : one.x) all.x.push_back(p + aside);
-      for (std::size_t t = 0; t < one.mesh.triangles.size(); ++t) {
-        Triangle c = one.mesh.triangles[t];
-        for (Index& i : c) i += first;
-        all.mesh.triangles.push_back(c);
-        all.mesh.uv.push_back(one.mesh.uv[t]);
-        all.mesh.panel.push_back(layer);
-      }
-      all.mesh.particle_count += one.mesh.particle_count;
-      all.mesh.panel_names.push_back("layer " + std::to_string(layer));
+      test::add_sheet(all, one, aside, "layer " + std::to_string(layer));
     }
     return all;
   }

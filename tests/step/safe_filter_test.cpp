@@ -16,28 +16,9 @@ namespace {
 using test::ClothRun;
 using test::Random;
 using test::Sheet;
+using test::stack;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-// Horizontal sheets one above the other, as one mesh.
-Sheet stack(double size_m, double edge_m, double gap_m, int layers) {
-  const Sheet one = test::equilateral_sheet(size_m, size_m, edge_m);
-  Sheet all;
-  for (int layer = 0; layer < layers; ++layer) {
-    const Index first = all.mesh.particle_count;
-    for (const Vec3& p : one.x) all.x.push_back(p + layer * Vec3(0.25 * edge_m, gap_m, 0.15 * edge_m));
-    for (std::size_t t = 0; t < one.mesh.triangles.size(); ++t) {
-      Triangle c = one.mesh.triangles[t];
-      for (Index& i : c) i += first;
-      all.mesh.triangles.push_back(c);
-      all.mesh.uv.push_back(one.mesh.uv[t]);
-      all.mesh.panel.push_back(layer);
-    }
-    all.mesh.particle_count += one.mesh.particle_count;
-    all.mesh.panel_names.push_back("layer " + std::to_string(layer));
-  }
-  return all;
-}
 
 struct Filter {
   explicit Filter(const Sheet& sheet)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <string>
 
 namespace toile::test {
 
@@ -63,6 +64,30 @@ inline Sheet equilateral_sheet(double width_m, double height_m, double edge_m) {
   sheet.mesh.panel_names = {"sheet"};
   for (const Vec2& p : uv) sheet.x.emplace_back(p.x(), 0, -p.y());
   return sheet;
+}
+
+// Into one mesh, as its last panel.
+inline void add_sheet(Sheet& all, const Sheet& one, const Vec3& aside_m, const std::string& name) {
+  const Index first = all.mesh.particle_count, panel = static_cast<Index>(all.mesh.panel_names.size());
+  for (const Vec3& p : one.x) all.x.push_back(p + aside_m);
+  for (std::size_t t = 0; t < one.mesh.triangles.size(); ++t) {
+    Triangle c = one.mesh.triangles[t];
+    for (Index& i : c) i += first;
+    all.mesh.triangles.push_back(c);
+    all.mesh.uv.push_back(one.mesh.uv[t]);
+    all.mesh.panel.push_back(panel);
+  }
+  all.mesh.particle_count += one.mesh.particle_count;
+  all.mesh.panel_names.push_back(name);
+}
+
+// Square ones, each `gap_m` above the one below and aside by parts of an edge, so that no vertex lies above a vertex.
+inline Sheet stack(double size_m, double edge_m, double gap_m, int layers) {
+  const Sheet one = equilateral_sheet(size_m, size_m, edge_m);
+  Sheet all;
+  for (int layer = 0; layer < layers; ++layer)
+    add_sheet(all, one, layer * Vec3(0.25 * edge_m, gap_m, 0.15 * edge_m), "layer " + std::to_string(layer));
+  return all;
 }
 
 // Uniform in [low, high), the same numbers with every standard library.
