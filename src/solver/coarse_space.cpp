@@ -12,6 +12,7 @@ namespace {
 // Of the whole cloth: some 200 coarse directions serve up to 10,000 particles; more cost more in their dense factor than they save.
 double wanted_aggregates(std::size_t particles) { return std::clamp(static_cast<double>(particles) / 240, 1.0, 24.0); }
 
+constexpr std::size_t most_pieces = 24;     // of a panel; more stay together
 constexpr std::size_t pivots = 4;           // of the dense factor, that are taken from the rows below in one go
 constexpr std::size_t rows_per_block = 64;  // of the dense factor
 constexpr std::size_t particles_per_block = 256;
@@ -40,6 +41,52 @@ void bisect(std::vector<Index>& members, std::size_t begin, std::size_t end, std
   bisect(members, middle, end, parts - left, uv, aggregate, count);
 }
 
+// The smallest particle that each hangs together with through triangles.
+std::vector<Index> connected_to(const ClothMesh& mesh) {
+  std::vector<Index> root(static_cast<std::size_t>(mesh.particle_count));
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](Index i) {
+    while (root[static_cast<std::size_t>(i)] != i) {
+      Index& up = root[static_cast<std::size_t>(i)];
+      i = up = root[static_cast<std::size_t>(up)];
+    }
+    return i;
+  };
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t c = 1; c < 3; ++c) {
+      const Index a = find(t[0]), b = find(t[c]);
+      root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    }
+  }
+  for (std::size_t i = 0; i < root.size(); ++i) root[i] = find(static_cast<Index>(i));
+  return root;
+}
+
+// What is cut into aggregates: the particles of each panel, and of several pieces in one panel each its own.  Two pieces in one
+// aggregate could drift apart: only their momentum together would be kept.  The smallest of very many pieces stay together.
+std::vector<std::vector<Index>> patches(const ClothMesh& mesh, const std::vector<Index>& panel, Index panels) {
+  const std::vector<Index> root = connected_to(mesh);
+  std::vector<std::vector<Index>> patches;
+  for (Index k = 0; k < panels; ++k) {
+    std::vector<std::vector<Index>> pieces;
+    std::vector<std::pair<Index, Index>> members;  // (root, particle)
+    for (std::size_t p = 0; p < panel.size(); ++p) {
+      if (panel[p] == k) members.emplace_back(root[p], static_cast<Index>(p));
+    }
+    std::sort(members.begin(), members.end());
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      if (m == 0 || members[m].first != members[m - 1].first) pieces.emplace_back();
+      pieces.back().push_back(members[m].second);
+    }
+    std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    for (std::size_t piece = most_pieces; piece < pieces.size(); ++piece)
+      pieces[most_pieces - 1].insert(pieces[most_pieces - 1].end(), pieces[piece].begin(), pieces[piece].end());
+    if (pieces.size() > most_pieces) pieces.resize(most_pieces);
+    patches.insert(patches.end(), pieces.begin(), pieces.end());
+  }
+  return patches;
+}
+
 }  // namespace
 
 template <class T>
@@ -61,12 +108,7 @@ CoarseSpace<T>::CoarseSpace(const ClothMesh& mesh) {
     }
   }
   const double size = static_cast<double>(particles) / wanted_aggregates(particles);
-  for (Index k = 0; k < panels; ++k) {
-    std::vector<Index> members;
-    for (std::size_t p = 0; p < particles; ++p) {
-      if (panel[p] == k) members.push_back(static_cast<Index>(p));
-    }
-    if (members.empty()) continue;
+  for (std::vector<Index>& members : patches(mesh, panel, panels)) {
     const auto parts = static_cast<std::size_t>(std::lround(static_cast<double>(members.size()) / size));
     bisect(members, 0, members.size(), std::max<std::size_t>(parts, 1), uv, aggregate_, aggregate_count_);
   }
@@ -188,12 +230,11 @@ void CoarseSpace<T>::multiply_basis(const LinearSystem<T>& system) {
       }
     };
     for (const auto& [above, slot] : pattern.above(i))
-      add(system.A().off_diagonal(slot).transpose(), above,
-          static_cast<std::size_t>(slot_entry_[static_cast<std::size_t>(slot)][1]));
+      add(system.A().below(slot), above, static_cast<std::size_t>(slot_entry_[static_cast<std::size_t>(slot)][1]));
     const Block<T> G = system.A().grounded_block(i);
     add_columns(AZ_[own], i_free ? G : product(G, S_i), q_i);
     for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s)
-      add(system.A().off_diagonal(s), pattern.column(s),
+      add(system.A().below(s).transpose(), pattern.column(s),
           static_cast<std::size_t>(slot_entry_[static_cast<std::size_t>(s)][0]));
     if (i_free) return;
     for (std::size_t e = own; e < end; ++e) {

@@ -22,7 +22,8 @@ namespace toile {
 template <class T>
 class CoarseSpace {
  public:
-  // Cuts each panel by recursive bisection of its particles' pattern coordinates.  A particle of two panels belongs to the first.
+  // Cuts each piece of each panel by recursive bisection of its particles' pattern coordinates.  A particle of two panels belongs to
+  // the first.
   explicit CoarseSpace(const ClothMesh& mesh);
 
   int aggregates() const { return aggregate_count_; }

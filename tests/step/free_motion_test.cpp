@@ -41,6 +41,31 @@ TEST(FreeMotion, TheCoarseSpaceLetsACrumpledSheetFallFreelyTooWhereOthersBrakeIt
   EXPECT_GT(fall_error(Preconditioner::block_ssor, 1e-4), 1e-6);
 }
 
+TEST(FreeMotion, TwoPiecesOfOnePanelDoNotDriftApart) {
+  ModelOptions options;
+  options.gravity_m_per_s2.setZero();
+  test::Sheet sheets = test::stack(0.2, 0.02, 0.1, 2);
+  std::fill(sheets.mesh.panel.begin(), sheets.mesh.panel.end(), 0);
+  ClothRun run(sheets, Fabric{}, options);
+  run.step.rows.cloth_cloth = false;
+  run.step.pcg.tolerance = 1e-2;
+  const std::size_t half = run.state.x.size() / 2;
+  const Vec3s crumpled =
+      test::crumpled(run.state.x, 1e-3, 3);  // the upper one; the lower one has nothing to do with it
+  std::copy(crumpled.begin() + static_cast<std::ptrdiff_t>(half), crumpled.end(),
+            run.state.x.begin() + static_cast<std::ptrdiff_t>(half));
+  run.run(10);
+  for (const bool upper : {false, true}) {
+    Vec3 momentum = Vec3::Zero();
+    double mass = 0;
+    for (std::size_t i = upper ? half : 0; i < (upper ? 2 * half : half); ++i) {
+      momentum += run.model.mass_kg[i] * run.state.v[i];
+      mass += run.model.mass_kg[i];
+    }
+    EXPECT_LT((momentum / mass).norm(), 1e-6) << (upper ? "upper" : "lower");
+  }
+}
+
 TEST(FreeMotion, ARigidTranslationKeepsItsVelocityExactly) {
   ModelOptions options;
   options.gravity_m_per_s2.setZero();
