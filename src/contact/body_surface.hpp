@@ -77,7 +77,9 @@ class BodySurface {
   // bend), or 0 where it is flat to 1e-3 or hollow.
   double ridge_bend(Index edge) const { return ridge_bend_[static_cast<std::size_t>(edge)]; }
 
-  // Features that this triangle speaks for (contact/features.hpp), of its edges only those with a ridge_bend.
+  // Features that this triangle speaks for (contact/features.hpp).
+  std::uint8_t owned(Index triangle) const { return owned_[static_cast<std::size_t>(triangle)]; }
+  // The same, of its edges only those with a ridge_bend.
   std::uint8_t owned_ridges(Index triangle) const { return owned_ridges_[static_cast<std::size_t>(triangle)]; }
 
  private:

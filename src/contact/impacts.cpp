@@ -20,6 +20,22 @@ std::array<Vec3, 4> gather(const std::array<Index, 4>& particle, std::span<const
   return {x[at(particle[0])], x[at(particle[1])], x[at(particle[2])], x[at(particle[3])]};
 }
 
+// Weights and normal of the closest points; returns their distance.
+double set_closest(const std::array<Vec3, 4>& x, Impact& impact) {
+  if (impact.kind == ContactKind::vertex_face) {
+    const Vec3 b = closest_vertex_triangle(x[0], x[1], x[2], x[3]).barycentric;
+    impact.weight = {1, -b[0], -b[1], -b[2]};
+  } else {
+    const EdgeEdge closest = closest_edge_edge(x[0], x[1], x[2], x[3]);
+    impact.weight = {1 - closest.s, closest.s, -(1 - closest.t), -closest.t};
+  }
+  Vec3 between = Vec3::Zero();
+  for (std::size_t k = 0; k < 4; ++k) between += impact.weight[k] * x[k];
+  const double gap = between.norm();
+  if (gap > 0) impact.normal = between / gap;
+  return gap;
+}
+
 class ImpactQuery {
  public:
   ImpactQuery(const ClothTopology& cloth, std::span<const Vec3> start, std::span<const double> contact_m,
@@ -78,34 +94,8 @@ class ImpactQuery {
     Impact impact{kind, particle, {}, Vec3::Zero(), no_impact, 0, contact_m_[at(particle[0])], 0};
     for (const Index i : particle) impact.contact_m = std::min(impact.contact_m, contact_m_[at(i)]);
     if (impact.contact_m <= 0) return;
-    const std::array<Vec3, 4> x = gather(particle, start_), u = gather(particle, workspace_.displacement_m);
-    const double separation = separation_share * impact.contact_m;
-    impact.start_gap_m = set_closest(x, impact);
-    if (impact.start_gap_m <= no_gap_m) return;
-    impact.separation_m = std::min(separation, gap_share * impact.start_gap_m);
-    impact.time = kind == ContactKind::vertex_face ? vertex_face_impact(x, u, impact.separation_m)
-                                                   : edge_edge_impact(x, u, impact.separation_m);
-    if (impact.time > 1) return;
-    std::array<Vec3, 4> moved;
-    for (std::size_t k = 0; k < 4; ++k) moved[k] = x[k] + impact.time * u[k];
-    set_closest(moved, impact);
-    found.push_back(impact);
-  }
-
-  // Weights and normal of the closest points; returns their distance.
-  static double set_closest(const std::array<Vec3, 4>& x, Impact& impact) {
-    if (impact.kind == ContactKind::vertex_face) {
-      const Vec3 b = closest_vertex_triangle(x[0], x[1], x[2], x[3]).barycentric;
-      impact.weight = {1, -b[0], -b[1], -b[2]};
-    } else {
-      const EdgeEdge closest = closest_edge_edge(x[0], x[1], x[2], x[3]);
-      impact.weight = {1 - closest.s, closest.s, -(1 - closest.t), -closest.t};
-    }
-    Vec3 between = Vec3::Zero();
-    for (std::size_t k = 0; k < 4; ++k) between += impact.weight[k] * x[k];
-    const double gap = between.norm();
-    if (gap > 0) impact.normal = between / gap;
-    return gap;
+    if (decide_impact(gather(particle, start_), gather(particle, workspace_.displacement_m), impact))
+      found.push_back(impact);
   }
 
   const ClothTopology& cloth_;
@@ -115,6 +105,19 @@ class ImpactQuery {
 };
 
 }  // namespace
+
+bool decide_impact(const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, Impact& impact) {
+  impact.start_gap_m = set_closest(x, impact);
+  if (impact.start_gap_m <= no_gap_m) return false;
+  impact.separation_m = std::min(separation_share * impact.contact_m, gap_share * impact.start_gap_m);
+  impact.time = impact.kind == ContactKind::vertex_face ? vertex_face_impact(x, u, impact.separation_m)
+                                                        : edge_edge_impact(x, u, impact.separation_m);
+  if (impact.time > 1) return false;
+  std::array<Vec3, 4> moved;
+  for (std::size_t k = 0; k < 4; ++k) moved[k] = x[k] + impact.time * u[k];
+  set_closest(moved, impact);
+  return true;
+}
 
 void find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
                   std::span<const Vec3> end, std::span<const double> contact_m, ImpactWorkspace& workspace,

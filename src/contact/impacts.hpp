@@ -41,6 +41,10 @@ void find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::spa
                   std::span<const Vec3> end, std::span<const double> contact_m, ImpactWorkspace& workspace,
                   std::vector<Impact>& impacts);
 
+// The impact of one pair whose corners x move by u, if it has one; particle, kind and contact_m are those of `impact`, the rest is
+// filled in.  A pair that coincides at the start has no side to be kept on, and none.
+bool decide_impact(const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, Impact& impact);
+
 // When does this pair meet on another motion?  As Impact::time, or no_impact.
 double impact_time(const Impact& pair, std::span<const Vec3> start, std::span<const Vec3> end);
 

@@ -42,6 +42,7 @@ void add_steps(JsonText& text, const PhaseReport& phase) {
   text.begin_object();
   text.member("corrected", phase.corrected);
   text.member("truncated", phase.truncated);
+  text.member("pierced", phase.pierced);
   text.end_object();
 }
 

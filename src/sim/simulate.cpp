@@ -48,6 +48,7 @@ void add(PhaseReport& phase, const FrameReport& frame) {
   phase.cg_max = std::max(phase.cg_max, frame.cg_max);
   phase.corrected += frame.corrected;
   phase.truncated += frame.truncated;
+  phase.pierced += frame.pierced;
   phase.touching += frame.last.touching;
   phase.contact_rows += frame.last.rows;
   if (frame.steps == 0) return;

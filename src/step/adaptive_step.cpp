@@ -33,6 +33,7 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
       const long step_ticks = ticks_per_base >> halvings_;
       const double h = base_s / static_cast<double>(1L << halvings_);
       StepLimits limits{options_.stretch_limit, halvings_ >= options_.truncation_floor};
+      limits.pierce = halvings_ >= options_.piercing_floor;
       if (halvings_ >= options_.stretch_floor) limits.stretch = std::numeric_limits<double>::infinity();
       report.last = integrator_.attempt(state, start_s, h, limits, candidate_);
       report.passes += report.last.passes;
@@ -45,6 +46,7 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
         steps_s_.push_back(h);
         report.corrected += report.last.filter.corrected;
         report.truncated += report.last.filter.truncated;
+        report.pierced += report.last.filter.body_left;
         report.step_min_s = report.steps == 1 ? h : std::min(report.step_min_s, h);
         report.step_max_s = std::max(report.step_max_s, h);
         report.cg_max = std::max(report.cg_max, report.last.cg_iterations);

@@ -1,7 +1,7 @@
 // step/adaptive_step.hpp: how long a step may be, from what it does to the threads.                               [BW98 7]
 //
 //   accept   while no |w_u| or |w_v| changes by more than `stretch_limit` in the step and the solve converged
-//            and the safe filter could keep cloth apart from cloth
+//            and the safe filter could keep cloth apart from cloth and from the body
 //   reject   otherwise: h <- h / 2, the state is untouched and no element is evaluated again
 //   grow     after two accepted steps try 2 h, up to h_max; after a failed increase wait 2, 4, 8 ... 40 accepted steps
 //
@@ -23,8 +23,9 @@ struct AdaptiveOptions {
   int most_halvings = 10;       // frame / 1024: then the run has collapsed
   int stretch_floor = 11;       // from this many halvings on the stretch is no longer judged (sewing sets it lower)
   std::function<bool()> stop;   // asked before every step; true ends the frame early
-  int truncation_floor =
-      4;  // from this many halvings on impacts that are left cut the motion short (step/safe_filter.hpp)
+  // From this many halvings on, of what the safe filter cannot keep apart: cloth goes into the body, which may be pinching it;
+  // cloth with cloth is cut short (step/safe_filter.hpp).
+  int piercing_floor = 1, truncation_floor = 4;
 };
 
 struct FrameReport {
@@ -36,6 +37,7 @@ struct FrameReport {
   int passes = 0;
   int corrected = 0,
       truncated = 0;      // particles moved by the safe filter, and of them those in zones cut short; summed over steps
+  int pierced = 0;        // impacts with the body that could not be prevented, summed over steps
   StepReport last;        // of the last attempt: when !ok, why
   std::string diagnosis;  // when !ok: which triangles and particles, in words
 };

@@ -61,6 +61,11 @@ class BodyConstraints {
   // After an accepted step: remembers forces and modes for the next.
   void accept();
 
+  // Of the last detect: the particle is within the body.
+  bool inside(Index particle) const {
+    const BodyPoint& point = points_[static_cast<std::size_t>(particle)];
+    return point.triangle >= 0 && point.gap_m < 0;
+  }
   bool any_near() const { return !near_.empty(); }
   int touching() const;
   Touch touch(Index particle) const { return touch_[static_cast<std::size_t>(particle)]; }

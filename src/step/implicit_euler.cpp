@@ -80,6 +80,21 @@ void ImplicitEuler::prepare(const ClothState& state, double t_s, double h_s, dou
     body_.detect(state, base_h_s);
   }
   rows_.detect(state, base_h_s);
+  if (world_->body && options_.guard_body) look_through_body(state);
+}
+
+// What is through the body already is not kept there.  That it is can only come of a start, or of a step that let it in.
+void ImplicitEuler::look_through_body(const ClothState& state) {
+  const Timed timed(seconds_.cloth_solid);
+  if (may_be_through_) {
+    may_be_through_ =
+        mark_through_body(rows_.topology(), rows_.tree(), state.x, *world_->body, body_workspace_, through_body_);
+  } else {
+    through_body_.assign(state.x.size(), 0);
+  }
+  for (std::size_t i = 0; i < state.x.size(); ++i) {
+    if (body_.inside(static_cast<Index>(i))) through_body_[i] = 1;
+  }
 }
 
 void ImplicitEuler::hold_pins(const ClothState& state, double t_s, const StepFormula& step) {
@@ -156,7 +171,8 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   }
   report.touching = body_.touching();
   judge(limits, candidate, report);
-  if (report && options_.rows.cloth_cloth) keep_apart(state, h_s, limits.truncate, candidate, report);
+  if (report && (options_.rows.cloth_cloth || (world_->body && options_.guard_body)))
+    keep_apart(state, h_s, limits, candidate, report);
   h_last_s_ = report ? h_s : h_last_s_;
   if (report) dv_last_ = dv_;
   if (report && options_.integrator == Integrator::bdf2) {
@@ -324,18 +340,28 @@ ImplicitEuler::StretchChange ImplicitEuler::largest_stretch_change(const ClothSt
   return largest;
 }
 
-void ImplicitEuler::keep_apart(const ClothState& state, double h_s, bool truncate, ClothState& candidate,
+void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLimits& limits, ClothState& candidate,
                                StepReport& report) {
   const Timed timed(seconds_.cloth_cloth);
   inverse_mass_.resize(state.x.size());
   for (std::size_t i = 0; i < state.x.size(); ++i)
     inverse_mass_[i] = constraints_.is_free(static_cast<Index>(i)) ? 1 / model_->mass_kg[i] : 0;
-  report.filter =
-      filter_(rows_.topology(), rows_.tree(), state.x, inverse_mass_, rows_.contact_m(), truncate, candidate.x);
-  if (report.filter.left > 0) {
+  std::span<const double> contact_m;
+  if (options_.rows.cloth_cloth) contact_m = rows_.contact_m();
+  BodyGuard guard{world_->body, options_.body.offset_m, through_body_};
+  const bool guarded = world_->body && options_.guard_body;
+  if (guarded) {
+    before_body_.resize(state.x.size());
+    for (std::size_t i = 0; i < state.x.size(); ++i) before_body_[i] = 1 / model_->mass_kg[i];
+    for (const Pin& pin : world_->pins) before_body_[static_cast<std::size_t>(pin.particle)] = 0;
+  }
+  report.filter = filter_(rows_.topology(), rows_.tree(), state.x, inverse_mass_, contact_m, limits.truncate,
+                          candidate.x, guarded ? &guard : nullptr, before_body_);
+  if (report.filter.left > 0 || (report.filter.body_left > 0 && !limits.pierce)) {
     report.status = StepStatus::passed_through;
     return;
   }
+  pierced_ = report.filter.body_left > 0;
   if (report.filter.corrected == 0) return;
   for (std::size_t i = 0; i < state.x.size(); ++i) {
     if (filter_.moved()[i]) candidate.v[i] = velocity_of_motion(candidate.x[i] - state.x[i], y_[i], h_s);
@@ -346,6 +372,7 @@ void ImplicitEuler::accept(const ClothState& candidate) {
   if (options_.integrator == Integrator::bdf2 && (body_.changed() || rows_.changed())) history_.forget();
   body_.accept();
   rows_.accept(candidate);
+  may_be_through_ |= pierced_;
 }
 
 PhaseSeconds ImplicitEuler::seconds() const {

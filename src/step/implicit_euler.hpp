@@ -46,12 +46,14 @@ struct StepOptions {
   int relinearisations = 0;
   int max_passes = 8;              // of the active set, per linear solve
   double max_speed_m_per_s = 100;  // beyond this the step is refused
+  bool guard_body = true;          // the safe filter keeps cloth out of the body too
 };
 
 // What a step must not do.
 struct StepLimits {
   double stretch = 0.05;  // largest accepted change of |w_u| or |w_v| away from rest; a squeeze counts sqrt(c)
   bool truncate = false;  // cut the motion short where cloth would pass through cloth, instead of refusing the step
+  bool pierce = false;  // let cloth go into the body where the filter cannot keep it out, instead of refusing the step
 };
 
 // Everything that acts on the cloth besides its own elements.
@@ -109,7 +111,9 @@ class ImplicitEuler {
   };
   StretchChange largest_stretch_change(const ClothState& candidate);
   void judge(const StepLimits& limits, const ClothState& candidate, StepReport& report);
-  void keep_apart(const ClothState& state, double h_s, bool truncate, ClothState& candidate, StepReport& report);
+  void look_through_body(const ClothState& state);
+  void keep_apart(const ClothState& state, double h_s, const StepLimits& limits, ClothState& candidate,
+                  StepReport& report);
 
   const ClothModel* model_;
   const StepWorld* world_;
@@ -123,7 +127,10 @@ class ImplicitEuler {
   BodyConstraints body_;
   ContactRows rows_;
   SafeFilter filter_;
-  std::vector<double> inverse_mass_;  // [particle] 1/kg, 0 while it is held
+  std::vector<double> inverse_mass_, before_body_;  // [particle] 1/kg, 0 while it is held; held by a pin
+  std::vector<char> through_body_;  // [particle] is within the body, or next to where cloth passes through it
+  bool may_be_through_ = true, pierced_ = false;  // pierced_: by the last attempt
+  BodyImpactWorkspace body_workspace_;
   std::vector<LinearSpring> springs_;
   std::vector<ImplicitRow> implicit_rows_;
   Vec3s force_, b_, y_, y_known_, y_linearised_, linearised_, displacement_, force_linearised_, x_linearised_, moved_,

@@ -29,41 +29,63 @@ Vec3 velocity_of_motion(const Vec3& moved_m, const Vec3& y_m, double h_s) {
 
 FilterReport SafeFilter::operator()(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
                                     std::span<const double> inverse_mass, std::span<const double> contact_m,
-                                    bool truncate, std::span<Vec3> end) {
+                                    bool truncate, std::span<Vec3> end, const BodyGuard* guard,
+                                    std::span<const double> before_body) {
   FilterReport report;
   moved_.assign(start.size(), 0);
-  find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_);
-  report.impacts = report.left = static_cast<int>(impacts_.size());
-  while (!impacts_.empty() && report.rounds < most_rounds) {
+  impacts_.clear();
+  body_impacts_.clear();
+  const auto look = [&] {
+    if (!contact_m.empty()) find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_);
+    if (guard) find_body_impacts(cloth, tree, start, end, *guard, body_workspace_, body_impacts_);
+  };
+  look();
+  report.impacts = static_cast<int>(impacts_.size() + body_impacts_.size());
+  while (!(impacts_.empty() && body_impacts_.empty()) && report.rounds < most_rounds) {
     ++report.rounds;
-    push_apart(inverse_mass, end);
-    find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_);
+    push_apart(inverse_mass, before_body, guard, end);
+    look();
   }
   report.left = static_cast<int>(impacts_.size());
-  if (!impacts_.empty() && truncate) cut_short(cloth, tree, start, inverse_mass, contact_m, end, report);
+  report.body_left = static_cast<int>(body_impacts_.size());
+  if (!impacts_.empty() && truncate) {
+    cut_short(cloth, tree, start, inverse_mass, contact_m, end, report);
+    if (guard) find_body_impacts(cloth, tree, start, end, *guard, body_workspace_, body_impacts_);
+    report.body_left = static_cast<int>(body_impacts_.size());
+  }
   report.corrected = static_cast<int>(std::count(moved_.begin(), moved_.end(), 1));
   return report;
 }
 
-void SafeFilter::push_apart(std::span<const double> inverse_mass, std::span<Vec3> end) {
-  order_.resize(impacts_.size());
+void SafeFilter::push_apart(std::span<const double> inverse_mass, std::span<const double> before_body,
+                            const BodyGuard* guard, std::span<Vec3> end) {
+  const std::size_t of_cloth = impacts_.size();
+  const auto impact_at = [&](std::size_t i) -> const Impact& {
+    return i < of_cloth ? impacts_[i] : body_impacts_[i - of_cloth];
+  };
+  order_.resize(of_cloth + body_impacts_.size());
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-    return impacts_[a].time != impacts_[b].time ? impacts_[a].time < impacts_[b].time : a < b;
+    const double first = impact_at(a).time, second = impact_at(b).time;
+    return first != second ? first < second : a < b;
   });
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (const std::size_t i : order_) {
-      const Impact& impact = impacts_[i];
+      const Impact& impact = impact_at(i);
+      const std::span<const double> inverse = i < of_cloth ? inverse_mass : before_body;
       const double target = std::min(target_share * impact.contact_m, impact.start_gap_m);  // more than xi in any case
       double gap = 0, mobility = 0;
       for (std::size_t k = 0; k < 4; ++k) {
-        gap += impact.weight[k] * impact.normal.dot(end[at(impact.particle[k])]);
-        mobility += impact.weight[k] * impact.weight[k] * inverse_mass[at(impact.particle[k])];
+        const std::size_t p = at(impact.particle[k]);
+        const bool of_body = p >= end.size();
+        gap += impact.weight[k] * impact.normal.dot(of_body ? guard->body->next_positions()[p - end.size()] : end[p]);
+        if (!of_body) mobility += impact.weight[k] * impact.weight[k] * inverse[p];
       }
       if (gap >= target || mobility <= 0) continue;
       for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t p = at(impact.particle[k]);
-        const double share = impact.weight[k] * inverse_mass[p] / mobility;
+        if (p >= end.size()) continue;
+        const double share = impact.weight[k] * inverse[p] / mobility;
         if (share == 0) continue;
         end[p] += ((target - gap) * share) * impact.normal;
         moved_[p] = 1;

@@ -32,7 +32,8 @@ std::string StepReport::explain() const {
       return fmt::sprintf("h = %.3g ms: stretch of triangle %d changes by %.3g in one step", 1e3 * h_s, worst_triangle,
                           stretch_change);
     case StepStatus::passed_through:
-      return fmt::sprintf("h = %.3g ms: %d pairs of cloth would pass through each other", 1e3 * h_s, filter.left);
+      return fmt::sprintf("h = %.3g ms: %d pairs of cloth, and %d of cloth and body, would pass through each other",
+                          1e3 * h_s, filter.left, filter.body_left);
     case StepStatus::too_fast:
       return fmt::sprintf("h = %.3g ms: particle %d is faster than the limit", 1e3 * h_s, worst_particle);
     case StepStatus::not_finite:

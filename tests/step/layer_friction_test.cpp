@@ -7,8 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace toile {
@@ -23,8 +25,8 @@ constexpr double gap_m = 2.2e-3;  // at the start; the fabric's thickness is 2.5
 
 // Sheets of 20 cm one above the other on a longer one, each a little aside, in one mesh.  The lower one comes first.
 struct Slope {
-  Slope(double friction, double degrees, double edge_m, int layers, double length_m)
-      : run(stacked(edge_m, layers, length_m), fabric_of(friction), tilted(degrees)) {
+  Slope(double friction, double degrees, double edge_m, int layers, double length_m, double across_m = 0)
+      : run(stacked(edge_m, layers, length_m, across_m), fabric_of(friction), tilted(degrees)) {
     lower = test::equilateral_sheet(length_m, 0.3, edge_m).mesh.particle_count;
     each = (run.model.particle_count() - lower) / layers;
     for (Index i = 0; i < lower; ++i) run.pin(i);
@@ -41,12 +43,12 @@ struct Slope {
     options.gravity_m_per_s2 = g * Vec3(std::sin(a), -std::cos(a), 0);
     return options;
   }
-  static Sheet stacked(double edge_m, int layers, double length_m) {
+  static Sheet stacked(double edge_m, int layers, double length_m, double across_m) {
     Sheet all = test::equilateral_sheet(length_m, 0.3, edge_m);
     const Sheet one = test::equilateral_sheet(0.2, 0.2, edge_m);
     all.mesh.panel_names = {"lower"};
     for (int layer = 1; layer <= layers; ++layer) {
-      const Vec3 aside(0.05 + 0.29 * layer * edge_m, layer * gap_m, -0.05 - 0.17 * layer * edge_m);
+      const Vec3 aside(0.05 + 0.29 * layer * edge_m, layer * gap_m, -0.05 - across_m - 0.17 * layer * edge_m);
       test::add_sheet(all, one, aside, "layer " + std::to_string(layer));
     }
     return all;
@@ -82,9 +84,17 @@ TEST(LayerFriction, AboveTheConeASheetSlidesAsABlockWould) {
   const double a = 20 * std::numbers::pi / 180;
   for (const double edge_m : {0.02, 0.01}) {
     for (const double mu : {0.0, 0.1, 0.2, 0.3}) {
-      Slope slope(mu, 20, edge_m, 1, 0.8);
-      const double exact = g * (std::sin(a) - mu * std::cos(a)), found = acceleration_of(slope);
-      EXPECT_NEAR(found / exact, 1, 0.1) << "edge " << edge_m << " m, mu " << mu;
+      const double exact = g * (std::sin(a) - mu * std::cos(a));
+      // Near the cone what is left of the weight is little, and which threads come to lie on which is chance.
+      std::array<double, 5> found{};
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        Slope slope(mu, 20, edge_m, 1, 0.8, 0.37e-3 * static_cast<double>(k));
+        found[k] = acceleration_of(slope) / exact;
+      }
+      std::sort(found.begin(), found.end());
+      std::printf("edge %g m, mu %g: %.3f %.3f %.3f %.3f %.3f\n", edge_m, mu, found[0], found[1], found[2], found[3],
+                  found[4]);
+      EXPECT_NEAR(found[2], 1, 0.1) << "edge " << edge_m << " m, mu " << mu;
     }
   }
 }
