@@ -35,9 +35,25 @@ void move_triangles(const Triangles& triangles, std::span<const Vec3> start, std
       radius2 = std::max(radius2, (start[at(i)] - mover.centre).squaredNorm());
       differ2 = std::max(differ2, (end[at(i)] - start[at(i)] - mover.displacement).squaredNorm());
     }
+    const Vec3& a = start[at(triangles[t][0])];
+    const Vec3 n = (start[at(triangles[t][1])] - a).cross(start[at(triangles[t][2])] - a);
+    const double length = n.norm();
+    mover.normal = length > 0 ? Vec3(n / length) : Vec3::Zero();
     mover.radius = std::sqrt(radius2);
     mover.differ = std::sqrt(differ2);
   });
+}
+
+// Do all corners lie farther than `moving` from the plane, on one side of it?
+bool apart(const Mover& mover, const Triangle& triangle, std::span<const Vec3> x, const Vec3& normal,
+           const Vec3& origin, double moving) {
+  const double middle = normal.dot(mover.centre - origin);
+  if (std::abs(middle) <= moving) return false;
+  for (const Index i : triangle) {
+    const double height = normal.dot(x[at(i)] - origin);
+    if (middle > 0 ? height <= moving : height >= -moving) return false;
+  }
+  return true;
 }
 
 class BodyImpactQuery {
@@ -59,10 +75,9 @@ class BodyImpactQuery {
                    reach = p.radius + q.radius + moving;
       if ((p.centre - q.centre).squaredNorm() > reach * reach) return;
       const Triangle &of_cloth = cloth_.triangle(a), &of_body = body_.triangle(b);
-      const Vec3 &n_b = body_.face_normal(b), &origin = body_.positions()[at(of_body[0])];
-      const auto height = [&](std::size_t k) { return n_b.dot(start_[at(of_cloth[k])] - origin); };
-      const double h0 = height(0), h1 = height(1), h2 = height(2);
-      if (std::min({h0, h1, h2}) > moving || std::max({h0, h1, h2}) < -moving) return;
+      if (apart(p, of_cloth, start_, q.normal, body_.positions()[at(of_body[0])], moving) ||
+          apart(q, of_body, body_.positions(), p.normal, start_[at(of_cloth[0])], moving))
+        return;
       const unsigned owned_a = cloth_.owned(a), owned_b = body_.owned(b);
       const Index n = static_cast<Index>(start_.size());
       tree_walk::for_lanes(owned_a & 7u, [&](std::size_t k) {

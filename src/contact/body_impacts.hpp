@@ -8,7 +8,7 @@
 //
 //   m = |u_a - u_b| + e_a + e_b + xi        u, e  mean displacement, and how far corners differ from it
 //   |c_a - c_b| > R_a + R_b + m             can not meet;  c, R  centre and radius at the start
-//   all corners of the cloth's triangle farther than m from the plane of the body's, on one side:  nor can they
+//   all corners of one farther than m from the plane of the other, on one side:  nor can they
 //
 // Easily got wrong: cloth that is through the body at the start would be kept there; it is to be exempted.
 #pragma once
@@ -24,7 +24,7 @@ struct BodyGuard {
 
 struct BodyImpactWorkspace {
   struct Mover {
-    Vec3 centre, displacement;
+    Vec3 centre, displacement, normal;  // normal: unit, or zero
     double radius, differ;
   };
   TriangleTree tree;
