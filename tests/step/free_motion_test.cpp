@@ -51,10 +51,11 @@ TEST(FreeMotion, TwoPiecesOfOnePanelDoNotDriftApart) {
   run.step.pcg.tolerance = 1e-2;
   const std::size_t half = run.state.x.size() / 2;
   const Vec3s crumpled =
-      test::crumpled(run.state.x, 1e-3, 3);  // the upper one; the lower one has nothing to do with it
+      test::crumpled(run.state.x, 5e-3, 3);  // the upper one; the lower one has nothing to do with it
   std::copy(crumpled.begin() + static_cast<std::ptrdiff_t>(half), crumpled.end(),
             run.state.x.begin() + static_cast<std::ptrdiff_t>(half));
   run.run(10);
+  // Both in one aggregate: 0.37 m/s, in opposite directions.
   for (const bool upper : {false, true}) {
     Vec3 momentum = Vec3::Zero();
     double mass = 0;
@@ -62,7 +63,7 @@ TEST(FreeMotion, TwoPiecesOfOnePanelDoNotDriftApart) {
       momentum += run.model.mass_kg[i] * run.state.v[i];
       mass += run.model.mass_kg[i];
     }
-    EXPECT_LT((momentum / mass).norm(), 1e-6) << (upper ? "upper" : "lower");
+    EXPECT_LT((momentum / mass).norm(), 1e-5) << (upper ? "upper" : "lower");
   }
 }
 
