@@ -49,7 +49,7 @@ Slot BlockPattern::slot(Index row, Index column) const {
 template <class T>
 BlockMatrix<T>::BlockMatrix(std::shared_ptr<const BlockPattern> pattern)
     : pattern_(std::move(pattern)),
-      below_(static_cast<std::size_t>(pattern_->block_count()), Block<T>::from(Mat3::Zero())),
+      off_diagonal_(static_cast<std::size_t>(pattern_->block_count()), Block<T>::from(Mat3::Zero())),
       grounded_(static_cast<std::size_t>(pattern_->rows()), Mat3::Zero()),
       diagonal_(grounded_),
       grounded_columns_(grounded_.size() * 3, to_lane<T>(Vec3::Zero())) {}
@@ -61,9 +61,8 @@ void BlockMatrix<T>::update_diagonal() {
       grounded_columns_[3 * i + static_cast<std::size_t>(k)] = to_lane<T>(grounded_[i].col(k));
     const auto row = static_cast<Index>(i);
     Mat3 diagonal = grounded_[i];
-    for (const auto& above : pattern_->above(row)) diagonal -= below(above.slot).to_mat3();
-    for (Slot s = pattern_->first_slot(row); s < pattern_->end_slot(row); ++s)
-      diagonal -= below(s).to_mat3().transpose();
+    for (const auto& above : pattern_->above(row)) diagonal -= off_diagonal(above.slot).to_mat3().transpose();
+    for (Slot s = pattern_->first_slot(row); s < pattern_->end_slot(row); ++s) diagonal -= off_diagonal(s).to_mat3();
     diagonal_[i] = diagonal;
   });
 }
@@ -78,15 +77,16 @@ void BlockMatrix<T>::multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) 
   }
   for (Index i = 0; i < rows(); ++i) {
     const Lane<T> x_i = x[static_cast<std::size_t>(i)];
-    TransposedSum<T> sum;
+    Lane<T> y_i = y[static_cast<std::size_t>(i)];
     const Slot end = pattern_->end_slot(i);
     for (Slot s = pattern_->first_slot(i); s < end; ++s) {
       const auto j = static_cast<std::size_t>(pattern_->column(s));
+      const Block<T>& L = off_diagonal(s);
       const Lane<T> d = x[j] - x_i;
-      sum.add(below(s), d);
-      y[j] -= below(s).times(d);
+      y_i += L.times(d);
+      y[j] -= L.transpose_times(d);
     }
-    y[static_cast<std::size_t>(i)] += sum.value();
+    y[static_cast<std::size_t>(i)] = y_i;
   }
 }
 
@@ -104,9 +104,9 @@ void BlockMatrix<T>::multiply_rows(Index begin, Index end, std::span<const Vec3>
     const Vec3 x_i = x[static_cast<std::size_t>(i)];
     Vec3 sum = grounded(i) * x_i;
     for (const auto& above : pattern_->above(i))
-      sum += below(above.slot).to_mat3() * (x[static_cast<std::size_t>(above.row)] - x_i);
+      sum += off_diagonal(above.slot).to_mat3().transpose() * (x[static_cast<std::size_t>(above.row)] - x_i);
     for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s)
-      sum += below(s).to_mat3().transpose() * (x[static_cast<std::size_t>(pattern_->column(s))] - x_i);
+      sum += off_diagonal(s).to_mat3() * (x[static_cast<std::size_t>(pattern_->column(s))] - x_i);
     y[static_cast<std::size_t>(i)] = sum;
   }
 }
@@ -119,8 +119,8 @@ Eigen::MatrixXd BlockMatrix<T>::to_dense() const {
     dense.block<3, 3>(at(i), at(i)) = diagonal(i);
     for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s) {
       const Index j = pattern_->column(s);
-      dense.block<3, 3>(at(i), at(j)) = below(s).to_mat3().transpose();
-      dense.block<3, 3>(at(j), at(i)) = below(s).to_mat3();
+      dense.block<3, 3>(at(i), at(j)) = off_diagonal(s).to_mat3();
+      dense.block<3, 3>(at(j), at(i)) = off_diagonal(s).to_mat3().transpose();
     }
   }
   return dense;

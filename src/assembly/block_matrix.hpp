@@ -1,9 +1,7 @@
 // assembly/block_matrix.hpp: symmetric sparse matrix of 3x3 blocks, one block row per particle.             [BW98 2.3]
 //
 // Split in two because the halves live for different times: the pattern follows the mesh and is built once; the values follow
-// the state and are rewritten every step.  The pattern lists the blocks above the diagonal by rows, columns ascending; stored are
-// their transposes, the blocks below it: what a sweep pushes from a row into many others are then products of columns with the
-// same three numbers, and what it gathers needs no sum across lanes but one at the end (lane.hpp, TransposedSum).
+// the state and are rewritten every step.  Only blocks above the diagonal are stored, columns ascending.
 //
 // Internal forces do not act on a rigid translation, so every row of their derivative sums to zero.  The product is
 // therefore written with differences:
@@ -61,9 +59,8 @@ class BlockMatrix {
   const BlockPattern& pattern() const { return *pattern_; }
   Index rows() const { return pattern_->rows(); }
 
-  // A_ji = A_ij^T of a slot (i, j), i < j.
-  Block<T>& below(Slot slot) { return below_[static_cast<std::size_t>(slot)]; }
-  const Block<T>& below(Slot slot) const { return below_[static_cast<std::size_t>(slot)]; }
+  Block<T>& off_diagonal(Slot slot) { return off_diagonal_[static_cast<std::size_t>(slot)]; }
+  const Block<T>& off_diagonal(Slot slot) const { return off_diagonal_[static_cast<std::size_t>(slot)]; }
   Mat3& grounded(Index row) { return grounded_[static_cast<std::size_t>(row)]; }
   const Mat3& grounded(Index row) const { return grounded_[static_cast<std::size_t>(row)]; }
   // G_i in the precision of the blocks, valid after update_diagonal().
@@ -86,7 +83,7 @@ class BlockMatrix {
 
  private:
   std::shared_ptr<const BlockPattern> pattern_;
-  std::vector<Block<T>> below_;
+  std::vector<Block<T>> off_diagonal_;
   std::vector<Mat3> grounded_, diagonal_;
   std::vector<Lane<T>> grounded_columns_;  // three per row, in T, for multiply
 };

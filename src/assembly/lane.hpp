@@ -79,9 +79,6 @@ class DotSum<double> {
   double sum_ = 0;
 };
 
-template <class T>
-class TransposedSum;
-
 // A 3x3 block, column by column.
 template <class T>
 struct Block {
@@ -97,23 +94,7 @@ struct Block {
     return {Lane<T>{c0[0], c1[0], c2[0], 0}, Lane<T>{c0[1], c1[1], c2[1], 0}, Lane<T>{c0[2], c1[2], c2[2], 0}};
   }
   Lane<T> times(const Lane<T>& x) const { return c0 * x[0] + c1 * x[1] + c2 * x[2]; }
-  Lane<T> transpose_times(const Lane<T>& x) const {
-    TransposedSum<T> sum;
-    sum.add(*this, x);
-    return sum.value();
-  }
-};
-
-// Sum of B^T x over many blocks: products lane by lane, and what lies across the lanes once, at the end.
-template <class T>
-class TransposedSum {
- public:
-  void add(const Block<T>& B, const Lane<T>& x) {
-    sum0_ += B.c0 * x;
-    sum1_ += B.c1 * x;
-    sum2_ += B.c2 * x;
-  }
-  Lane<T> value() const { return column_dots(sum0_, sum1_, sum2_); }
+  Lane<T> transpose_times(const Lane<T>& x) const { return column_dots(c0 * x, c1 * x, c2 * x); }
 
  private:
   // (sum of r0, sum of r1, sum of r2): a 4x4 transpose and two additions.
@@ -129,7 +110,6 @@ class TransposedSum {
   static DoubleLane column_dots(const DoubleLane& r0, const DoubleLane& r1, const DoubleLane& r2) {
     return {{r0[0] + r0[1] + r0[2], r1[0] + r1[1] + r1[2], r2[0] + r2[1] + r2[2], 0}};
   }
-  Lane<T> sum0_{0, 0, 0, 0}, sum1_{0, 0, 0, 0}, sum2_{0, 0, 0, 0};
 };
 
 }  // namespace toile

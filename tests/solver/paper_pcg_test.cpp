@@ -53,8 +53,7 @@ int iterations_to(double error, PaperReading reading, int cap) {  // by bisectio
     const int middle = (low + high) / 2;
     Problem<double> p;
     Vec3s dv(p.b.size());
-    // Never finer than rounding allows: the listing would go on beyond what it can reach, and diverge there.
-    (void)paper_pcg(p.system, p.b, options_of(1e-12, middle), reading, dv);
+    (void)paper_pcg(p.system, p.b, options_of(1e-14, middle), reading, dv);
     if (error_against_dense(p, dv) < error)
       high = middle;
     else
@@ -79,7 +78,7 @@ TEST(PaperPcg, WithPReadAsTheDiagonalItsStopRuleHasOtherUnits) {
     const double unit = k == 0 ? 1 : 1000;
     Problem<double> p;
     for (Slot slot = 0; slot < p.A.pattern().block_count(); ++slot)
-      p.A.below(slot) = Block<double>::from(unit * p.A.below(slot).to_mat3());
+      p.A.off_diagonal(slot) = Block<double>::from(unit * p.A.off_diagonal(slot).to_mat3());
     for (Index i = 0; i < p.A.rows(); ++i) p.A.grounded(i) *= unit;
     p.A.update_diagonal();
     for (Vec3& b : p.b) b *= unit;

@@ -208,9 +208,9 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "cfb4148d7cfdc719");
-  EXPECT_EQ(folding(), "a1f8919eed13ec8c");
-  EXPECT_EQ(drop(1), "f46be128c20845bd");
+  EXPECT_EQ(hanging(), "85517b348a8e63b9");
+  EXPECT_EQ(folding(), "62204e68e423698e");
+  EXPECT_EQ(drop(1), "d8603b3c211926e1");
 }
 
 }  // namespace
