@@ -69,7 +69,7 @@ void Air::assemble(double h_s, BlockMatrix<T>& A) const {
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const Mat3 ninth = (h_s / 9) * B_[t];
     for (const Slot slot : slots_[t]) {
-      Block<T>& block = A.off_diagonal(slot);
+      Block<T>& block = A.below(slot);  // B is symmetric
       block = Block<T>::from(block.to_mat3() + ninth);
     }
     for (const Index corner : triangles_[t]) A.grounded(corner) += 3 * ninth;  // the sum of a row: block_matrix.hpp

@@ -49,7 +49,7 @@ Slot BlockPattern::slot(Index row, Index column) const {
 template <class T>
 BlockMatrix<T>::BlockMatrix(std::shared_ptr<const BlockPattern> pattern)
     : pattern_(std::move(pattern)),
-      off_diagonal_(static_cast<std::size_t>(pattern_->block_count()), Block<T>::from(Mat3::Zero())),
+      below_(static_cast<std::size_t>(pattern_->block_count()), Block<T>::from(Mat3::Zero())),
       grounded_(static_cast<std::size_t>(pattern_->rows()), Mat3::Zero()),
       diagonal_(grounded_),
       grounded_columns_(grounded_.size() * 3, to_lane<T>(Vec3::Zero())) {}
@@ -61,8 +61,9 @@ void BlockMatrix<T>::update_diagonal() {
       grounded_columns_[3 * i + static_cast<std::size_t>(k)] = to_lane<T>(grounded_[i].col(k));
     const auto row = static_cast<Index>(i);
     Mat3 diagonal = grounded_[i];
-    for (const auto& above : pattern_->above(row)) diagonal -= off_diagonal(above.slot).to_mat3().transpose();
-    for (Slot s = pattern_->first_slot(row); s < pattern_->end_slot(row); ++s) diagonal -= off_diagonal(s).to_mat3();
+    for (const auto& above : pattern_->above(row)) diagonal -= below(above.slot).to_mat3();
+    for (Slot s = pattern_->first_slot(row); s < pattern_->end_slot(row); ++s)
+      diagonal -= below(s).to_mat3().transpose();
     diagonal_[i] = diagonal;
   });
 }
@@ -81,10 +82,10 @@ void BlockMatrix<T>::multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) 
     const Slot end = pattern_->end_slot(i);
     for (Slot s = pattern_->first_slot(i); s < end; ++s) {
       const auto j = static_cast<std::size_t>(pattern_->column(s));
-      const Block<T>& L = off_diagonal(s);
       const Lane<T> d = x[j] - x_i;
-      y_i += L.times(d);
-      y[j] -= L.transpose_times(d);
+      const Block<T>& L = below(s);
+      y_i += L.transpose_times(d);
+      y[j] -= L.times(d);
     }
     y[static_cast<std::size_t>(i)] = y_i;
   }
@@ -103,10 +104,19 @@ void BlockMatrix<T>::multiply_rows(Index begin, Index end, std::span<const Vec3>
   for (Index i = begin; i < end; ++i) {
     const Vec3 x_i = x[static_cast<std::size_t>(i)];
     Vec3 sum = grounded(i) * x_i;
-    for (const auto& above : pattern_->above(i))
-      sum += off_diagonal(above.slot).to_mat3().transpose() * (x[static_cast<std::size_t>(above.row)] - x_i);
-    for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s)
-      sum += off_diagonal(s).to_mat3() * (x[static_cast<std::size_t>(pattern_->column(s))] - x_i);
+    // Of the blocks every addition is written out: how a library groups three products would be in the bits of all results.
+    for (const auto& above : pattern_->above(i)) {
+      const Block<T>& L = below(above.slot);
+      const Vec3 d = x[static_cast<std::size_t>(above.row)] - x_i;
+      sum += (to_vec3(L.c0) * d[0] + to_vec3(L.c1) * d[1]) + to_vec3(L.c2) * d[2];
+    }
+    for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s) {
+      const Block<T>& L = below(s);
+      const Vec3 d = x[static_cast<std::size_t>(pattern_->column(s))] - x_i;
+      const Vec3 p = to_vec3(L.c0).cwiseProduct(d), q = to_vec3(L.c1).cwiseProduct(d),
+                 r = to_vec3(L.c2).cwiseProduct(d);
+      sum += Vec3((p[0] + p[1]) + p[2], (q[0] + q[1]) + q[2], r[0] + (r[1] + r[2]));
+    }
     y[static_cast<std::size_t>(i)] = sum;
   }
 }
@@ -119,8 +129,8 @@ Eigen::MatrixXd BlockMatrix<T>::to_dense() const {
     dense.block<3, 3>(at(i), at(i)) = diagonal(i);
     for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s) {
       const Index j = pattern_->column(s);
-      dense.block<3, 3>(at(i), at(j)) = off_diagonal(s).to_mat3();
-      dense.block<3, 3>(at(j), at(i)) = off_diagonal(s).to_mat3().transpose();
+      dense.block<3, 3>(at(i), at(j)) = below(s).to_mat3().transpose();
+      dense.block<3, 3>(at(j), at(i)) = below(s).to_mat3();
     }
   }
   return dense;

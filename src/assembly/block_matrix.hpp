@@ -1,7 +1,9 @@
 // assembly/block_matrix.hpp: symmetric sparse matrix of 3x3 blocks, one block row per particle.             [BW98 2.3]
 //
 // Split in two because the halves live for different times: the pattern follows the mesh and is built once; the values follow
-// the state and are rewritten every step.  Only blocks above the diagonal are stored, columns ascending.
+// the state and are rewritten every step.  The pattern lists the blocks above the diagonal by rows, columns ascending; stored are
+// their transposes, the blocks below it: what a sweep pushes from a row into many others, twice, are then products of columns with
+// the same three numbers, and only what it gathers, once, needs sums across lanes (lane.hpp).
 //
 // Internal forces do not act on a rigid translation, so every row of their derivative sums to zero.  The product is
 // therefore written with differences:
@@ -59,8 +61,9 @@ class BlockMatrix {
   const BlockPattern& pattern() const { return *pattern_; }
   Index rows() const { return pattern_->rows(); }
 
-  Block<T>& off_diagonal(Slot slot) { return off_diagonal_[static_cast<std::size_t>(slot)]; }
-  const Block<T>& off_diagonal(Slot slot) const { return off_diagonal_[static_cast<std::size_t>(slot)]; }
+  // A_ji = A_ij^T of a slot (i, j), i < j.
+  Block<T>& below(Slot slot) { return below_[static_cast<std::size_t>(slot)]; }
+  const Block<T>& below(Slot slot) const { return below_[static_cast<std::size_t>(slot)]; }
   Mat3& grounded(Index row) { return grounded_[static_cast<std::size_t>(row)]; }
   const Mat3& grounded(Index row) const { return grounded_[static_cast<std::size_t>(row)]; }
   // G_i in the precision of the blocks, valid after update_diagonal().
@@ -83,7 +86,7 @@ class BlockMatrix {
 
  private:
   std::shared_ptr<const BlockPattern> pattern_;
-  std::vector<Block<T>> off_diagonal_;
+  std::vector<Block<T>> below_;
   std::vector<Mat3> grounded_, diagonal_;
   std::vector<Lane<T>> grounded_columns_;  // three per row, in T, for multiply
 };

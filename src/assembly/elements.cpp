@@ -177,7 +177,7 @@ void Elements::assemble(double h_s, BlockMatrix<T>& A) {
     combined_[t] = {h2 * K.uu + h_s * D.uu, h2 * K.uv + h_s * D.uv, h2 * K.vv + h_s * D.vv};
   });
   parallel_for(static_cast<std::size_t>(pattern_->block_count()), grain, [&](std::size_t s) {
-    Mat3 block = Mat3::Zero();
+    Mat3 block = Mat3::Zero();  // above the diagonal
     for (auto k = triangle_begin_[s]; k < triangle_begin_[s + 1]; ++k) {
       const auto [triangle, a, b] = triangle_parts_[static_cast<std::size_t>(k)];
       const auto t = static_cast<std::size_t>(triangle);
@@ -191,7 +191,7 @@ void Elements::assemble(double h_s, BlockMatrix<T>& A) {
       const auto h = static_cast<std::size_t>(hinge);
       block += ((h2 + h_s * tau_[h]) * kappa_[h] * bend_[h].g[a]) * bend_[h].g[b].transpose();
     }
-    A.off_diagonal(static_cast<Slot>(s)) = Block<T>::from(block);
+    A.below(static_cast<Slot>(s)) = Block<T>::from(block.transpose());
   });
   A.update_diagonal();
 }

@@ -230,12 +230,11 @@ void CoarseSpace<T>::multiply_basis(const LinearSystem<T>& system) {
       }
     };
     for (const auto& [above, slot] : pattern.above(i))
-      add(system.A().off_diagonal(slot).transpose(), above,
-          static_cast<std::size_t>(slot_entry_[static_cast<std::size_t>(slot)][1]));
+      add(system.A().below(slot), above, static_cast<std::size_t>(slot_entry_[static_cast<std::size_t>(slot)][1]));
     const Block<T> G = system.A().grounded_block(i);
     add_columns(AZ_[own], i_free ? G : product(G, S_i), q_i);
     for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s)
-      add(system.A().off_diagonal(s), pattern.column(s),
+      add(system.A().below(s).transpose(), pattern.column(s),
           static_cast<std::size_t>(slot_entry_[static_cast<std::size_t>(s)][0]));
     if (i_free) return;
     for (std::size_t e = own; e < end; ++e) {

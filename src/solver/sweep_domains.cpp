@@ -76,17 +76,16 @@ void SweepDomains<T>::sweep(const LinearSystem<T>& system, std::size_t domain, s
     const Lane<T> y = system.filtered_inverse_block(static_cast<Index>(i)).times(As[i]);
     s[i] = y;
     for (Slot slot = pattern.first_slot(static_cast<Index>(i)), stop = inner_end_[i]; slot < stop; ++slot)
-      As[at(pattern.column(slot))] -= system.A().off_diagonal(slot).transpose_times(y);
+      As[at(pattern.column(slot))] -= system.A().below(slot).times(y);
   }
   for (std::size_t i = last; i-- > first;) {
     Lane<T> sum{0, 0, 0, 0};
     const Slot start = pattern.first_slot(static_cast<Index>(i)), stop = inner_end_[i];
     for (Slot slot = start; slot < stop; ++slot)
-      sum += system.A().off_diagonal(slot).times(s[at(pattern.column(slot))]);
+      sum += system.A().below(slot).transpose_times(s[at(pattern.column(slot))]);
     const Lane<T> s_i = s[i] - system.filtered_inverse_block(static_cast<Index>(i)).times(sum);
     s[i] = s_i;
-    for (Slot slot = start; slot < stop; ++slot)
-      As[at(pattern.column(slot))] += system.A().off_diagonal(slot).transpose_times(s_i);
+    for (Slot slot = start; slot < stop; ++slot) As[at(pattern.column(slot))] += system.A().below(slot).times(s_i);
   }
 }
 
@@ -94,9 +93,9 @@ template <class T>
 void SweepDomains<T>::add_between(const LinearSystem<T>& system, std::size_t domain, std::span<const Lane<T>> s,
                                   std::span<Lane<T>> As) const {
   for (const Between& between : between_[domain]) {
-    const Block<T>& block = system.A().off_diagonal(between.slot);
+    const Block<T>& block = system.A().below(between.slot);
     const Lane<T>& x = s[at(between.other)];
-    As[at(between.own)] += between.transposed ? block.transpose_times(x) : block.times(x);
+    As[at(between.own)] += between.below ? block.times(x) : block.transpose_times(x);
   }
 }
 

@@ -38,7 +38,7 @@ class SweepDomains {
   struct Between {  // a block of A with its row and column in different domains
     Index own, other;
     Slot slot;
-    bool transposed;
+    bool below;  // the diagonal
   };
   std::size_t domain_of(Index particle) const;
 

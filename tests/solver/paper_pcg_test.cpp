@@ -78,7 +78,7 @@ TEST(PaperPcg, WithPReadAsTheDiagonalItsStopRuleHasOtherUnits) {
     const double unit = k == 0 ? 1 : 1000;
     Problem<double> p;
     for (Slot slot = 0; slot < p.A.pattern().block_count(); ++slot)
-      p.A.off_diagonal(slot) = Block<double>::from(unit * p.A.off_diagonal(slot).to_mat3());
+      p.A.below(slot) = Block<double>::from(unit * p.A.below(slot).to_mat3());
     for (Index i = 0; i < p.A.rows(); ++i) p.A.grounded(i) *= unit;
     p.A.update_diagonal();
     for (Vec3& b : p.b) b *= unit;
