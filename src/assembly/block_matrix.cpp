@@ -4,12 +4,18 @@
 #include "core/parallel.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 
 namespace toile {
 namespace {
 
 constexpr std::size_t grain = 512;  // rows
+
+std::uint64_t next_version() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
 
 }  // namespace
 
@@ -56,6 +62,7 @@ BlockMatrix<T>::BlockMatrix(std::shared_ptr<const BlockPattern> pattern)
 
 template <class T>
 void BlockMatrix<T>::update_diagonal() {
+  version_ = next_version();
   parallel_for(grounded_.size(), grain, [&](std::size_t i) {
     for (Eigen::Index k = 0; k < 3; ++k)
       grounded_columns_[3 * i + static_cast<std::size_t>(k)] = to_lane<T>(grounded_[i].col(k));

@@ -16,6 +16,7 @@
 #include "assembly/lane.hpp"
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -73,7 +74,10 @@ class BlockMatrix {
   }
   // A_ii, valid after update_diagonal().
   const Mat3& diagonal(Index row) const { return diagonal_[static_cast<std::size_t>(row)]; }
+  // Call when blocks have changed.
   void update_diagonal();
+  // Another number after every update_diagonal() of any matrix: for those who keep a copy of the blocks.
+  std::uint64_t version() const { return version_; }
 
   // y = A x in the precision of the blocks; x and y must not overlap.
   void multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
@@ -87,6 +91,7 @@ class BlockMatrix {
  private:
   std::shared_ptr<const BlockPattern> pattern_;
   std::vector<Block<T>> below_;
+  std::uint64_t version_ = 0;
   std::vector<Mat3> grounded_, diagonal_;
   std::vector<Lane<T>> grounded_columns_;  // three per row, in T, for multiply
 };

@@ -94,11 +94,10 @@ struct Block {
     return {Lane<T>{c0[0], c1[0], c2[0], 0}, Lane<T>{c0[1], c1[1], c2[1], 0}, Lane<T>{c0[2], c1[2], c2[2], 0}};
   }
   Lane<T> times(const Lane<T>& x) const { return c0 * x[0] + c1 * x[1] + c2 * x[2]; }
-  Lane<T> transpose_times(const Lane<T>& x) const { return column_dots(c0 * x, c1 * x, c2 * x); }
+  Lane<T> transpose_times(const Lane<T>& x) const { return column_sums(c0 * x, c1 * x, c2 * x); }
 
- private:
   // (sum of r0, sum of r1, sum of r2): a 4x4 transpose and two additions.
-  static Lane<float> column_dots(const Lane<float>& r0, const Lane<float>& r1, const Lane<float>& r2) {
+  static Lane<float> column_sums(const Lane<float>& r0, const Lane<float>& r1, const Lane<float>& r2) {
     const Lane<float> zero{0, 0, 0, 0};
     const Lane<float> low = __builtin_shufflevector(r0, r1, 0, 4, 1, 5),
                       high = __builtin_shufflevector(r0, r1, 2, 6, 3, 7);
@@ -107,7 +106,7 @@ struct Block {
     return __builtin_shufflevector(low, low2, 0, 1, 4, 5) + __builtin_shufflevector(low, low2, 2, 3, 6, 7) +
            __builtin_shufflevector(high, high2, 0, 1, 4, 5);
   }
-  static DoubleLane column_dots(const DoubleLane& r0, const DoubleLane& r1, const DoubleLane& r2) {
+  static DoubleLane column_sums(const DoubleLane& r0, const DoubleLane& r1, const DoubleLane& r2) {
     return {{r0[0] + r0[1] + r0[2], r1[0] + r1[1] + r1[2], r2[0] + r2[1] + r2[2], 0}};
   }
 };

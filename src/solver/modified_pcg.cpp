@@ -63,7 +63,7 @@ void ModifiedPcg<T>::prepare(const LinearSystem<T>& system, const PcgOptions& op
   for (auto* vector : {&start_, &work_, &work2_}) vector->resize(n);
   if (options.procedure == PcgProcedure::paper_1998) return;
   domains_.cut(system.A().pattern());
-  domains_.sort_rows(system);
+  domains_.update(system);
   row_sums_.resize(system.rows().size());
   parts_.resize(domains_.count());
   coarse_parts_.resize(domains_.count());
