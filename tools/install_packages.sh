@@ -5,6 +5,7 @@ set -euo pipefail
 packages=(
   g++ make cmake ninja-build ccache                                   # build
   libeigen3-dev libtbb-dev nlohmann-json3-dev libcli11-dev libfmt-dev # core, io, command line
+  libhwy-dev                                                          # solver: vectors of the width the processor has
   libembree-dev libpng-dev ffmpeg                                     # preview: pictures and film
   libgtest-dev libbenchmark-dev python3                               # tests, benchmarks
 )

@@ -1,10 +1,12 @@
 #include "solver/coarse_space.hpp"
 
 #include "core/parallel.hpp"
+#include "solver/sweep_kernels.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 namespace toile {
 namespace {
@@ -137,6 +139,7 @@ CoarseSpace<T>::CoarseSpace(const ClothMesh& mesh) {
   rhs_.resize(n);
   dead_.resize(n);
   y_.resize(n);
+  affine_.resize(n / 3);
 }
 
 // Which aggregates the row of a particle reaches.
@@ -400,6 +403,8 @@ void CoarseSpace<T>::solve(std::span<const std::vector<double>> parts) {
     const T y = static_cast<T>(rhs_[k]);
     y_[k] = Lane<T>{y, y, y, 0};
   }
+  for (std::size_t k = 0; k < affine_.size(); ++k)
+    affine_[k] = Lane<T>{y_[3 * k][0], y_[3 * k + 1][0], y_[3 * k + 2][0], 0};
 }
 
 template <class T>
@@ -408,20 +413,22 @@ void CoarseSpace<T>::prolong(const LinearSystem<T>& system, Index begin, Index e
   const ParticleConstraints& constraints = system.constraints();
   for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
     // S_p (a + u' b + v' c)
-    const Lane<T>* y = &y_[static_cast<std::size_t>(aggregate_[p]) * 9];
-    const T u = static_cast<T>(basis_[p][1]), v = static_cast<T>(basis_[p][2]);
-    Lane<T> z{y[0][0] + u * y[3][0] + v * y[6][0], y[1][0] + u * y[4][0] + v * y[7][0],
-              y[2][0] + u * y[5][0] + v * y[8][0], 0};
+    const Lane<T>* abc = &affine_[static_cast<std::size_t>(aggregate_[p]) * 3];
+    Lane<T> z = abc[0] + abc[1] * static_cast<T>(basis_[p][1]) + abc[2] * static_cast<T>(basis_[p][2]);
     if (!constraints.is_free(static_cast<Index>(p))) z = to_lane<T>(constraints.S(static_cast<Index>(p)) * to_vec3(z));
     t[p] += z;
     Zy[p] = z;
-    Lane<T> sum = At[p];
-    for (auto e = static_cast<std::size_t>(entry_begin_[p]); e < static_cast<std::size_t>(entry_begin_[p + 1]); ++e) {
-      const Columns& column = AZ_[e];
-      const Lane<T>* y_e = &y_[static_cast<std::size_t>(entry_aggregate_[e]) * 9];
-      for (std::size_t m = 0; m < 9; ++m) sum += column[m] * y_e[m];
+  }
+  if constexpr (std::is_same_v<T, float>) {
+    add_coarse_columns({entry_begin_.data(), entry_aggregate_.data(), AZ_.data()->data(), y_.data()}, begin, end,
+                       At.data());
+  } else {
+    for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
+      for (auto e = static_cast<std::size_t>(entry_begin_[p]); e < static_cast<std::size_t>(entry_begin_[p + 1]); ++e) {
+        const Lane<T>* y = &y_[static_cast<std::size_t>(entry_aggregate_[e]) * 9];
+        for (std::size_t m = 0; m < 9; ++m) At[p] += AZ_[e][m] * y[m];
+      }
     }
-    At[p] = sum;
   }
 }
 

@@ -67,6 +67,7 @@ class CoarseSpace {
   std::vector<double> rhs_;
   std::vector<std::uint8_t> dead_;  // directions in which nothing may move
   std::vector<Lane<T>> y_;          // [coarse direction] E^-1 Z^T (r - At), each in all lanes
+  std::vector<Lane<T>> affine_;     // [3 aggregate + l]: the same, three directions of basis function l in one
 };
 
 extern template class CoarseSpace<float>;

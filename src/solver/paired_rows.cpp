@@ -33,7 +33,7 @@ void PairedRows::copy(const BlockMatrix<float>& A) {
   constexpr std::size_t grain = 4096;
   parallel_for(slot_.size(), grain, [&](std::size_t n) {
     for (std::size_t strip = 0; strip < 2; ++strip) {
-      if (slot_[n][strip] < 0) continue;  // stays zero
+      if (slot_[n][strip] < 0) continue;                     // stays zero
       const Block<float>& below = A.below(slot_[n][strip]);  // its columns are the rows of the block above the diagonal
       block_[n].row[0][strip] = below.c0;
       block_[n].row[1][strip] = below.c1;
@@ -43,7 +43,7 @@ void PairedRows::copy(const BlockMatrix<float>& A) {
 }
 
 StripPair PairedRows::strips() const {
-  return {{begin_, middle_},   end_ - middle_, middle_ - begin_ > end_ - middle_,
+  return {{begin_, middle_}, end_ - middle_, middle_ - begin_ > end_ - middle_,
           row_begin_.data(), column_.data(), block_.data()};
 }
 

@@ -31,4 +31,13 @@ struct StripPair {
 void sweep_strips(const StripPair& strips, const Block<float>* G, const Lane<float>* r, Lane<float>* s,
                   Lane<float>* As);
 
+// A' Z, sparse (solver/coarse_space.hpp), and y of the coarse directions, each in all lanes.
+struct CoarseColumns {
+  const std::int32_t* entry_begin;  // [particle], and the end of the last
+  const Index* aggregate;           // [entry]
+  const Lane<float>*column, *y;     // [entry][9], [aggregate][9]
+};
+// sum += A' Z y of particles [begin, end).  `sum` begins with particle 0.
+void add_coarse_columns(const CoarseColumns& coarse, Index begin, Index end, Lane<float>* sum);
+
 }  // namespace toile

@@ -1,0 +1,159 @@
+// The sweeps against a dense solve with the same strips, and against themselves on every instruction set there is.
+#include "solver/sweep_domains.hpp"
+
+#include "solver/coarse_space.hpp"
+#include "solver/crumpled_problem.hpp"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <cstring>
+
+namespace toile {
+namespace {
+
+using test::Problem;
+
+template <class T>
+using Lanes = std::vector<Lane<T>>;
+
+// In the range of S, as every residual is.
+template <class T>
+Lanes<T> some_residual(const Problem<T>& p) {
+  test::Random random(4);
+  Lanes<T> r;
+  for (Index i = 0; i < p.A.rows(); ++i) r.push_back(to_lane<T>(p.constraints.S(i) * random.vector(1e-3)));
+  return r;
+}
+
+// Few particles in one domain, or 2,900 in two.
+template <class T>
+struct Swept : Problem<T> {
+  explicit Swept(bool large)
+      : Problem<T>(large ? test::equilateral_sheet(1, 1, 0.02) : test::equilateral_sheet(0.16, 0.16, 0.02), 1.0 / 60,
+                   0.002),
+        r(some_residual<T>(*this)),
+        s(r.size()),
+        As(r.size()) {
+    domains.cut(this->A.pattern());
+    sweep();
+  }
+  void sweep() {
+    domains.update(this->system);
+    for (std::size_t d = 0; d < domains.count(); ++d) domains.sweep(this->system, d, r, s, As);
+    for (std::size_t d = 0; d < domains.count(); ++d) {
+      domains.add_between(this->system, d, s, As);
+      domains.filter(this->system, d, As);
+    }
+  }
+  SweepDomains<T> domains;
+  Lanes<T> r, s, As;
+};
+
+template <class T>
+void expect_the_dense_sweep(double tolerance) {
+  Swept<T> p(false);
+  p.rows.clear();
+  p.system.update(p.rows, p.constraints);
+  p.sweep();
+  const Index n = p.A.rows();
+  ASSERT_EQ(p.domains.count(), 1u);
+  const Index middle = (n + 1) / 2;  // where the second strip begins
+  const Eigen::MatrixXd dense = p.A.to_dense();
+  Eigen::MatrixXd S = Eigen::MatrixXd::Identity(3 * n, 3 * n);
+  for (Index i = 0; i < n; ++i) S.block<3, 3>(3 * i, 3 * i) = p.constraints.S(i);
+  // y_i = G_i (r_i - sum_{j < i} A_ij y_j),  s_i = y_i - G_i sum_{j > i} A_ij s_j,  j in the strip of i
+  const auto near = [&](Index i, Index j) { return (i < middle) == (j < middle); };
+  Eigen::VectorXd y(3 * n), s(3 * n), r(3 * n);
+  for (Index i = 0; i < n; ++i) {
+    r.segment<3>(3 * i) = to_vec3(p.r[static_cast<std::size_t>(i)]);
+    Vec3 left = r.segment<3>(3 * i);
+    for (Index j = 0; j < i; ++j)
+      if (near(i, j)) left -= dense.block<3, 3>(3 * i, 3 * j) * y.segment<3>(3 * j);
+    y.segment<3>(3 * i) = p.system.filtered_inverse(i) * left;
+  }
+  for (Index i = n; i-- > 0;) {
+    Vec3 sum = Vec3::Zero();
+    for (Index j = i + 1; j < n; ++j)
+      if (near(i, j)) sum += dense.block<3, 3>(3 * i, 3 * j) * s.segment<3>(3 * j);
+    s.segment<3>(3 * i) = y.segment<3>(3 * i) - p.system.filtered_inverse(i) * sum;
+  }
+  const Eigen::VectorXd As = S * (dense * s);
+  double s_error = 0, As_error = 0;
+  for (Index i = 0; i < n; ++i) {
+    s_error += (to_vec3(p.s[static_cast<std::size_t>(i)]) - s.segment<3>(3 * i)).squaredNorm();
+    As_error += (to_vec3(p.As[static_cast<std::size_t>(i)]) - As.segment<3>(3 * i)).squaredNorm();
+  }
+  EXPECT_LT(std::sqrt(s_error), tolerance * s.norm());
+  EXPECT_LT(std::sqrt(As_error), tolerance * As.norm());
+}
+
+TEST(SweepDomains, SweepsAsADenseMatrixWould) {
+  expect_the_dense_sweep<double>(1e-12);
+  expect_the_dense_sweep<float>(1e-5);
+}
+
+TEST(SweepDomains, ReadTheBlocksAgainWhenTheyHaveChanged) {
+  Swept<float> p(false);
+  const Lanes<float> before = p.s;
+  for (Slot slot = 0; slot < p.A.pattern().block_count(); ++slot)
+    p.A.below(slot) = Block<float>::from(0.5 * p.A.below(slot).to_mat3());
+  p.A.update_diagonal();
+  p.system.update(p.rows, p.constraints);
+  p.sweep();
+  Swept<float> fresh(false);
+  fresh.A = p.A;
+  fresh.system.update(fresh.rows, fresh.constraints);
+  fresh.domains = {};
+  fresh.domains.cut(fresh.A.pattern());
+  fresh.sweep();
+  EXPECT_NE(std::memcmp(before.data(), p.s.data(), p.s.size() * sizeof p.s[0]), 0);
+  EXPECT_EQ(std::memcmp(fresh.s.data(), p.s.data(), p.s.size() * sizeof p.s[0]), 0);
+}
+
+// Calls work() on each of the machine's instruction sets in turn, the plainest last.
+template <class Work>
+int on_every_target(const Work& work) {
+  int count = 0;
+  const auto supported = static_cast<std::uint64_t>(hwy::SupportedTargets());
+  for (std::uint64_t left = supported; left != 0; left &= left - 1, ++count) {
+    const auto target = static_cast<std::int64_t>(left & (~left + 1));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    work(hwy::TargetName(target));
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  return count;
+}
+
+TEST(SweepDomains, GiveTheSameBitsOnEveryInstructionSet) {
+  for (const bool large : {false, true}) {
+    Swept<float> p(large);
+    CoarseSpace<float> coarse(p.model.mesh);
+    coarse.factorise(p.system);
+    const Lanes<float> s = p.s, As = p.As;
+    std::vector<std::vector<double>> part(1, std::vector<double>(static_cast<std::size_t>(coarse.dimension())));
+    coarse.restrict(0, p.A.rows(), p.r, As, part[0]);
+    coarse.solve(part);
+    Lanes<float> t = s, At = As, Zy(s.size());
+    coarse.prolong(p.system, 0, p.A.rows(), t, At, Zy);
+    const auto same = [](const Lanes<float>& a, const Lanes<float>& b) {
+      return std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+    };
+    const int targets = on_every_target([&](const char* name) {
+      p.s.assign(p.s.size(), Lane<float>{});
+      p.As = p.s;
+      p.sweep();
+      EXPECT_TRUE(same(p.s, s)) << name;
+      EXPECT_TRUE(same(p.As, As)) << name;
+      coarse.prolong(p.system, 0, p.A.rows(), p.s, p.As, Zy);
+      EXPECT_TRUE(same(p.s, t)) << name;
+      EXPECT_TRUE(same(p.As, At)) << name;
+    });
+    EXPECT_GE(targets, 1);
+  }
+}
+
+}  // namespace
+}  // namespace toile
