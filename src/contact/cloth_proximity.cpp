@@ -203,7 +203,7 @@ class ClothQuery {
   Memory& memory_;
 };
 
-void mark_flat_edges(const ClothTopology& cloth, Memory& memory) {
+void mark_flat_edges(const ClothTopology& cloth, std::span<const std::array<Index, 2>> bent, Memory& memory) {
   const double flat_cosine = std::sqrt(1 - flat_edge_sine * flat_edge_sine);
   memory.flat.resize(cloth.triangles().size());
   parallel_for(cloth.triangles().size(), triangle_grain, [&](std::size_t t) {
@@ -217,6 +217,15 @@ void mark_flat_edges(const ClothTopology& cloth, Memory& memory) {
     }
     memory.flat[t] = static_cast<std::uint8_t>(bits);
   });
+  for (const std::array<Index, 2>& edge : bent) {
+    for (const Index corner : cloth.corners_around(edge[0])) {
+      const auto t = static_cast<std::size_t>(corner / 3);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Edge& at = cloth.edge(cloth.triangle_edges(corner / 3)[k]);
+        if (at.a == edge[0] && at.b == edge[1]) memory.flat[t] &= static_cast<std::uint8_t>(~(8u << k));
+      }
+    }
+  }
 }
 
 // Of the vertex-vertex records from `first` on, sorts them and keeps one of each that both vertices have chosen.
@@ -273,7 +282,7 @@ void find_cloth_contacts(const ClothTopology& cloth, const TriangleTree& tree, s
   contacts.clear();
   Memory& memory = workspace.memory();
   memory.prepare(cloth, tree, x, options.range_m / 2);
-  mark_flat_edges(cloth, memory);
+  mark_flat_edges(cloth, options.bent, memory);
   const ClothQuery query(cloth, x, options, memory);
 
   memory.tree.self_tasks(memory.tasks);

@@ -18,7 +18,7 @@
 //
 // A vertex-vertex record must pass as seen from both of its vertices.
 //
-// Two edges that are both flat (flat_edge_sine) are not reported: between two planes the rows of their vertices
+// Two edges that are both flat (flat_edge_sine), and not named in ProximityOptions::bent, are not reported: between two planes the rows of their vertices
 // already hold the gap, and parallel sheets would otherwise carry three rows of edges for each of vertices.
 //
 // Easily got wrong: for vertex-edge the region test is about the edge only.  Whether the direction leans into the
@@ -83,6 +83,8 @@ struct ProximityOptions {
   // 0.1 leaves nothing that leans into its own cloth; 0.5 keeps contacts in sharp creases, where sewing squeezes folds together.
   // Sheets slide with either: what locked them was the stiffness of slanting rows (step/contact_rows.hpp).
   double region_tolerance = toile::region_tolerance;
+  // Edges (a < b) of the cloth that count as bent, whatever their faces say: rows that lie flat because they act.
+  std::span<const std::array<Index, 2>> bent = {};
 };
 
 // Memory that the two queries keep between calls, so that a steady simulation allocates nothing.  One per caller.

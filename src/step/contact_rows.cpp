@@ -20,6 +20,7 @@ constexpr double idle_gap = 1.5;
 constexpr double most_of_faces = 3;  // stiffness of a row with a face, in terms of what its pair gives way by
 constexpr double same_way = 0.9, too_near = 0.1;  // cosine; of r
 constexpr double moves_on = 0.5;  // of r: way of a pair in a step from which its end says more than its start
+constexpr double at_rest = 0.04;  // of r: way of a pair in a step up to which it does not slide
 constexpr double same_side =
     0.7;  // cosine between the normals of a contact before and after its vertex came to another face
 
@@ -95,7 +96,9 @@ void ContactRows::detect(const ClothState& state, double h_s) {
 
   if (options_.cloth_cloth) {
     const Timed timed(cloth_seconds);
-    find_cloth_contacts(topology_, tree_, state.x, {range, 0, options_.region_tolerance}, workspace_, cloth_contacts_);
+    find_acting_edges();
+    find_cloth_contacts(topology_, tree_, state.x, {range, 0, options_.region_tolerance, acting_edges_}, workspace_,
+                        cloth_contacts_);
     for (const ClothContact& contact : cloth_contacts_) {
       double r = std::numeric_limits<double>::infinity(), full = r, friction = 0;
       for (std::size_t k = 0; k < 4; ++k) {
@@ -150,6 +153,17 @@ void ContactRows::detect(const ClothState& state, double h_s) {
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) { return a.key < b.key; });
 }
 
+// At rest, a row of two edges that bends a fold flat would be gone in the next step, the fold would rise, and the row come back, for ever.
+// Where edges slide over each other it has to go: flat sheets would catch on rows of edges.
+void ContactRows::find_acting_edges() {
+  acting_edges_.clear();
+  for (const Memory& memory : memory_) {
+    if (memory.key.body || memory.key.kind != ContactKind::edge_edge || !memory.rests) continue;
+    acting_edges_.push_back({memory.key.feature[0], memory.key.feature[1]});
+    acting_edges_.push_back({memory.key.feature[2], memory.key.feature[3]});
+  }
+}
+
 void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step, double base_h_s,
                         std::span<const Mat3> diagonal) {
   auto memory = memory_.begin();
@@ -175,7 +189,7 @@ void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, const
     pair.idle_steps = most_idle_steps;
     if (known) carry_on(pair, static_cast<std::size_t>(memory - memory_.begin()));
   }
-  take_over_bristles();
+  take_over_contacts();
 }
 
 // Where the pair is, which way its spring acts, and how stiff it is at least.
@@ -268,7 +282,7 @@ void ContactRows::aim_at_the_end(Pair& pair, const ClothState& state, std::span<
 }
 
 // A vertex that comes to the next face, or to the edge between two, has another pair; what holds it there is the same contact.
-void ContactRows::take_over_bristles() {
+void ContactRows::take_over_contacts() {
   orphans_.clear();
   for (std::size_t m = 0; m < memory_.size(); ++m) {
     if (kept_[m] != 0) continue;
@@ -287,7 +301,16 @@ void ContactRows::take_over_bristles() {
         return kept_[orphan->memory] == 0 && memory_[orphan->memory].normal.dot(pair.spring.direction) >= same_side;
       };
       while (orphan != orphans_.end() && orphan->vertex == vertex && !fits()) ++orphan;
-      if (orphan != orphans_.end() && orphan->vertex == vertex) carry_on(pair, orphan->memory);
+      if (orphan == orphans_.end() || orphan->vertex != vertex) continue;
+      // At rest the next pair is as stiff as this one was: else the vertex would go back for the load that it now takes with another gap.
+      const Memory& before = memory_[orphan->memory];
+      if (before.rests) {
+        LinearSpring& spring = pair.spring;
+        spring.stiffness_N_per_m = std::max(spring.stiffness_N_per_m, before.stiffness);
+        spring.damping_N_s_per_m = options_.damping_s * spring.stiffness_N_per_m;
+        spring.force_N = spring.stiffness_N_per_m * (pair.r_m - pair.gap_m);
+      }
+      carry_on(pair, orphan->memory);
     }
   }
 }
@@ -356,7 +379,8 @@ void ContactRows::accept(const ClothState& end_state) {
     const Vec3& n = pair.spring.direction;
     way -= n.dot(way) * n;
     const double k = pair.spring.stiffness_N_per_m, lambda = k * std::max(0.0, pair.r_m - pair.predicted_m);
-    memory_.push_back({pair.key, k, lambda, pair.bristle, way, n, idle});
+    const bool rests = idle == 0 && way.norm() < at_rest * pair.r_m;
+    memory_.push_back({pair.key, k, lambda, pair.bristle, way, n, idle, rests});
     Bristle& bristle = memory_.back().bristle;
     // An open contact forgets no stretch: it may close again at once.
     if (idle == 0 && bristle.begun()) bristle.end(way, pair.friction * lambda);

@@ -99,6 +99,7 @@ class ContactRows {
     Bristle bristle;
     Vec3 way_m, normal;  // along the surface, in the last step
     int idle_steps;      // 0: was active
+    bool rests;          // was active and hardly slid
   };
   struct Orphan {  // a contact of a vertex that is not among the pairs any more
     Index vertex;
@@ -109,9 +110,10 @@ class ContactRows {
   void place(Pair& pair, const ClothState& state, std::span<const Vec3> dv, const StepFormula& step, double base_h_s,
              std::span<const Mat3> diagonal) const;
   void carry_on(Pair& pair, std::size_t memory);
-  void take_over_bristles();
+  void take_over_contacts();
   void aim_at_the_end(Pair& pair, const ClothState& state, std::span<const Vec3> dv, const StepFormula& step) const;
   void measure_reach();
+  void find_acting_edges();
 
   const ClothModel* model_;
   const BodySurface* body_;
@@ -124,6 +126,7 @@ class ContactRows {
   ClothTopology topology_;
   TriangleTree tree_;
   ProximityWorkspace workspace_;
+  std::vector<std::array<Index, 2>> acting_edges_;  // of rows of two edges that acted in the last accepted step
   std::vector<ClothContact> cloth_contacts_;
   std::vector<BodyContact> body_contacts_;
   std::vector<Pair> pairs_;     // sorted by key

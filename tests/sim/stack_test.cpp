@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string>
@@ -48,8 +47,7 @@ Report stack(int sheets, Under under, double seconds, double aside_m) {
   return simulate(parse_scene(text, scratch / "s.json"), options);
 }
 
-// Nothing passes through anything from any start.  Sheets that only friction holds on a sphere may slip once more, late, and from which
-// starts is chance: of three, two are at rest.
+// From any start: how far aside each sheet lies changes which threads come to lie on which, and every bit.
 void expect_rest(int sheets, Under under, double seconds) {
   std::array<double, 3> speed{};
   for (std::size_t k = 0; k < speed.size(); ++k) {
@@ -60,9 +58,7 @@ void expect_rest(int sheets, Under under, double seconds) {
     speed[k] = report.audit.still_mm_per_s_p99;
   }
   std::printf("%d sheets: %.2f %.2f %.2f mm/s\n", sheets, speed[0], speed[1], speed[2]);
-  EXPECT_LT(speed[0], 2) << sheets << " sheets, the last second of " << seconds;
-  std::sort(speed.begin(), speed.end());
-  EXPECT_LT(speed[under == Under::floor ? 2 : 1], 2) << sheets << " sheets, the last second of " << seconds;
+  for (const double p99 : speed) EXPECT_LT(p99, 2) << sheets << " sheets, the last second of " << seconds;
 }
 
 TEST(Stack, OfTwoFiveAndTenSheetsOnTheFloorComesToRest) {
