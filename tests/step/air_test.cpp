@@ -37,8 +37,11 @@ TEST(Air, AFallingSheetApproachesItsTerminalVelocityAsTheClosedFormSays) {
 
 // A strip held at its top, in a wind across it, is straight at the angle theta from the vertical where the pressure carries the part of
 // its weight across it:  sigma g sin(theta) = rho c_n (V cos(theta))^2 / 2, everywhere alike.
+//
+// At 2 m/s, with one linearisation per step, the free end flutters for good, by 0.03 to 0.07 m/s: its mean over many cycles says what it does,
+// one frame is chance.  Solved to the end of each step it hangs still.
 TEST(Air, AFlagReachesOutInWindAsPressureAndWeightSay) {
-  for (const double wind : {0.0, 1.0, 2.0}) {
+  for (const auto& [wind, newton_iterations] : {std::pair{0.0, 1}, {1.0, 1}, {2.0, 1}, {2.0, 3}}) {
     Sheet sheet = test::equilateral_sheet(0.1, 0.3, 0.02);
     for (Vec3& p : sheet.x) p = Vec3(0, p.z(), p.x());
     Fabric silk = fabric_preset("silk", "", "");
@@ -50,12 +53,18 @@ TEST(Air, AFlagReachesOutInWindAsPressureAndWeightSay) {
     for (std::size_t i = 0; i < sheet.x.size(); ++i) {
       if (sheet.x[i].y() > -1e-9) run.pin(static_cast<Index>(i));
     }
-    run.run(400);  // at 2 m/s the free end flutters for long
-    EXPECT_LT(run.fastest(), 0.05) << wind << " m/s";
+    run.step.newton_iterations = newton_iterations;
+    run.run(300);
+    double speed = 0;
     Vec3 end = Vec3::Zero();
-    for (std::size_t i = 0; i < sheet.x.size(); ++i) {
-      if (sheet.x[i].y() < -0.3 + 1e-9) end += run.state.x[i];
+    for (int f = 0; f < 100; ++f) {
+      run.frame();
+      speed += run.fastest() / 100;
+      for (std::size_t i = 0; i < sheet.x.size(); ++i) {
+        if (sheet.x[i].y() < -0.3 + 1e-9) end += run.state.x[i];
+      }
     }
+    EXPECT_LT(speed, newton_iterations == 1 ? 0.05 : 1e-3) << wind << " m/s";
     const double ratio = 1.2 * run.world.air.normal_coefficient * wind * wind / (2 * 0.07 * gravity);
     double low = 0, high = 1;  // of sin(theta)
     for (int k = 0; k < 60; ++k) {
