@@ -208,9 +208,9 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "85517b348a8e63b9");
-  EXPECT_EQ(folding(), "62204e68e423698e");
-  EXPECT_EQ(drop(1), "d8603b3c211926e1");
+  EXPECT_EQ(hanging(), "4ca625fa7f867de6");
+  EXPECT_EQ(folding(), "dc7382bdcf30e2cc");
+  EXPECT_EQ(drop(1), "be5b816f0f1e5100");
 }
 
 }  // namespace
