@@ -3,6 +3,9 @@
 // One linear solve per step moves particles along tangents: a piece that turns by w h stretches by (w h)^2/2.  The energy of that
 // stretch comes from nowhere, and its tension brakes the turn in the next step.  Both fade with the step, and are reported as what
 // further Newton iterations have to remove.
+#include <array>
+#include <vector>
+
 #include "support/run_cloth.hpp"
 #include "validation/figures.hpp"
 
@@ -69,23 +72,34 @@ double rises(ClothRun& run, int frames, double h_s) {
 }
 
 TEST(Conservation, EnergyNeverRisesWithoutDampingWhereAStepTurnsLittle) {
+  // A sheet that falls from two corners has folds of 0.1 mm to begin with.  From an exactly flat one it is the solver's rounding
+  // that picks the folds it buckles into, and the rises at h = 1/30 s are then anything from 0.43 to 1.5 of the loss.
+  struct Case {
+    const char* name;
+    bool held;
+    double folds_m;
+    int newton_iterations;
+    std::array<double, 3> bounds;  // for h = 1/30, 1/120, 1/480 s
+  };
+  const std::vector<Case> cases = {{"crumpled and free", false, 1e-3, 1, {1e-3, 1e-3, 1e-3}},
+                                   {"falls from two corners", true, 1e-4, 1, {0.5, 0.1, 1e-3}},
+                                   {"falls from two corners, 3 iterations", true, 1e-4, 3, {0.03, 1e-3, 1e-3}}};
   Figures figures("energy");
-  for (const int per_second : {30, 120, 480}) {
-    const double h = 1.0 / per_second;
-    ClothRun flying(test::equilateral_sheet(0.2, 0.2, 0.02), undamped(), weightless());
-    flying.state.x = test::crumpled(flying.state.x, 0.001, 6);
-    ClothRun falling(test::equilateral_sheet(0.3, 0.3, 0.02), undamped());
-    falling.pin(0);
-    falling.pin(15);
-    for (ClothRun* run : {&flying, &falling}) {
-      const bool turns = run == &falling;
-      run->step.rows.cloth_cloth = false;
-      run->step.pcg.tolerance = 1e-6;  // the integrator's own: at 1e-3 what is left of the solve decides, 0.26 or 0.69
-      run->adaptive.step_max_s = h;
-      const double part = rises(*run, 2 * per_second, h);
-      figures.add(turns ? "falls from two corners" : "crumpled and free", "h = 1/" + std::to_string(per_second) + " s",
-                  "rises / loss", 0, part);
-      EXPECT_LT(part, turns && per_second < 480 ? 0.5 : 1e-3);
+  for (const Case& of : cases) {
+    int bound = 0;
+    for (const int per_second : {30, 120, 480}) {
+      const double h = 1.0 / per_second;
+      ClothRun run(test::equilateral_sheet(of.held ? 0.3 : 0.2, of.held ? 0.3 : 0.2, 0.02), undamped(),
+                   of.held ? ModelOptions{} : weightless());
+      run.state.x = test::crumpled(run.state.x, of.folds_m, 6);
+      if (of.held) run.pin(0), run.pin(15);
+      run.step.rows.cloth_cloth = false;
+      run.step.newton_iterations = of.newton_iterations;
+      run.step.pcg.tolerance = 1e-6;  // the integrator's own: at 1e-3 what is left of the solve decides
+      run.adaptive.step_max_s = h;
+      const double part = rises(run, 2 * per_second, h);
+      figures.add(of.name, "h = 1/" + std::to_string(per_second) + " s", "rises / loss", 0, part);
+      EXPECT_LT(part, of.bounds[bound++]);
     }
   }
 }
