@@ -108,23 +108,39 @@ void BlockMatrix<T>::multiply(std::span<const Vec3> x, std::span<Vec3> y) const 
 
 template <class T>
 void BlockMatrix<T>::multiply_rows(Index begin, Index end, std::span<const Vec3> x, std::span<Vec3> y) const {
-  for (Index i = begin; i < end; ++i) {
-    const Vec3 x_i = x[static_cast<std::size_t>(i)];
-    Vec3 sum = grounded(i) * x_i;
-    // Of the blocks every addition is written out: how a library groups three products would be in the bits of all results.
-    for (const auto& above : pattern_->above(i)) {
-      const Block<T>& L = below(above.slot);
-      const Vec3 d = x[static_cast<std::size_t>(above.row)] - x_i;
-      sum += (to_vec3(L.c0) * d[0] + to_vec3(L.c1) * d[1]) + to_vec3(L.c2) * d[2];
-    }
-    for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s) {
-      const Block<T>& L = below(s);
-      const Vec3 d = x[static_cast<std::size_t>(pattern_->column(s))] - x_i;
-      const Vec3 p = to_vec3(L.c0).cwiseProduct(d), q = to_vec3(L.c1).cwiseProduct(d),
-                 r = to_vec3(L.c2).cwiseProduct(d);
-      sum += Vec3((p[0] + p[1]) + p[2], (q[0] + q[1]) + q[2], r[0] + (r[1] + r[2]));
-    }
-    y[static_cast<std::size_t>(i)] = sum;
+  for (Index i = begin; i < end; ++i) y[static_cast<std::size_t>(i)] = multiply_row(i, x);
+}
+
+template <class T>
+Vec3 BlockMatrix<T>::multiply_row(Index i, std::span<const Vec3> x) const {
+  const Vec3 x_i = x[static_cast<std::size_t>(i)];
+  Vec3 sum = grounded(i) * x_i;
+  // Of the blocks every addition is written out: how a library groups three products would be in the bits of all results.
+  for (const auto& above : pattern_->above(i)) {
+    const Block<T>& L = below(above.slot);
+    const Vec3 d = x[static_cast<std::size_t>(above.row)] - x_i;
+    sum += (to_vec3(L.c0) * d[0] + to_vec3(L.c1) * d[1]) + to_vec3(L.c2) * d[2];
+  }
+  for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s) {
+    const Block<T>& L = below(s);
+    const Vec3 d = x[static_cast<std::size_t>(pattern_->column(s))] - x_i;
+    const Vec3 p = to_vec3(L.c0).cwiseProduct(d), q = to_vec3(L.c1).cwiseProduct(d), r = to_vec3(L.c2).cwiseProduct(d);
+    sum += Vec3((p[0] + p[1]) + p[2], (q[0] + q[1]) + q[2], r[0] + (r[1] + r[2]));
+  }
+  return sum;
+}
+
+template <class T>
+void BlockMatrix<T>::add_column(Index j, const Vec3& x, std::span<Vec3> y) const {
+  y[static_cast<std::size_t>(j)] += diagonal(j) * x;
+  for (const auto& above : pattern_->above(j)) {  // A_ij = A_ji^T
+    const Block<T>& L = below(above.slot);
+    y[static_cast<std::size_t>(above.row)] += Vec3(to_vec3(L.c0).dot(x), to_vec3(L.c1).dot(x), to_vec3(L.c2).dot(x));
+  }
+  for (Slot s = pattern_->first_slot(j); s < pattern_->end_slot(j); ++s) {
+    const Block<T>& L = below(s);
+    y[static_cast<std::size_t>(pattern_->column(s))] +=
+        (to_vec3(L.c0) * x[0] + to_vec3(L.c1) * x[1]) + to_vec3(L.c2) * x[2];
   }
 }
 

@@ -83,8 +83,11 @@ class BlockMatrix {
   void multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
   // y = A x with the stored blocks but double vectors: for residuals that decide constraint forces.
   void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;
-  // Rows [begin, end) of it, for those who share the work.
+  // Rows [begin, end) of it, for those who share the work, or one of them.
   void multiply_rows(Index begin, Index end, std::span<const Vec3> x, std::span<Vec3> y) const;
+  Vec3 multiply_row(Index row, std::span<const Vec3> x) const;
+  // y += A x of an x that is zero but on one particle.
+  void add_column(Index column, const Vec3& x, std::span<Vec3> y) const;
 
   Eigen::MatrixXd to_dense() const;  // for tests and small inspections only
 

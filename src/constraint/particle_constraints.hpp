@@ -29,6 +29,7 @@ class ParticleConstraints {
 
   Index size() const { return static_cast<Index>(S_.size()); }
   const Mat3& S(Index particle) const { return S_[static_cast<std::size_t>(particle)]; }
+  std::span<const Vec3> z() const { return z_; }
   const Vec3& z(Index particle) const { return z_[static_cast<std::size_t>(particle)]; }
   int degrees_of_freedom(Index particle) const { return dof_[static_cast<std::size_t>(particle)]; }
   bool is_free(Index particle) const { return dof_[static_cast<std::size_t>(particle)] == 3; }

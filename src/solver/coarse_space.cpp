@@ -180,6 +180,7 @@ void CoarseSpace<T>::find_entries(const BlockPattern& pattern) {
     }
   }
   AZ_.resize(entry_aggregate_.size());
+  version_ = 0;
 }
 
 namespace {
@@ -200,6 +201,26 @@ Block<T> product(const Block<T>& A, const Block<T>& B) {
 
 }  // namespace
 
+template <class T>
+void CoarseSpace<T>::find_stale_rows(const LinearSystem<T>& system) {
+  const BlockPattern& pattern = system.A().pattern();
+  const ParticleConstraints& constraints = system.constraints();
+  const auto n = static_cast<std::size_t>(pattern.rows());
+  const bool all = version_ != system.A().version();
+  version_ = system.A().version();
+  S_.resize(n, Mat3::Identity());
+  stale_.assign(n, all);
+  for (std::size_t p = 0; p < n; ++p) {
+    const auto i = static_cast<Index>(p);
+    if (S_[p] == constraints.S(i)) continue;
+    S_[p] = constraints.S(i);
+    stale_[p] = 1;
+    for (const auto& above : pattern.above(i)) stale_[static_cast<std::size_t>(above.row)] = 1;
+    for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s)
+      stale_[static_cast<std::size_t>(pattern.column(s))] = 1;
+  }
+}
+
 // Written with differences as the product is (assembly/block_matrix.hpp): (A Z)_i = G_i Z_i + sum_j L_ij (Z_j - Z_i).
 template <class T>
 void CoarseSpace<T>::multiply_basis(const LinearSystem<T>& system) {
@@ -211,6 +232,7 @@ void CoarseSpace<T>::multiply_basis(const LinearSystem<T>& system) {
   };
   const auto minus = [](const std::array<T, 3>& q) { return std::array<T, 3>{-q[0], -q[1], -q[2]}; };
   parallel_for(static_cast<std::size_t>(pattern.rows()), particles_per_block, [&](std::size_t row) {
+    if (!stale_[row]) return;
     const auto i = static_cast<Index>(row);
     const auto own = static_cast<std::size_t>(entry_begin_[row]), end = static_cast<std::size_t>(entry_begin_[row + 1]);
     Columns none;
@@ -309,6 +331,7 @@ template <class T>
 void CoarseSpace<T>::factorise(const LinearSystem<T>& system) {
   const BlockPattern& pattern = system.A().pattern();
   if (pattern_ != &pattern) find_entries(pattern);
+  find_stale_rows(system);
   multiply_basis(system);
   sum_coarse_matrix(system);
   cholesky();
@@ -380,14 +403,19 @@ template <class T>
 void CoarseSpace<T>::restrict(Index begin, Index end, std::span<const Lane<T>> r, std::span<const Lane<T>> At,
                               std::span<double> sum) const {
   std::fill(sum.begin(), sum.end(), 0.0);
-  for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end);
-       ++p) {  // S^T r = r, so it is left out
-    double* y = &sum[static_cast<std::size_t>(aggregate_[p]) * 9];
-    const Lane<T> d = r[p] - At[p];
-    const double q[3] = {basis_[p][0], basis_[p][1], basis_[p][2]};
-    const double c[3] = {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
+  double run[3][4] = {};  // of neighbours in the order of particles, mostly of one aggregate; four for the registers
+  for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
+    const Lane<T> d = r[p] - At[p];  // S^T r = r, so it is left out
+    const double q[3] = {1, basis_[p][1], basis_[p][2]};
+    const double c[4] = {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2]), 0};
     for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t m = 0; m < 3; ++m) y[3 * k + m] += q[k] * c[m];
+      for (std::size_t m = 0; m < 4; ++m) run[k][m] += q[k] * c[m];
+    }
+    if (p + 1 < static_cast<std::size_t>(end) && aggregate_[p + 1] == aggregate_[p]) continue;
+    double* y = &sum[static_cast<std::size_t>(aggregate_[p]) * 9];
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t m = 0; m < 3; ++m) y[3 * k + m] += run[k][m];
+      std::fill(run[k], run[k] + 4, 0.0);
     }
   }
 }

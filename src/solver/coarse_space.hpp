@@ -45,7 +45,8 @@ class CoarseSpace {
 
  private:
   void find_entries(const BlockPattern& pattern);
-  void multiply_basis(const LinearSystem<T>& system);  // A' Z without the rows
+  void find_stale_rows(const LinearSystem<T>& system);
+  void multiply_basis(const LinearSystem<T>& system);  // A' Z without the rows, where it is not what it was
   void sum_coarse_matrix(const LinearSystem<T>& system);
   void cholesky();
   void solve_coarse();
@@ -62,8 +63,12 @@ class CoarseSpace {
   std::vector<Index> entry_aggregate_;                   // [entry]
   std::vector<std::array<std::int32_t, 2>> slot_entry_;  // [slot (i, j)] entry of i for j's aggregate, of j for i's
   std::vector<Columns> AZ_;                              // [entry]
-  std::vector<double> E_;                                // row-major; upper triangle, then its factor U with E = U^T U
-  std::vector<double> transpose_;                        // U^T
+  // What A' Z was made of: between passes of the active set few particles change, and no block.
+  std::uint64_t version_ = 0;        // of A
+  std::vector<Mat3> S_;              // [particle]
+  std::vector<std::uint8_t> stale_;  // [particle] its row of A' Z
+  std::vector<double> E_;            // row-major; upper triangle, then its factor U with E = U^T U
+  std::vector<double> transpose_;    // U^T
   std::vector<double> rhs_;
   std::vector<std::uint8_t> dead_;  // directions in which nothing may move
   std::vector<Lane<T>> y_;          // [coarse direction] E^-1 Z^T (r - At), each in all lanes

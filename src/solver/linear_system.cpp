@@ -4,7 +4,22 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+
 namespace toile {
+namespace {
+
+constexpr std::size_t held_per_block = 256;
+
+double dot(const ImplicitRow& row, std::span<const Vec3> x) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (row.particle[k] >= 0) sum += row.weight[k] * row.direction.dot(x[static_cast<std::size_t>(row.particle[k])]);
+  }
+  return sum;
+}
+
+}  // namespace
 
 template <class T>
 void LinearSystem<T>::update(std::span<const ImplicitRow> rows, const ParticleConstraints& constraints) {
@@ -104,12 +119,40 @@ void LinearSystem<T>::multiply_unfiltered(std::span<const Vec3> x, std::span<Vec
 }
 
 template <class T>
+void LinearSystem<T>::multiply_prescribed(std::span<Vec3> y) const {
+  std::fill(y.begin(), y.end(), Vec3::Zero());
+  bool any = false;
+  for (const Index i : constraints_->constrained()) {
+    const Vec3& z = constraints_->z(i);
+    if (z.isZero(0)) continue;
+    any = true;
+    A_->add_column(i, z, y);
+  }
+  if (any) add_rows(constraints_->z(), y);
+}
+
+template <class T>
+void LinearSystem<T>::held_residual(std::span<const Vec3> x, std::span<const Vec3> b, std::span<Vec3> e) const {
+  std::fill(e.begin(), e.end(), Vec3::Zero());
+  const std::span<const Index> held = constraints_->constrained();
+  parallel_for(held.size(), held_per_block, [&](std::size_t k) {
+    const Index i = held[k];
+    e[static_cast<std::size_t>(i)] = A_->multiply_row(i, x) - b[static_cast<std::size_t>(i)];
+  });
+  if (held.empty()) return;
+  for (const ImplicitRow& row : rows_) {
+    const double sum = row.a * dot(row, x);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Index i = row.particle[k];
+      if (i >= 0 && !constraints_->is_free(i)) e[static_cast<std::size_t>(i)] += (row.weight[k] * sum) * row.direction;
+    }
+  }
+}
+
+template <class T>
 void LinearSystem<T>::add_rows(std::span<const Vec3> x, std::span<Vec3> y) const {
   for (const ImplicitRow& row : rows_) {
-    double sum = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (row.particle[k] >= 0) sum += row.weight[k] * row.direction.dot(x[static_cast<std::size_t>(row.particle[k])]);
-    }
+    const double sum = dot(row, x);
     for (std::size_t k = 0; k < 4; ++k) {
       if (row.particle[k] >= 0)
         y[static_cast<std::size_t>(row.particle[k])] += (row.a * row.weight[k] * sum) * row.direction;

@@ -46,6 +46,10 @@ class LinearSystem {
   void filter(std::span<Lane<T>> y) const;  // all of them
   // y = (A + sum a g g^T) x, unfiltered, in double.
   void multiply_unfiltered(std::span<const Vec3> x, std::span<Vec3> y) const;
+  // y = (A + sum a g g^T) z of the constraints' z, which only held particles have.
+  void multiply_prescribed(std::span<Vec3> y) const;
+  // e = (A + sum a g g^T) x - b of held particles: what holds them.  0 of others, where it is what the solve left.
+  void held_residual(std::span<const Vec3> x, std::span<const Vec3> b, std::span<Vec3> e) const;
   // y += sum a g g^T x, its part of the rows.
   void add_rows(std::span<const Vec3> x, std::span<Vec3> y) const;
 

@@ -271,62 +271,74 @@ Team& ModifiedPcg<T>::team_for(const PcgOptions& options) {
   return *all_;
 }
 
+// The target of the stop rule, from its two scales; work2 = A z.
+template <class T>
+double ModifiedPcg<T>::find_target(const LinearSystem<T>& system, std::span<const Vec3> b,
+                                   std::span<const Vec3> reference, const PcgOptions& options, const Share& share) {
+  for_own_domains(share, [&](std::size_t d) {
+    parts_[d] = {0, 0};
+    for (auto i = static_cast<std::size_t>(domains_.begin(d)); i < static_cast<std::size_t>(domains_.end(d)); ++i) {
+      const Mat3& G = system.filtered_inverse(static_cast<Index>(i));  // |S a|^2 in D^-1
+      const Vec3 a = b[i] - work2_[i];
+      parts_[d][0] += a.dot(G * a);
+      parts_[d][1] += reference[i].dot(G * reference[i]);
+    }
+  });
+  team_->barrier();
+  double scale2 = 0, gravity2 = 0;
+  for (std::size_t d = 0; d < domains_.count(); ++d) {
+    scale2 += parts_[d][0];
+    gravity2 += parts_[d][1];
+  }
+  const double scale = std::sqrt(scale2), gravity = std::sqrt(gravity2);
+  const double relative = options.tolerance * scale;
+  const double felt = std::max(share_of_gravity * gravity, violent_share * relative);
+  double target = std::max(std::min(relative, felt), resting_share * options.tolerance * gravity);
+  // Gravity that acts along held directions only, but for rounding (all of the cloth flat on the ground), says nothing.
+  if (gravity <= 1e-9 * scale) target = options.tolerance * scale;
+  return options.loosen * std::max(target, rounding_floor<T> * scale);
+}
+
 template <class T>
 PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const Vec3> b, std::span<const Vec3> reference,
                                 const PcgOptions& options, std::span<Vec3> dv) {
   if (options.procedure == PcgProcedure::paper_1998)
     return paper_pcg(system, b, options, PaperReading::inverse_everywhere, dv);
-  const std::size_t n = r_.size();
   const ParticleConstraints& constraints = system.constraints();
-  const auto norm2 = [&](std::span<const Vec3> a) {  // |S a|^2 in D^-1
-    double sum = 0;
-    for (std::size_t i = 0; i < n; ++i) sum += a[i].dot(system.filtered_inverse(static_cast<Index>(i)) * a[i]);
-    return sum;
-  };
-
-  // The stop rule's two scales.
-  for (std::size_t i = 0; i < n; ++i) start_[i] = constraints.z(static_cast<Index>(i));
-  system.multiply_unfiltered(start_, work2_);
-  for (std::size_t i = 0; i < n; ++i) work2_[i] = b[i] - work2_[i];
-  const double scale = std::sqrt(norm2(work2_)), gravity = std::sqrt(norm2(reference));
   PcgReport report;
-  const double relative = options.tolerance * scale;
-  const double felt = std::max(share_of_gravity * gravity, violent_share * relative);
-  report.target = std::max(std::min(relative, felt), resting_share * options.tolerance * gravity);
-  // Gravity that acts along held directions only, but for rounding (all of the cloth flat on the ground), says nothing.
-  if (gravity <= 1e-9 * scale) report.target = options.tolerance * scale;
-  report.target = std::max(report.target, rounding_floor<T> * scale);
-  report.target *= options.loosen;
-
-  // dv_0 = z + S w_0
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto particle = static_cast<Index>(i);
-    start_[i] = constraints.is_free(particle) ? dv[i] : Vec3(constraints.z(particle) + constraints.S(particle) * dv[i]);
-    w_[i] = Lane<T>{0, 0, 0, 0};
-  }
+  system.multiply_prescribed(work2_);
   team_ = &team_for(options);
   const int members = team_->members();
-  const PcgReport begun = report;
   const auto work = [&](int member) {
     Share share{member, members};
-    PcgReport own = begun;
+    const auto each = [&](const auto& of) {
+      for_own_domains(share, [&](std::size_t d) {
+        for (Index i = domains_.begin(d); i < domains_.end(d); ++i) of(i, static_cast<std::size_t>(i));
+      });
+    };
+    PcgReport own;
+    own.target = find_target(system, b, reference, options, share);
+    each([&](Index particle, std::size_t i) {  // dv_0 = z + S w_0
+      start_[i] =
+          constraints.is_free(particle) ? dv[i] : Vec3(constraints.z(particle) + constraints.S(particle) * dv[i]);
+      w_[i] = Lane<T>{0, 0, 0, 0};
+    });
     iterate(system, b, options, share, own);
+    each([&](Index particle, std::size_t i) {
+      const Vec3 w = to_vec3(w_[i]);
+      dv[i] = start_[i] + (constraints.is_free(particle) ? w : Vec3(constraints.S(particle) * w));
+    });
     if (member == 0) report = own;
   };
   team_->run(std::cref(work));  // by reference: no copy of the lambda on the heap
   if (team_->take_long_waits() > usual_long_waits + report.iterations) solves_alone_ = solves_until_next_try;
 
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto particle = static_cast<Index>(i);
-    const Vec3 w = to_vec3(w_[i]);
-    dv[i] = start_[i] + (constraints.is_free(particle) ? w : Vec3(constraints.S(particle) * w));
-  }
   if (options.preconditioner == Preconditioner::block_ssor_coarse && report.initial_residual > report.target &&
       report) {
     // What truncation left in the coarse modes goes, all in double: translations are among them, so that momentum is kept at
     // any tolerance.
     system.multiply_unfiltered(dv, work2_);
-    for (std::size_t i = 0; i < n; ++i) work2_[i] = b[i] - work2_[i];
+    for (std::size_t i = 0; i < work2_.size(); ++i) work2_[i] = b[i] - work2_[i];
     constraints.filter(work2_);
     coarse_.correct(system, work2_, dv);
   }

@@ -66,6 +66,8 @@ class ModifiedPcg {
     int member, members;
     bool odd = false;  // which of the two sets of parts the next sum uses
   };
+  double find_target(const LinearSystem<T>& system, std::span<const Vec3> b, std::span<const Vec3> reference,
+                     const PcgOptions& options, const Share& share);
   void iterate(const LinearSystem<T>& system, std::span<const Vec3> b, const PcgOptions& options, Share& share,
                PcgReport& report);
   void precondition(const LinearSystem<T>& system, Preconditioner kind, Share& share);

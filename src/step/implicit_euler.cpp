@@ -216,7 +216,7 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
   // Passes that only look for the active set are solved loosely; the one that is kept, to the tolerance asked for.
   // The target as a whole is loosened: the tolerance alone would change nothing where the target is 2 % of gravity.
   PcgOptions pcg_options = options_.pcg;
-  if (iteration == 1) pcg_options.loosen = loose_passes;
+  if (iteration == 1 && options_.max_passes > 1) pcg_options.loosen = loose_passes;
   for (int pass = 1;; ++pass) {
     ++report.passes;
     {
@@ -268,8 +268,7 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
         report.status = StepStatus::solver_failed;
         return false;
       }
-      system_.multiply_unfiltered(dv_, e_);
-      for (std::size_t i = 0; i < n; ++i) e_[i] -= b_[i];
+      system_.held_residual(dv_, b_, e_);
     }
     BodyConstraints::Change body;
     {

@@ -88,9 +88,8 @@ class ImplicitEuler {
   const BodyConstraints& body_constraints() const { return body_; }
   BodyConstraints& body_constraints() { return body_; }
   ContactRows& contact_rows() { return rows_; }
-  std::span<const Vec3> constraint_impulse() const {
-    return e_;
-  }  // e = A dv - b of the last pass, N s; H times the force
+  // e = A dv - b of the last pass on held particles, N s; H times the force.
+  std::span<const Vec3> constraint_impulse() const { return e_; }
   PhaseSeconds seconds() const;
   // f + h K terms of the last assembled system, for tests.
   const BlockMatrix<float>& A() const { return A_; }

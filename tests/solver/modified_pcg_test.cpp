@@ -352,6 +352,66 @@ TEST(ModifiedPcg, AFullyHeldClothIsSolvedByItsConstraintsAlone) {
   for (const Vec3& dv_i : dv) EXPECT_EQ(dv_i, Vec3(0.5, 0, -1));
 }
 
+// What it keeps between the passes of a step must not show.
+TEST(ModifiedPcg, ASecondPrepareGivesTheBitsOfAFirst) {
+  Problem<float> p;
+  PcgOptions options;
+  options.tolerance = 1e-5;
+  ModifiedPcg<float> kept(p.model.mesh);
+  const auto solve = [&](ModifiedPcg<float>& pcg) {
+    pcg.prepare(p.system, options);
+    Vec3s dv(p.b.size(), Vec3::Zero());
+    EXPECT_TRUE(pcg.solve(p.system, p.b, p.reference, options, dv));
+    return dv;
+  };
+  const auto expect_the_same = [&](const char* after) {
+    p.system.update(p.rows, p.constraints);
+    ModifiedPcg<float> fresh(p.model.mesh);
+    EXPECT_EQ(solve(kept), solve(fresh)) << after;
+  };
+  expect_the_same("nothing");
+  p.constraints.hold_along(33, Vec3(0, 0, 1), 0.1);
+  expect_the_same("another particle is held");
+  p.constraints.hold_along(33, Vec3(1, 0, 0), 0.1);
+  expect_the_same("it loses a second direction");
+  p.constraints.clear();
+  expect_the_same("all are free");
+  p.rows.pop_back();
+  expect_the_same("a row less");
+  p.constraints.hold_along(5, Vec3(1, 2, 2) / 3, 0.25);
+  p.elements.assemble(1.0 / 30, p.A);
+  expect_the_same("other blocks");
+}
+
+TEST(LinearSystem, ProductsOfHeldParticlesAreThoseOfTheDenseMatrix) {
+  Problem<double> p;
+  const auto n = static_cast<Eigen::Index>(p.b.size());
+  test::Random random(4);
+  Vec3s x(p.b.size()), Az(x.size(), Vec3::Ones()), e(x.size(), Vec3::Ones());
+  Eigen::VectorXd z(3 * n), x_dense(3 * n), b(3 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto particle = static_cast<std::size_t>(i);
+    x[particle] = random.vector(1);
+    x_dense.segment<3>(3 * i) = x[particle];
+    b.segment<3>(3 * i) = p.b[particle];
+    z.segment<3>(3 * i) = p.constraints.z(static_cast<Index>(i));
+  }
+  const Eigen::MatrixXd M = p.system.to_dense();
+  const Eigen::VectorXd Az_dense = M * z, e_dense = M * x_dense - b;
+  p.system.multiply_prescribed(Az);
+  p.system.held_residual(x, p.b, e);
+  EXPECT_GT(Az_dense.norm(), 0);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto particle = static_cast<std::size_t>(i);
+    EXPECT_LT((Az[particle] - Az_dense.segment<3>(3 * i)).norm(), 1e-12 * Az_dense.norm()) << i;
+    if (p.constraints.is_free(static_cast<Index>(i))) {
+      EXPECT_EQ(e[particle], Vec3(Vec3::Zero())) << i;
+    } else {
+      EXPECT_LT((e[particle] - e_dense.segment<3>(3 * i)).norm(), 1e-12 * e_dense.norm()) << i;
+    }
+  }
+}
+
 TEST(LinearSystem, ItsDiagonalBlocksAreThoseOfTheDenseMatrixRowsIncluded) {
   const Problem<double> problem;
   const Eigen::MatrixXd dense = problem.system.to_dense();

@@ -210,7 +210,7 @@ TEST(Golden, StateHashesOfThreeScenes) {
   };
   EXPECT_EQ(hanging(), "4ca625fa7f867de6");
   EXPECT_EQ(folding(), "dc7382bdcf30e2cc");
-  EXPECT_EQ(drop(1), "be5b816f0f1e5100");
+  EXPECT_EQ(drop(1), "5fdbd0f42571693c");
 }
 
 }  // namespace
