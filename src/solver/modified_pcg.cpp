@@ -87,6 +87,15 @@ void ModifiedPcg<T>::for_own_domains(const Share& share, const Work& work) const
     work(d);
 }
 
+// work(particle) for the particles of one member.
+template <class T>
+template <class Work>
+void ModifiedPcg<T>::for_own_particles(const Share& share, const Work& work) const {
+  for_own_domains(share, [&](std::size_t d) {
+    for (Index i = domains_.begin(d); i < domains_.end(d); ++i) work(static_cast<std::size_t>(i));
+  });
+}
+
 // part(i, sum) for every particle; the sum over all domains, the same for every member.
 template <class T>
 template <class Part>
@@ -162,15 +171,9 @@ void ModifiedPcg<T>::deflate(const LinearSystem<T>& system, Share& share) {
 // w += Q r,  r -= A' Q r: the residual of the coarse modes goes.
 template <class T>
 void ModifiedPcg<T>::correct_coarse_modes(const LinearSystem<T>& system, Share& share) {
-  const auto each = [&](const auto& work) {
-    for_own_domains(share, [&](std::size_t d) {
-      for (auto i = static_cast<std::size_t>(domains_.begin(d)); i < static_cast<std::size_t>(domains_.end(d)); ++i)
-        work(i);
-    });
-  };
-  each([&](std::size_t i) { s_[i] = As_[i] = Lane<T>{0, 0, 0, 0}; });
+  for_own_particles(share, [&](std::size_t i) { s_[i] = As_[i] = Lane<T>{0, 0, 0, 0}; });
   deflate(system, share);
-  each([&](std::size_t i) {
+  for_own_particles(share, [&](std::size_t i) {
     w_[i] += s_[i];
     r_[i] -= As_[i];
   });
@@ -186,25 +189,20 @@ double ModifiedPcg<T>::residual_norm2(const LinearSystem<T>& system, Share& shar
 // r = S (b - A (start + w)), with the product in double.
 template <class T>
 void ModifiedPcg<T>::true_residual(const LinearSystem<T>& system, std::span<const Vec3> b, const Share& share) {
-  const auto each = [&](const auto& work) {
-    for_own_domains(share, [&](std::size_t d) {
-      for (auto i = static_cast<std::size_t>(domains_.begin(d)); i < static_cast<std::size_t>(domains_.end(d)); ++i)
-        work(i);
-    });
-    team_->barrier();
-  };
-  each([&](std::size_t i) { work_[i] = start_[i] + to_vec3(w_[i]); });
+  for_own_particles(share, [&](std::size_t i) { work_[i] = start_[i] + to_vec3(w_[i]); });
+  team_->barrier();
   for_own_domains(share,
                   [&](std::size_t d) { system.A().multiply_rows(domains_.begin(d), domains_.end(d), work_, work2_); });
   team_->barrier();
   if (share.member == 0) system.add_rows(work_, work2_);
   team_->barrier();
   const ParticleConstraints& constraints = system.constraints();
-  each([&](std::size_t i) {
+  for_own_particles(share, [&](std::size_t i) {
     const auto particle = static_cast<Index>(i);
     const Vec3 residual = b[i] - work2_[i];
     r_[i] = to_lane<T>(constraints.is_free(particle) ? residual : Vec3(constraints.S(particle) * residual));
   });
+  team_->barrier();
 }
 
 // What every member goes through.
@@ -311,20 +309,17 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
   const int members = team_->members();
   const auto work = [&](int member) {
     Share share{member, members};
-    const auto each = [&](const auto& of) {
-      for_own_domains(share, [&](std::size_t d) {
-        for (Index i = domains_.begin(d); i < domains_.end(d); ++i) of(i, static_cast<std::size_t>(i));
-      });
-    };
     PcgReport own;
     own.target = find_target(system, b, reference, options, share);
-    each([&](Index particle, std::size_t i) {  // dv_0 = z + S w_0
+    for_own_particles(share, [&](std::size_t i) {  // dv_0 = z + S w_0
+      const auto particle = static_cast<Index>(i);
       start_[i] =
           constraints.is_free(particle) ? dv[i] : Vec3(constraints.z(particle) + constraints.S(particle) * dv[i]);
       w_[i] = Lane<T>{0, 0, 0, 0};
     });
     iterate(system, b, options, share, own);
-    each([&](Index particle, std::size_t i) {
+    for_own_particles(share, [&](std::size_t i) {
+      const auto particle = static_cast<Index>(i);
       const Vec3 w = to_vec3(w_[i]);
       dv[i] = start_[i] + (constraints.is_free(particle) ? w : Vec3(constraints.S(particle) * w));
     });

@@ -79,6 +79,8 @@ class ModifiedPcg {
   void true_residual(const LinearSystem<T>& system, std::span<const Vec3> b, const Share& share);
   template <class Work>
   void for_own_domains(const Share& share, const Work& work) const;
+  template <class Work>
+  void for_own_particles(const Share& share, const Work& work) const;
   template <class Part>
   double sum_over_particles(Share& share, const Part& part);
 

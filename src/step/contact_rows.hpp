@@ -126,7 +126,8 @@ class ContactRows {
   ClothTopology topology_;
   TriangleTree tree_;
   ProximityWorkspace workspace_;
-  std::vector<std::array<Index, 2>> acting_edges_;  // of rows of two edges that acted in the last accepted step
+  std::vector<std::array<Index, 2>>
+      acting_edges_;  // of rows of two edges that acted in the last accepted step and hardly slid
   std::vector<ClothContact> cloth_contacts_;
   std::vector<BodyContact> body_contacts_;
   std::vector<Pair> pairs_;     // sorted by key

@@ -122,6 +122,18 @@ TEST(Relinearise, StepsThatHoldAreThePapersToTheLastBit) {
   EXPECT_EQ(hang(3), hang(0));
 }
 
+// A single pass is the last one too: solved to the tolerance asked for, not as loosely as passes that seek contacts.
+TEST(Relinearise, ASinglePassIsSolvedAsTheLastOfMany) {
+  const auto target = [](int max_passes) {
+    ClothRun run(test::equilateral_sheet(0.3, 0.3, 0.03), Fabric{});
+    run.pin(0);
+    run.step.max_passes = max_passes;
+    return run.frame(1.0 / 60).last.pcg.target;
+  };
+  EXPECT_GT(target(8), 0);
+  EXPECT_NEAR(target(1), target(8), 1e-9 * target(8));
+}
+
 // The squeeze that is refused has the energy of the stretch that is: c s^2 = 0.05^2.
 TEST(Relinearise, ASqueezeCountsByItsEnergy) {
   const auto squeeze = [](double compression_ratio, double by) {
