@@ -10,16 +10,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace toile {
 namespace {
 
 using EdgeEnds = std::array<Index, 2>;
 
+constexpr int frames_per_tree = 30;  // cloth that folds outgrows a tree which only follows it
+
 // A surface and the rank of its particle 0.
 struct Surface {
   std::span<const Triangle> triangles;
+  std::span<const EdgeEnds> edges;
   std::span<const Vec3> x;
+  const BoxTree& tree;
   std::int64_t first_rank = 0;
 
   const Vec3& at(Index i) const { return x[static_cast<std::size_t>(i)]; }
@@ -50,9 +55,9 @@ Vec3 crossing_position(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& 
 }
 
 // `same`: edges and triangles are of one surface.
-std::vector<Crossing> edges_through(const Surface& of_edges, const Surface& of_triangles, const BoxTree& tree,
-                                    bool same, bool edge_of_body) {
-  const std::vector<EdgeEnds> edges = edges_of(of_edges.triangles);
+std::vector<Crossing> edges_through(const Surface& of_edges, const Surface& of_triangles, bool same,
+                                    bool edge_of_body) {
+  const std::span<const EdgeEnds> edges = of_edges.edges;
   constexpr std::size_t grain = 2048;
   std::vector<std::vector<Crossing>> found((edges.size() + grain - 1) / grain);
   parallel_blocks(edges.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -64,7 +69,7 @@ std::vector<Crossing> edges_through(const Surface& of_edges, const Surface& of_t
       box.add(p);
       box.add(q);
       triangles.clear();
-      tree.visit_meeting(box, [&](Index t) {
+      of_triangles.tree.visit_meeting(box, [&](Index t) {
         const auto [a, b, c] = of_triangles.triangles[static_cast<std::size_t>(t)];
         if (same && (i == a || i == b || i == c || j == a || j == b || j == c)) return;
         if (segment_crosses_triangle(of_edges.ranked(i), of_edges.ranked(j), of_triangles.ranked(a),
@@ -84,35 +89,52 @@ std::vector<Crossing> edges_through(const Surface& of_edges, const Surface& of_t
   return all;
 }
 
-// The triangles whose boxes meet `box`: what of the body a garment could reach.
-std::vector<Triangle> triangles_meeting(const BoxTree& tree, std::span<const Triangle> triangles, const ExactBox& box) {
-  std::vector<Triangle> near;
-  tree.visit_meeting(box, [&](Index t) { near.push_back(triangles[static_cast<std::size_t>(t)]); });
-  return near;
+// Cloth edges through the body, then the body's through the cloth; most of these lie beside all of the cloth.
+std::vector<Crossing> between(const Surface& cloth, const Surface& body) {
+  std::vector<Crossing> all = edges_through(cloth, body, false, false);
+  const std::vector<Crossing> poking = edges_through(body, cloth, false, true);
+  all.insert(all.end(), poking.begin(), poking.end());
+  return all;
 }
 
 }  // namespace
 
 std::vector<Crossing> find_body_crossings(std::span<const Triangle> cloth, std::span<const Vec3> x,
                                           std::span<const Triangle> body, std::span<const Vec3> body_x) {
-  const Surface of_cloth{cloth, x, 0};
-  const Surface of_body{body, body_x, static_cast<std::int64_t>(x.size())};
   check_surface("cloth", cloth, x);
   check_surface("body", body, body_x);
-  const BoxTree cloth_tree(cloth, x), body_tree(body, body_x);
-
-  std::vector<Crossing> all = edges_through(of_cloth, of_body, body_tree, false, false);
-  const std::vector<Triangle> near = triangles_meeting(body_tree, body, cloth_tree.bounds());
-  const Surface near_body{near, body_x, of_body.first_rank};
-  const std::vector<Crossing> poking = edges_through(near_body, of_cloth, cloth_tree, false, true);
-  all.insert(all.end(), poking.begin(), poking.end());
-  return all;
+  const std::vector<EdgeEnds> edges = edges_of(cloth), body_edges = edges_of(body);
+  const BoxTree tree(cloth, x), body_tree(body, body_x);
+  return between({cloth, edges, x, tree}, {body, body_edges, body_x, body_tree, static_cast<std::int64_t>(x.size())});
 }
 
 std::vector<Crossing> find_cloth_crossings(std::span<const Triangle> cloth, std::span<const Vec3> x) {
-  const Surface surface{cloth, x, 0};
   check_surface("cloth", cloth, x);
-  return edges_through(surface, surface, BoxTree(cloth, x), true, false);
+  const std::vector<EdgeEnds> edges = edges_of(cloth);
+  const BoxTree tree(cloth, x);
+  const Surface surface{cloth, edges, x, tree};
+  return edges_through(surface, surface, true, false);
+}
+
+CrossingSearch::CrossingSearch(std::vector<Triangle> cloth, std::vector<Triangle> body) {
+  cloth_.edges = edges_of(cloth);
+  body_.edges = edges_of(body);
+  cloth_.triangles = std::move(cloth);
+  body_.triangles = std::move(body);
+}
+
+CrossingSearch::Found CrossingSearch::find(std::span<const Vec3> x, std::span<const Vec3> body_x) {
+  const bool fresh = frames_++ % frames_per_tree == 0;
+  const auto moved = [&](Moving& surface, const char* name, std::span<const Vec3> to, std::size_t first_rank) {
+    check_surface(name, surface.triangles, to);
+    if (fresh || !surface.tree)
+      surface.tree.emplace(surface.triangles, to);
+    else
+      surface.tree->refit(surface.triangles, to);
+    return Surface{surface.triangles, surface.edges, to, *surface.tree, static_cast<std::int64_t>(first_rank)};
+  };
+  const Surface cloth = moved(cloth_, "cloth", x, 0), body = moved(body_, "body", body_x, x.size());
+  return {between(cloth, body), edges_through(cloth, cloth, true, false)};
 }
 
 int count_edges(std::span<const Crossing> crossings) {

@@ -13,8 +13,10 @@
 // be one.
 #pragma once
 #include "core/types.hpp"
+#include "verify/box_tree.hpp"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +37,27 @@ std::vector<Crossing> find_body_crossings(std::span<const Triangle> cloth, std::
 // Edges of a surface through triangles of the same surface that share no particle with them, sorted by (edge,
 // triangle). Throws as find_body_crossings.
 std::vector<Crossing> find_cloth_crossings(std::span<const Triangle> cloth, std::span<const Vec3> x);
+
+// Both for surfaces that move, frame by frame: edges are found once, and the trees follow the surfaces.
+class CrossingSearch {
+ public:
+  CrossingSearch(std::vector<Triangle> cloth, std::vector<Triangle> body);
+
+  struct Found {
+    std::vector<Crossing> of_body, of_cloth;  // as find_body_crossings and find_cloth_crossings
+  };
+  // Throws as find_body_crossings.
+  Found find(std::span<const Vec3> x, std::span<const Vec3> body_x);
+
+ private:
+  struct Moving {
+    std::vector<Triangle> triangles;
+    std::vector<std::array<Index, 2>> edges;
+    std::optional<BoxTree> tree;
+  };
+  Moving cloth_, body_;
+  int frames_ = 0;
+};
 
 // How many different edges a list sorted as above names: what report.json counts.
 int count_edges(std::span<const Crossing> crossings);

@@ -91,7 +91,10 @@ void check_first_frame(const std::string& cache, std::span<const Vec3> x, const 
 
 }  // namespace
 
-RunAudit::RunAudit(RunDescription run) : run_(std::move(run)), jitter_(run_.body_triangles, run_.fps) {
+RunAudit::RunAudit(RunDescription run)
+    : run_(std::move(run)),
+      jitter_(run_.body_triangles, run_.fps),
+      crossings_(run_.mesh.triangles, run_.body_triangles) {
   if (!(run_.fps > 0) || !std::isfinite(run_.fps)) throw InputError("audit", "fps", "> 0", std::to_string(run_.fps));
   // Positions come later; every other complaint about the meshes comes now.
   const Vec3s no_cloth(static_cast<std::size_t>(run_.mesh.particle_count), Vec3::Zero());
@@ -111,12 +114,11 @@ void RunAudit::add(std::span<const Vec3> x, std::span<const Vec3> body_x) {
   report_.cloth_body_edges.last = report_.cloth_cloth_edges.last = 0;
   if (finite) {
     jitter_.add(x, body_x);
-    report_.last_cloth_crossings = find_cloth_crossings(run_.mesh.triangles, x);
+    CrossingSearch::Found found = crossings_.find(x, body_x);
+    report_.last_cloth_crossings = std::move(found.of_cloth);
+    report_.last_body_crossings = std::move(found.of_body);
     count(report_.last_cloth_crossings, frame, report_.cloth_cloth_edges, report_.first_cloth_crossing_frame);
-    if (report_.has_body) {
-      report_.last_body_crossings = find_body_crossings(run_.mesh.triangles, x, run_.body_triangles, body_x);
-      count(report_.last_body_crossings, frame, report_.cloth_body_edges, report_.first_body_crossing_frame);
-    }
+    count(report_.last_body_crossings, frame, report_.cloth_body_edges, report_.first_body_crossing_frame);
   } else {
     jitter_.skip();
     if (report_.finite) report_.first_bad_frame = frame;

@@ -74,6 +74,7 @@ class RunAudit {
   RunDescription run_;
   VerifyReport report_;
   JitterMeter jitter_;
+  CrossingSearch crossings_;
   Vec3s last_x_, last_body_x_;
   bool last_is_finite_ = false;
   std::vector<double> speed_p99_;  // one per pair of consecutive frames

@@ -148,6 +148,38 @@ TEST(Crossings, OfTheTreeAreThoseOfAllPairs) {
   EXPECT_EQ(as_set(find_cloth_crossings(cloth.triangles, cloth.x)), expected_self);
 }
 
+// More frames than a tree lives, of a sheet that crumples up and of a body that comes to it.
+TEST(Crossings, OfMovingSurfacesAreThoseOfEveryFrame) {
+  Random random(31);
+  Mesh body = soup(random, 300, 0.05);
+  const Vec3s body_at_start = body.x;
+  const auto sheet = [](double bend) {
+    return grid(24, 24, [&](int c, int r) {
+      const double u = c / 24.0, v = r / 24.0;
+      return Vec3(u + bend * (0.5 * std::sin(7 * u) - u), v + bend * (0.5 * std::cos(9 * v + 3 * u) - v),
+                  0.4 * bend * std::sin(5 * v * u) + 0.5);
+    });
+  };
+  CrossingSearch search(sheet(0).triangles, body.triangles);
+  std::size_t of_body = 0, of_cloth = 0;
+  for (int frame = 0; frame < 64; ++frame) {
+    const Mesh cloth = sheet(frame / 63.0);
+    for (std::size_t i = 0; i < body.x.size(); ++i) body.x[i] = body_at_start[i] + Vec3(0, 0, 1 - frame / 63.0);
+    const CrossingSearch::Found found = search.find(cloth.x, body.x);
+    const auto expected_body = find_body_crossings(cloth.triangles, cloth.x, body.triangles, body.x);
+    const auto expected_cloth = find_cloth_crossings(cloth.triangles, cloth.x);
+    ASSERT_EQ(as_set(found.of_body), as_set(expected_body)) << frame;
+    ASSERT_EQ(as_set(found.of_cloth), as_set(expected_cloth)) << frame;
+    ASSERT_EQ(found.of_body.size(), expected_body.size());
+    ASSERT_EQ(found.of_cloth.size(), expected_cloth.size());
+    of_body += found.of_body.size();
+    of_cloth += found.of_cloth.size();
+  }
+  EXPECT_GT(of_body, 1000u);
+  EXPECT_GT(of_cloth, 1000u);
+  EXPECT_THROW(search.find(Vec3s(3, Vec3::Zero()), body.x), InputError);
+}
+
 // Lattice points: most pairs touch, overlap or are coplanar, and the answer depends on the ranks.
 TEST(Crossings, InDegeneratePositionsAreThoseOfAllPairsWithTheBodyRankedAfterTheCloth) {
   Random random(26);
