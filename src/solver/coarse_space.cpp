@@ -381,22 +381,7 @@ void CoarseSpace<T>::cholesky() {
 // rhs <- E^-1 rhs
 template <class T>
 void CoarseSpace<T>::solve_coarse() {
-  const auto n = static_cast<std::size_t>(dimension());
-  for (std::size_t k = 0; k < n; ++k) {  // U^T y = rhs
-    const double* row = &E_[k * n];
-    if (dead_[k]) {
-      rhs_[k] = 0;
-      continue;
-    }
-    const double y = rhs_[k] /= row[k];
-    for (std::size_t j = k + 1; j < n; ++j) rhs_[j] -= row[j] * y;
-  }
-  for (std::size_t k = n; k-- > 0;) {  // U x = y, by columns of U: rows of its transpose
-    if (dead_[k]) continue;
-    const double* column = &transpose_[k * n];
-    const double x = rhs_[k] /= column[k];
-    for (std::size_t j = 0; j < k; ++j) rhs_[j] -= column[j] * x;
-  }
+  substitute_coarse({static_cast<std::size_t>(dimension()), E_.data(), transpose_.data(), dead_.data()}, rhs_.data());
 }
 
 template <class T>
