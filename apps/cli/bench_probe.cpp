@@ -20,19 +20,20 @@ ClothModel of_fabric(const ClothModel& model, const Fabric& fabric) {
 
 Drape::Drape(const Scene& scene) : scene_(scene) {
   Hash unused;
-  std::vector<LoadedCloth> grids;
+  std::vector<LoadedCloth> shapes;
   double edge_m = 0;
   for (const SceneCloth& cloth : scene_.cloth) {
-    grids.push_back(load_cloth(scene_, cloth, read_text_file, unused));
-    edge_m = std::max(edge_m, grids.back().edge_m);
+    shapes.push_back(load_cloth(scene_, cloth, read_text_file, unused));
+    edge_m = std::max(edge_m, shapes.back().edge_m);
   }
   LoadedBody loaded = load_body(scene_.body, unused);
+  add_solids(scene_.solids, loaded, unused);
   if (!loaded.solid.positions.empty())
     body_.emplace(std::move(loaded.solid.positions), std::move(loaded.solid.triangles));
-  outfit_ = outfit_of_grids(grids);
-  pins_ = pins_of(grids);
-  step_ = step_options(scene_, grids.front().fabrics.front(), edge_m);
-  run_.emplace(scene_, outfit_, pins_, body(), step_, Settling{}, nullptr);
+  outfit_ = outfit_of_shapes(shapes);
+  step_ = step_options(scene_, shapes.front().fabrics.front(), edge_m);
+  run_.emplace(scene_, outfit_, body(), step_, Settling{}, nullptr);
+  run_->set_events(events_of(outfit_, shapes));
 }
 
 bool Drape::advance(int frames) {

@@ -28,12 +28,11 @@ class Drape {
   const ClothModel& model() const { return run_->model(); }
   const StepOptions& step() const { return step_; }
   BodySurface* body() { return body_ ? &*body_ : nullptr; }
-  std::span<const Pin> pins() const { return pins_; }
+  std::span<const Pin> pins() const { return run_->pins(); }  // of the last frame
 
  private:
   Scene scene_;
   Outfit outfit_;
-  std::vector<Pin> pins_;
   std::optional<BodySurface> body_;
   StepOptions step_;
   std::optional<OutfitRun> run_;

@@ -19,9 +19,9 @@ double ramp(double t_s) { return std::clamp((t_s - weightless_s) / ramp_s, 0.0, 
 
 }  // namespace
 
-OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, std::vector<Pin> pins, BodySurface* body,
-                     const StepOptions& step, Settling settling, std::function<bool()> stop)
-    : scene_(&scene), outfit_(&outfit), settling_(std::move(settling)), pins_(std::move(pins)), step_(step) {
+OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, BodySurface* body, const StepOptions& step, Settling settling,
+                     std::function<bool()> stop)
+    : scene_(&scene), outfit_(&outfit), settling_(std::move(settling)), step_(step) {
   ModelOptions options;
   options.gravity_m_per_s2 = scene.gravity_m_per_s2;
   options.paper_scaling = scene.paper_scaling;
@@ -30,12 +30,12 @@ OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, std::vector<Pin> pins, 
   model_ = build_model(outfit.mesh, outfit.fabrics, options);
   world_.body = body;
   world_.air = scene.air;
-  world_.pins = pins_;
   for (Index i = 0; i < settling_.held_particles; ++i) {
     Pin held;
     held.particle = i;
-    world_.pins.push_back(std::move(held));
+    worn_pins_.push_back(std::move(held));
   }
+  world_.pins = worn_pins_;
   if (!settling_.labels.empty()) {
     world_.springs = [this](const ClothState& at, double, double, std::vector<LinearSpring>& springs) {
       settling_.labels.append(at, label_strength_, springs);
@@ -43,7 +43,7 @@ OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, std::vector<Pin> pins, 
   }
   AdaptiveOptions adaptive;
   adaptive.stop = std::move(stop);
-  adaptive.step_max_s = scene.step_max_s.value_or(scene.cloth.front().grid ? 1 / scene.fps : sewn_step_max_s);
+  adaptive.step_max_s = scene.step_max_s.value_or(scene.cloth.front().is_sewn() ? sewn_step_max_s : 1 / scene.fps);
   stepper_.emplace(model_, world_, step_, adaptive);
   set_rest_stretch(1);
   if (outfit.thickness_scale.empty()) outfit.thickness_scale.assign(outfit.state.x.size(), 1);
@@ -68,7 +68,7 @@ void OutfitRun::settle() {
   label_strength_ = std::clamp(1 - (t_s - labels_held_s) / labels_fade_s, 0.0, 1.0);
   model_.gravity_m_per_s2 = ramp(t_s) * scene_->gravity_m_per_s2;
   set_rest_stretch(ramp(t_s));
-  if (t_s >= settling_s && world_.pins.size() > pins_.size()) world_.pins = pins_;
+  if (t_s >= settling_s) worn_pins_.clear();
   const double slippery_s = first ? frictionless_s : settling_s;
   stepper_->integrator().body_constraints().set_friction(t_s < slippery_s ? 0 : step_.body.friction);
 }
@@ -79,8 +79,22 @@ void OutfitRun::start_motion(BodyAt body_at) {
   world_.body_at = [this](double t_s, std::span<Vec3> x) { motion_(std::max(0.0, t_s - motion_start_s_), x); };
 }
 
+// The pins of the coming frame.
+void OutfitRun::take_and_let_go() {
+  world_.pins = worn_pins_;
+  for (TimedPin& timed : events_.pins) {
+    if (time_s() < timed.from_s || time_s() >= timed.to_s) continue;
+    if (!timed.moves.empty() && !timed.pin.path) {
+      const Vec3 taken_at = outfit_->state.x[static_cast<std::size_t>(timed.pin.particle)];
+      timed.pin.path = [moves = timed.moves, taken_at](double t_s) { return moves.place(t_s, taken_at); };
+    }
+    world_.pins.push_back(timed.pin);
+  }
+}
+
 // What the scene says happens in the coming frame.
 void OutfitRun::happen() {
+  take_and_let_go();
   world_.drags.clear();
   for (const TimedDrag& timed : events_.drags)
     if (time_s() >= timed.from_s && time_s() < timed.to_s) world_.drags.push_back(timed.drag);

@@ -11,6 +11,7 @@
 #include "step/adaptive_step.hpp"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -25,6 +26,11 @@ struct Settling {            // of a garment that has just been sewn
   LabelSprings labels;       // hold the new garment for a while
 };
 
+struct TimedPin {
+  Pin pin;
+  double from_s = 0, to_s = std::numeric_limits<double>::infinity();
+  RigidPath moves;  // if any, from where the particle is when it is taken
+};
 struct TimedDrag {  // a hand that holds the cloth for a while
   Drag drag;
   double from_s = 0, to_s = 0;
@@ -35,6 +41,7 @@ struct TimedRestStretch {
   std::vector<RestStretchKey> keys;
 };
 struct Events {  // times count from the first frame
+  std::vector<TimedPin> pins;
   std::vector<TimedDrag> drags;
   std::vector<TimedRestStretch> rest_stretch;
 };
@@ -42,8 +49,8 @@ struct Events {  // times count from the first frame
 class OutfitRun {
  public:
   // `outfit` and `scene` must outlive this object; the outfit's state and thickness are advanced in place.  `body` may be null.
-  OutfitRun(const Scene& scene, Outfit& outfit, std::vector<Pin> pins, BodySurface* body, const StepOptions& step,
-            Settling settling, std::function<bool()> stop);
+  OutfitRun(const Scene& scene, Outfit& outfit, BodySurface* body, const StepOptions& step, Settling settling,
+            std::function<bool()> stop);
   static constexpr double settling_s = 0.5;  // until gravity and elastic are full
   OutfitRun(const OutfitRun&) = delete;
   OutfitRun& operator=(const OutfitRun&) = delete;
@@ -59,16 +66,18 @@ class OutfitRun {
   bool settled() const;
   PhaseSeconds seconds() const { return stepper_->integrator().seconds(); }
   const ClothModel& model() const { return model_; }
+  std::span<const Pin> pins() const { return world_.pins; }  // of the last frame
 
  private:
   void settle();
   void set_rest_stretch(double share);
   void happen();
+  void take_and_let_go();
 
   const Scene* scene_;
   Outfit* outfit_;
   Settling settling_;
-  std::vector<Pin> pins_;  // of the scene
+  std::vector<Pin> worn_pins_;  // hold what was worn before
   StepOptions step_;
   ClothModel model_;
   StepWorld world_;

@@ -12,13 +12,17 @@
 #include "io/json.hpp"
 #include "material/fabric.hpp"
 #include "material/membrane.hpp"
+#include "sim/rigid_path.hpp"
 #include "solver/modified_pcg.hpp"
 #include "step/implicit_euler.hpp"
 
+#include <array>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace toile {
@@ -39,13 +43,16 @@ struct ScenePanel {  // what one panel has of its own
 };
 
 struct ScenePin {
-  Vec3 near_m{0, 0, 0};  // the particle nearest to it at the start is held
+  Vec3 near_m{0, 0, 0};                         // the particle nearest to it at the start is held
+  std::optional<std::array<Vec3, 2>> in_box_m;  // instead: all between two corners of a box at the start
   bool on_path = false;
   struct Key {
     double t_s;
     Vec3 x_m;
   };
   std::vector<Key> path;  // ascending times; straight in between, at rest before and after
+  RigidPath moves;        // instead: all that is held moves as one, from where it is when it is taken; times from there
+  double from_s = 0, to_s = std::numeric_limits<double>::infinity();  // it is held in this time
   std::string where, pointer;
 };
 
@@ -61,10 +68,24 @@ struct SceneGrid {
   double width_m = 1, height_m = 1, edge_m = 0.02;
 };
 
+struct SceneTube {
+  double radius_m = 0.2, length_m = 1, edge_m = 0.02;
+};
+
+struct SceneRibbon {
+  double width_m = 0.1, edge_m = 0.02;
+  std::vector<Vec3> path_m;  // its middle line goes through these points
+  bool closed = false;       // from the last point back to the first
+  Vec3 across{0, 0, 1};      // its breadth at the first point, made perpendicular to the line
+};
+
 struct SceneCloth {
   std::string name;
-  std::string pattern;            // path, resolved; empty for a grid
-  std::optional<SceneGrid> grid;  // drawn in the plane z = 0 around the origin, facing +z, before it is placed
+  std::string pattern;  // path, resolved; empty for one of the shapes of sim/cloth_shapes.hpp
+  std::optional<SceneGrid> grid;
+  std::optional<SceneTube> tube;
+  std::optional<SceneRibbon> ribbon;
+  bool is_sewn() const { return !pattern.empty(); }
   double resolution_m = 0.01;
   std::optional<int> vertices;  // of the welded garment: then resolution_m does not count
   Fabric fabric;
@@ -76,7 +97,7 @@ struct SceneCloth {
   std::vector<LabelHeight> label_heights;  // of edges with a label; the waist is measured when it is not given
 };
 
-struct SceneCylinder {  // an upright solid whose rims are rounded: sim/cylinder.hpp
+struct SceneCylinder {  // an upright solid whose rims are rounded: body/solid_shapes.hpp
   double radius_m = 0.2, height_m = 0.5;
   Vec3 top_m{0, 0, 0};  // middle of the top
 };
@@ -101,10 +122,35 @@ struct SceneBody {
   std::optional<double> offset_m;  // absent: by the cloth's edges, sim/setup.hpp
 };
 
+// A thing beside the body, or instead of one, that cloth collides with: body/solid_shapes.hpp.
+struct SceneSolid {
+  struct Sphere {
+    double radius_m;
+  };
+  struct Box {
+    Vec3 size_m;
+  };
+  struct Revolved {
+    std::vector<Vec2> profile_m;
+  };
+  struct Mesh {
+    std::string path;  // resolved
+    LengthUnit unit = LengthUnit::m;
+  };
+  std::variant<Sphere, Box, Revolved, Mesh> shape;
+  double edge_m = 0.02;     // of curved shapes
+  bool inside_out = false;  // a room
+  Vec3 translation_m{0, 0, 0};
+  Vec3 rotation_deg{0, 0, 0};
+  RigidPath moves;  // about its translation_m
+  std::string where, pointer;
+};
+
 struct Scene {
   std::string name = "scene";
   std::vector<SceneCloth> cloth;
   SceneBody body;
+  std::vector<SceneSolid> solids;
   Vec3 gravity_m_per_s2{0, -9.81, 0};
   AirOptions air{.density_kg_per_m3 = 1.2};  // still, at sea level; density 0: none
 

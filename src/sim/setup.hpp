@@ -1,9 +1,9 @@
 // sim/setup.hpp: from the words of a scene to cloth and body in memory, before anything moves.
 #pragma once
 #include "assembly/cloth_model.hpp"
+#include "body/solid_shapes.hpp"
 #include "core/hash.hpp"
 #include "garment/garment_mesh.hpp"
-#include "sim/cylinder.hpp"
 #include "sim/outfit.hpp"
 #include "sim/outfit_run.hpp"
 #include "sim/scene.hpp"
@@ -27,16 +27,18 @@ struct LoadedBody {
 // Adds the bytes of its files to `inputs`.  Throws IoError, InputError; every sample of a motion is checked here, before
 // anything runs.
 LoadedBody load_body(const SceneBody& body, Hash& inputs);
+// Puts the solids beside the body; they move with its motion, or by themselves.
+void add_solids(std::span<const SceneSolid> solids, LoadedBody& body, Hash& inputs);
 
 // Throws InputError for the first triangle whose corners lie on a line.
 void check_areas(std::string_view file, std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
-// A cloth of the scene, meshed and moved as `placement` says: a pattern's panels, or a flat sheet of one panel.
+// A cloth of the scene, meshed and moved as `placement` says: a pattern's panels, or a shape of one panel.
 struct LoadedCloth {
   GarmentMesh garment;
   std::vector<Fabric> fabrics;     // [panel] with the scene's contact overrides
   std::vector<Vec2> rest_stretch;  // [panel] (b_u, b_v)
-  std::vector<Pin> pins;           // on the particles of `garment`
+  std::vector<TimedPin> pins;      // on the particles of `garment`
   std::vector<TimedDrag> drags;    // likewise
   std::vector<TimedRestStretch> rest_stretch_paths;
   double edge_m = 0;  // that its triangles were asked to have
@@ -45,9 +47,8 @@ struct LoadedCloth {
 // Throws InputError for a panel that the cloth does not have.
 LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read, Hash& inputs);
 
-// Sheets that hang where they are drawn; their pins, on the particles of the whole.
-Outfit outfit_of_grids(std::span<const LoadedCloth> grids);
-std::vector<Pin> pins_of(std::span<const LoadedCloth> cloth);
+// Sheets, tubes and ribbons that hang where they are drawn.
+Outfit outfit_of_shapes(std::span<const LoadedCloth> cloth);
 // What happens to the cloth in time, on the particles and panels of `outfit`, whose parts are the cloths in their order.
 Events events_of(const Outfit& outfit, std::span<const LoadedCloth> cloth);
 // Where labelled edges are held: as the cloth says, and the waist ("lower_interface") where the body is narrowest if it says nothing.

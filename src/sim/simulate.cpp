@@ -75,6 +75,9 @@ class Run {
     say("meshing", 0);
     load_cloth(inputs);
     LoadedBody loaded = load_body(scene_.body, inputs);
+    person_vertices_ = loaded.solid.positions.size();
+    person_triangles_ = loaded.solid.triangles.size();
+    add_solids(scene_.solids, loaded, inputs);
     motion_ = std::move(loaded.movement);
     SolidMesh& solid = loaded.solid;
     body_x_ = solid.positions;
@@ -112,7 +115,7 @@ class Run {
   }
   bool stopped() const { return options_.stop && options_.stop(); }
   BodySurface* body() { return body_ ? &*body_ : nullptr; }
-  bool sewn() const { return !scene_.cloth.front().grid; }
+  bool sewn() const { return scene_.cloth.front().is_sewn(); }
 
   void end(std::string_view how, std::string detail) {
     report_.ended = how;
@@ -185,7 +188,7 @@ class Run {
       return true;
     }
     if (!sewn()) {
-      outfit_ = outfit_of_grids(cloth_);
+      outfit_ = outfit_of_shapes(cloth_);
       free_start(false);
       return true;
     }
@@ -206,7 +209,8 @@ class Run {
     sewing_options.paper_scaling = scene_.paper_scaling;
     sewing_options.damping_jacobian = scene_.damping_jacobian;
     sewing_options.label_heights =
-        label_heights_of(scene_.cloth[k], garment, body_x_, body_triangles_, report_.warnings);
+        label_heights_of(scene_.cloth[k], garment, std::span(body_x_).first(person_vertices_),
+                         std::span(body_triangles_).first(person_triangles_), report_.warnings);
     sewing_options.stop = options_.stop;
     Dressing dressing(outfit_, garment, cloth.fabrics, cloth.rest_stretch, body(), step_, sewing_options);
     if (dressing.tangled()) bad_start(garment.name, "placed panels pass through each other");
@@ -263,7 +267,7 @@ class Run {
 
   // A garment that another one goes over comes to rest first; nothing of it is written.
   bool drape_inner(std::size_t k) {
-    OutfitRun run(scene_, outfit_, {}, body(), step_, settling_, options_.stop);
+    OutfitRun run(scene_, outfit_, body(), step_, settling_, options_.stop);
     const int frames = frames_in(scene_.drape_seconds);
     Vec3s before = outfit_.state.x;
     int slow = 0;
@@ -287,8 +291,7 @@ class Run {
 
   // From the first written frame to the last: drape, then motion.
   void live() {
-    OutfitRun run(scene_, outfit_, sewn() ? std::vector<Pin>{} : pins_of(cloth_), body(), step_, settling_,
-                  options_.stop);
+    OutfitRun run(scene_, outfit_, body(), step_, settling_, options_.stop);
     Events events = events_of(outfit_, cloth_);
     std::vector<Vec2> rest_stretch = outfit_.rest_stretch;  // at the end
     for (const TimedRestStretch& timed : events.rest_stretch)
@@ -404,6 +407,7 @@ class Run {
   Vec3s body_x_;  // at the last frame
   std::vector<Triangle> body_triangles_;
   std::optional<BodySurface> body_;
+  std::size_t person_vertices_ = 0, person_triangles_ = 0;  // of body_x_ and body_triangles_; solids come behind
   std::optional<BodyMovement> motion_;
   StepOptions step_;
   std::optional<RunWriter> writer_;

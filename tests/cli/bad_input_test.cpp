@@ -1,9 +1,9 @@
 // Whatever is wrong with an input: the right exit code, one line on stderr that names file, place, what was expected and what is
 // there, and no directory that looks like a finished run.
+#include "body/solid_shapes.hpp"
 #include "cli/program.hpp"
 #include "io/json.hpp"
 #include "io/obj.hpp"
-#include "sim/cylinder.hpp"
 
 #include <gtest/gtest.h>
 

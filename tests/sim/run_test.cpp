@@ -1,10 +1,10 @@
 // A run from scene to files and back, without the program.
+#include "body/solid_shapes.hpp"
 #include "io/json.hpp"
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
 #include "io/scratch.hpp"
 #include "mesh/check.hpp"
-#include "sim/cylinder.hpp"
 #include "sim/json_text.hpp"
 #include "sim/run_writer.hpp"
 #include "sim/setup.hpp"
@@ -36,23 +36,6 @@ Scene falling_cloth(const std::string& more = "") {
                          more + R"(}],
     "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.5}}, "time": {"seconds": 0.3}})",
                      "s.json");
-}
-
-TEST(Cylinder, HasThePapersCountsAndIsClosed) {
-  const SolidMesh solid = rounded_cylinder(0.2, 0.5, Vec3(0, 1, 0));
-  EXPECT_EQ(solid.positions.size(), 322u);
-  EXPECT_EQ(solid.triangles.size(), 640u);
-  check_closed("cylinder", solid.positions, solid.triangles);  // also: outwards
-  double low = 1, high = 0, radius = 0;
-  for (const Vec3& p : solid.positions) {
-    low = std::min(low, p.y());
-    high = std::max(high, p.y());
-    radius = std::max(radius, std::hypot(p.x(), p.z()));
-  }
-  EXPECT_EQ(high, 1);
-  EXPECT_DOUBLE_EQ(low, 0.5);
-  EXPECT_NEAR(radius, 0.2, 1e-12);
-  EXPECT_NO_THROW(check_areas("cylinder", solid.positions, solid.triangles));
 }
 
 TEST(JsonText, IsReadBackToTheBit) {
@@ -137,9 +120,10 @@ TEST(Run, APinFollowsItsPathAndAnotherStays) {
   frames.read(0, first);
   frames.read(frames.samples() - 1, last);
   Hash inputs;
-  const std::vector<Pin> pins = load_cloth(scene, scene.cloth.front(), read_text_file, inputs).pins;
+  const std::vector<TimedPin> pins = load_cloth(scene, scene.cloth.front(), read_text_file, inputs).pins;
   ASSERT_EQ(pins.size(), 2u);
-  const auto fixed = static_cast<std::size_t>(pins[0].particle), moved = static_cast<std::size_t>(pins[1].particle);
+  const auto fixed = static_cast<std::size_t>(pins[0].pin.particle),
+             moved = static_cast<std::size_t>(pins[1].pin.particle);
   EXPECT_LT((last[fixed] - first[fixed]).norm(), 1e-6);
   EXPECT_LT((last[moved] - Vec3(0.15, 0.06, -0.15)).norm(), 1e-3);
 }

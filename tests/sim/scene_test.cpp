@@ -85,11 +85,80 @@ TEST(Scene, ReadsEveryKeyInItsUnit) {
   EXPECT_FALSE(scene.preview.value());
 }
 
+TEST(Scene, ReadsSolidsShapesAndPinsThatMove) {
+  const Scene scene = parse_scene(R"({
+    "cloth": [{"tube": {"radius_m": 0.3, "length_m": 2, "edge_m": 0.04},
+               "pins": [{"in_box_m": [[1, -1, -2], [-1, 0, 2]], "hold": "moves", "about_m": [0, 1, 0], "from_s": 0.5, "to_s": 2,
+                         "moves": [{"t_s": 1, "shift_m": [1, 0, 0]}, {"t_s": 2, "rotation_deg": [0, 720, 0]}]}]},
+              {"ribbon": {"width_m": 0.2, "edge_m": 0.03, "path_m": [[0, 0, 0], [1, 0, 0], [1, 1, 0]], "closed": true, "across": [0, 0, 2]}}],
+    "solids": [{"sphere": {"radius_m": 0.4}, "edge_m": 0.05, "inside_out": true, "moves": [{"t_s": 0}, {"t_s": 3, "scale": 0.5}],
+                "placement": {"translation_m": [1, 2, 3], "rotation_deg": [0, 90, 0]}},
+               {"box": {"size_m": [1, 2, 3]}}, {"revolved": {"profile_m": [[0, 0], [1, 0], [0, 1]]}}, {"mesh": "b.obj"}]})",
+                                  "dir/s.json");
+  EXPECT_EQ(scene.cloth.at(0).name, "tube");
+  EXPECT_EQ(scene.cloth[0].tube->length_m, 2);
+  const ScenePin& pin = scene.cloth[0].pins.at(0);
+  EXPECT_EQ((*pin.in_box_m)[0], Vec3(-1, -1, -2));
+  EXPECT_EQ((*pin.in_box_m)[1], Vec3(1, 0, 2));
+  EXPECT_EQ(pin.from_s, 0.5);
+  EXPECT_EQ(pin.to_s, 2);
+  EXPECT_EQ(pin.moves.centre(), Vec3(0, 1, 0));
+  ASSERT_EQ(pin.moves.keys().size(), 2u);
+  EXPECT_EQ(pin.moves.keys()[1].shift_m, Vec3(1, 0, 0)) << "what a key leaves out is as before";
+  EXPECT_EQ(pin.moves.keys()[1].rotation_deg, Vec3(0, 720, 0));
+  EXPECT_EQ(scene.cloth.at(1).name, "ribbon");
+  EXPECT_TRUE(scene.cloth[1].ribbon->closed);
+  EXPECT_EQ(scene.cloth[1].ribbon->across, Vec3(0, 0, 2));
+  ASSERT_EQ(scene.solids.size(), 4u);
+  EXPECT_EQ(std::get<SceneSolid::Sphere>(scene.solids[0].shape).radius_m, 0.4);
+  EXPECT_TRUE(scene.solids[0].inside_out);
+  EXPECT_EQ(scene.solids[0].moves.centre(), Vec3(1, 2, 3)) << "a solid turns about its own place";
+  EXPECT_EQ(scene.solids[0].moves.keys()[1].scale, 0.5);
+  EXPECT_EQ(std::get<SceneSolid::Box>(scene.solids[1].shape).size_m, Vec3(1, 2, 3));
+  EXPECT_EQ(std::get<SceneSolid::Revolved>(scene.solids[2].shape).profile_m.size(), 3u);
+  EXPECT_EQ(std::get<SceneSolid::Mesh>(scene.solids[3].shape).path, "dir/b.obj");
+  EXPECT_EQ(scene.drape_seconds, 0) << "what moves by itself does not wait for a drape";
+}
+
+TEST(Scene, RefusesShapesAndSolidsThatAreNone) {
+  const auto with_cloth = [](const std::string& cloth) { return R"({"cloth": [{)" + cloth + "}]}"; };
+  const auto with_solid = [](const std::string& solid) {
+    return R"({"cloth": [{"grid": {}}], "solids": [{)" + solid + "}]}";
+  };
+  const auto with_pin = [&](const std::string& pin) { return with_cloth(R"("grid": {}, "pins": [{)" + pin + "}]"); };
+  expect_refused(with_cloth(R"("grid": {}, "tube": {})"), {"/cloth/0", "one of", "2 of them"});
+  expect_refused(with_cloth(R"("tube": {"radius_m": 0.01, "edge_m": 0.02})"),
+                 {"/cloth/0/tube", "at most its radius_m"});
+  expect_refused(with_cloth(R"("ribbon": {"path_m": [[0, 0, 0]]})"),
+                 {"/cloth/0/ribbon/path_m", "at least 2 points", "got 1"});
+  expect_refused(with_cloth(R"("ribbon": {"path_m": [[0, 0, 0], [0, 0, 0]]})"),
+                 {"/cloth/0/ribbon/path_m/1", "another place"});
+  expect_refused(with_cloth(R"("ribbon": {"closed": true, "path_m": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0]]})"),
+                 {"/cloth/0/ribbon/path_m", "only once"});
+  expect_refused(
+      with_cloth(R"("ribbon": {"edge_m": 0.5, "closed": true, "path_m": [[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0]]})"),
+      {"/cloth/0/ribbon", "a sixth"});
+  expect_refused(with_pin(R"("in_box_m": [[0, 0, 0]])"), {"/cloth/0/pins/0/in_box_m", "two corners"});
+  expect_refused(with_pin(R"("in_box_m": [[0, 0, 0], [1, 1, 1]], "near_m": [0, 0, 0])"), {"/pins/0/near_m", "both"});
+  expect_refused(with_pin(R"("in_box_m": [[0, 0, 0], [1, 1, 1]], "hold": "path", "path_m": [[0, 0, 0, 0]])"),
+                 {"path_m", "moves"});
+  expect_refused(with_pin(R"("near_m": [0, 0, 0], "hold": "moves")"), {"/pins/0", "moves"});
+  expect_refused(with_pin(R"("near_m": [0, 0, 0], "moves": [{"t_s": 0}])"), {"/pins/0/moves", "beside it"});
+  expect_refused(with_pin(R"("near_m": [0, 0, 0], "hold": "moves", "moves": [{"t_s": 1}, {"t_s": 1}])"),
+                 {"/moves/1/t_s", "ascend"});
+  expect_refused(with_pin(R"("near_m": [0, 0, 0], "from_s": 2, "to_s": 1)"), {"/pins/0", "lets go after"});
+  expect_refused(with_solid(""), {"/solids/0", "none of them"});
+  expect_refused(with_solid(R"("sphere": {"radius_m": 1}, "box": {"size_m": [1, 1, 1]})"), {"/solids/0", "2 of them"});
+  expect_refused(with_solid(R"("sphere": {})"), {"/solids/0/sphere", "radius_m"});
+  expect_refused(with_solid(R"("box": {"size_m": [1, 0, 1]})"), {"/solids/0/box/size_m/1", "at least 0.001"});
+  expect_refused(with_solid(R"("revolved": {"profile_m": [[0, 0, 0]]})"), {"/profile_m/0", "two numbers"});
+}
+
 TEST(Scene, NamesThePlaceOfEveryRefusal) {
   expect_refused(R"({})", {"\"cloth\"", "missing"});
   expect_refused(R"({"cloth": []})", {"/cloth", "at least one"});
-  expect_refused(R"({"cloth": [{}]})", {"/cloth/0", "either \"pattern\" or \"grid\""});
-  expect_refused(R"({"cloth": [{"grid": {}, "pattern": "p"}]})", {"/cloth/0", "both"});
+  expect_refused(R"({"cloth": [{}]})", {"/cloth/0", "one of \"pattern\", \"grid\"", "none of them"});
+  expect_refused(R"({"cloth": [{"grid": {}, "pattern": "p"}]})", {"/cloth/0", "2 of them"});
   expect_refused(R"({"cloth": [{"grid": {"edge_m": 0}}]})", {"/cloth/0/grid/edge_m", "of at least 0.0005", "got 0"});
   expect_refused(R"({"cloth": [{"grid": {"edge_m": 0.0005, "width_m": 10, "height_m": 10}}]})",
                  {"/cloth/0/grid", "2 million"});

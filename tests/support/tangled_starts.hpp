@@ -1,7 +1,7 @@
 // tests/support/tangled_starts.hpp: fifty cloths that pass through themselves or a body, ten kinds with five seeds each.
 #pragma once
 #include "body/mannequin.hpp"
-#include "sim/cylinder.hpp"
+#include "body/solid_shapes.hpp"
 #include "support/bodies.hpp"
 #include "support/sheets.hpp"
 

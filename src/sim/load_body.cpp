@@ -1,0 +1,156 @@
+// sim/load_body.cpp: the body of a scene, and how it moves.
+#include "body/body_motion.hpp"
+#include "body/solid_shapes.hpp"
+#include "core/error.hpp"
+#include "io/file.hpp"
+#include "io/obj.hpp"
+#include "sim/setup.hpp"
+
+#include <fmt/printf.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace toile {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+BodyMovement movement_of(BodyMotion motion, std::string name, Hash& inputs) {
+  motion.add_to(inputs);
+  const double duration_s = motion.duration_s();
+  return {[motion = std::move(motion)](double t_s, std::span<Vec3> x) { motion.positions(t_s, x); }, std::move(name),
+          duration_s};
+}
+
+BodyMovement movement_from_file(const SceneBody& body, const CollisionBody& standing, Hash& inputs) {
+  SampleOptions samples;
+  samples.rate_hz = body.motion->fps;
+  samples.unit = body.unit;
+  samples.lead_in_s = body.motion->lead_in_s;
+  return movement_of(BodyMotion::from_files(body.motion->path, standing, samples),
+                     std::filesystem::path(body.motion->path).filename().string(), inputs);
+}
+
+}  // namespace
+
+void check_areas(std::string_view file, std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+  constexpr double smallest = 1e-9;  // of the longer side's square
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Vec3& origin = positions[at(triangles[t][0])];
+    const Vec3 a = positions[at(triangles[t][1])] - origin, b = positions[at(triangles[t][2])] - origin;
+    const double area = 0.5 * a.cross(b).norm();
+    if (area > smallest * std::max(a.squaredNorm(), b.squaredNorm())) continue;
+    throw InputError(file, "triangle " + std::to_string(t), "an area above zero", fmt::sprintf("%g", area));
+  }
+}
+
+LoadedBody load_body(const SceneBody& body, Hash& inputs) {
+  LoadedBody loaded;
+  switch (body.kind) {
+    case SceneBody::Kind::none:
+      break;
+    case SceneBody::Kind::cylinder:
+      loaded.solid = rounded_cylinder(body.cylinder.radius_m, body.cylinder.height_m, body.cylinder.top_m);
+      break;
+    case SceneBody::Kind::mannequin: {
+      const Mannequin mannequin = make_mannequin(body.mannequin);
+      CollisionBody made = from_mannequin(mannequin);
+      if (body.motion && body.motion->name.empty()) {
+        loaded.movement = movement_from_file(body, made, inputs);
+      } else if (body.motion) {
+        Motion motion = Motion::named(body.motion->name, body.mannequin);
+        motion.set_lead_in_s(body.motion->lead_in_s);
+        loaded.movement = movement_of(BodyMotion::of_mannequin(mannequin, motion), body.motion->name, inputs);
+      }
+      loaded.solid = {std::move(made.positions), std::move(made.triangles)};
+      break;
+    }
+    case SceneBody::Kind::mesh: {
+      const std::string text = read_file(body.mesh);
+      inputs.add_bytes(text.data(), text.size());
+      CollisionBody read = make_collision_body(parse_obj(text, printable(body.mesh)), printable(body.mesh), body.unit);
+      check_areas(printable(body.mesh), read.positions, read.triangles);
+      if (body.motion) loaded.movement = movement_from_file(body, read, inputs);
+      loaded.solid = {std::move(read.positions), std::move(read.triangles)};
+      break;
+    }
+  }
+  return loaded;
+}
+
+namespace {
+
+SolidMesh shape_of(const SceneSolid& solid, Hash& inputs) {
+  struct Make {
+    const SceneSolid& solid;
+    Hash& inputs;
+    SolidMesh operator()(const SceneSolid::Sphere& sphere) const { return ball(sphere.radius_m, solid.edge_m); }
+    SolidMesh operator()(const SceneSolid::Box& box) const { return block(box.size_m); }
+    SolidMesh operator()(const SceneSolid::Revolved& revolved) const {
+      try {
+        return toile::revolved(revolved.profile_m, solid.edge_m);
+      } catch (const InputError& error) {
+        throw Error(error.code(), solid.where + ": " + solid.pointer + "/revolved: " + error.what());
+      }
+    }
+    SolidMesh operator()(const SceneSolid::Mesh& mesh) const {
+      const std::string text = read_file(mesh.path);
+      inputs.add_bytes(text.data(), text.size());
+      CollisionBody read = make_collision_body(parse_obj(text, printable(mesh.path)), printable(mesh.path), mesh.unit);
+      check_areas(printable(mesh.path), read.positions, read.triangles);
+      return {std::move(read.positions), std::move(read.triangles)};
+    }
+  };
+  SolidMesh shape = std::visit(Make{solid, inputs}, solid.shape);
+  if (solid.inside_out) turn_inside_out(shape);
+  const Mat3 turn = rotation_from_degrees(solid.rotation_deg);
+  for (Vec3& x : shape.positions) x = turn * x + solid.translation_m;
+  return shape;
+}
+
+}  // namespace
+
+void add_solids(std::span<const SceneSolid> solids, LoadedBody& body, Hash& inputs) {
+  struct Part {
+    std::size_t first, count;
+    RigidPath moves;
+  };
+  const std::size_t own = body.solid.positions.size();
+  std::vector<Part> parts;
+  Vec3s standing;  // where the moves of the solids begin
+  double duration_s = 0;
+  for (const SceneSolid& solid : solids) {
+    const SolidMesh shape = shape_of(solid, inputs);
+    const auto first = static_cast<Index>(own + standing.size());
+    for (const auto& [a, b, c] : shape.triangles) body.solid.triangles.push_back({a + first, b + first, c + first});
+    parts.push_back({standing.size(), shape.positions.size(), solid.moves});
+    standing.insert(standing.end(), shape.positions.begin(), shape.positions.end());
+    duration_s = std::max(duration_s, solid.moves.duration_s());
+  }
+  const bool any_moves = std::any_of(parts.begin(), parts.end(), [](const Part& part) { return !part.moves.empty(); });
+  const auto place = [parts, standing](double t_s, std::span<Vec3> x) {
+    for (const Part& part : parts)
+      part.moves.place(t_s, std::span(standing).subspan(part.first, part.count), x.subspan(part.first, part.count));
+  };
+  body.solid.positions.resize(own + standing.size());
+  place(0, std::span(body.solid.positions).subspan(own));
+  if (!any_moves && !body.movement) return;
+  BodyMovement whole{{}, "moves", duration_s};
+  if (body.movement) {
+    whole.name = body.movement->name;
+    whole.duration_s = std::max(duration_s, body.movement->duration_s);
+  }
+  whole.at = [own, place, of_body = body.movement ? body.movement->at : BodyAt{}](double t_s, std::span<Vec3> x) {
+    if (of_body) of_body(t_s, x.first(own));
+    place(t_s, x.subspan(own));
+  };
+  body.movement = std::move(whole);
+}
+
+}  // namespace toile

@@ -1,0 +1,46 @@
+#include "sim/rigid_path.hpp"
+
+#include "garment/pattern.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace toile {
+
+// The same convention as a panel's, and by the same code.
+Mat3 rotation_from_degrees(const Vec3& rotation_deg) {
+  Panel panel;
+  panel.rotation_deg = rotation_deg;
+  return panel.rotation();
+}
+
+RigidKey RigidPath::at(double t_s) const {
+  if (t_s <= keys_.front().t_s) return keys_.front();
+  for (std::size_t k = 1; k < keys_.size(); ++k) {
+    const RigidKey &from = keys_[k - 1], &to = keys_[k];
+    if (t_s > to.t_s) continue;
+    const double s = (t_s - from.t_s) / (to.t_s - from.t_s), r = 1 - s;
+    return {t_s, r * from.shift_m + s * to.shift_m, r * from.rotation_deg + s * to.rotation_deg,
+            r * from.scale + s * to.scale};
+  }
+  return keys_.back();
+}
+
+void RigidPath::place(double t_s, std::span<const Vec3> x, std::span<Vec3> placed) const {
+  if (keys_.empty()) {
+    std::copy(x.begin(), x.end(), placed.begin());
+    return;
+  }
+  const RigidKey key = at(t_s);
+  const Mat3 turn = key.scale * rotation_from_degrees(key.rotation_deg);
+  const Vec3 to = centre_ + key.shift_m;
+  for (std::size_t i = 0; i < x.size(); ++i) placed[i] = to + turn * (x[i] - centre_);
+}
+
+Vec3 RigidPath::place(double t_s, const Vec3& x) const {
+  Vec3 placed;
+  place(t_s, std::span(&x, 1), std::span(&placed, 1));
+  return placed;
+}
+
+}  // namespace toile
