@@ -52,7 +52,7 @@ RunWriter::RunWriter(std::string directory) : directory_(std::move(directory)) {
   make_directories(directory_);
   // The report first: from here on the directory is no finished run.
   for (const char* name : {"report.json", "cloth.obj", "cloth.pc2", "body.obj", "body.pc2", "sewing.obj", "sewing.pc2",
-                           "preview.png", "preview.mp4", "frames.png"}) {
+                           "preview.png", "preview.mp4", "frames.png", "offenders.obj"}) {
     std::error_code error;
     std::filesystem::remove(path(name), error);
     if (error) throw IoError(path(name), "cannot remove what an earlier run left: " + error.message());

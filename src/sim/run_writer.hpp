@@ -3,6 +3,7 @@
 //   sewing.obj, sewing.pc2   panels unwelded, while they are sewn
 //   cloth.obj, cloth.pc2     the welded garment, frame 0 first
 //   body.obj, body.pc2       one sample per frame of cloth.pc2
+//   offenders.obj            what a run ended over (sim/offenders.hpp); only of one whose step collapsed
 //   report.json              last: a directory without it is not a finished run
 //
 // Easily missed: what an earlier run left under these names is removed at the start, its report first, so that a run that
@@ -11,6 +12,7 @@
 // vt are the panel's own drawing coordinates: vt = (-v, u), because u = y of the drawing is the warp and v = -x the weft
 // (garment/garment_mesh.hpp).  A reader that calls the first vt axis "u" sees the weft there.
 #pragma once
+#include "io/obj.hpp"
 #include "io/pc2.hpp"
 #include "mesh/cloth_mesh.hpp"
 
@@ -34,6 +36,7 @@ class RunWriter {
                    std::span<const std::string> garments, std::span<const Vec3> x, std::span<const Triangle> body,
                    std::span<const Vec3> body_x);
   void cloth_frame(std::span<const Vec3> x, std::span<const Vec3> body_x);
+  void offenders(const ObjMesh& mesh) { write_obj(path("offenders.obj"), mesh); }
   // Gives the streamed files their names, then writes the report.
   void finish(std::string_view report_json);
 

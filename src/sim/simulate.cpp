@@ -5,6 +5,7 @@
 #include "garment/placement.hpp"
 #include "mesh/check.hpp"
 #include "sim/dressing.hpp"
+#include "sim/offenders.hpp"
 #include "sim/outfit_run.hpp"
 #include "sim/recorder.hpp"
 #include "sim/setup.hpp"
@@ -120,6 +121,20 @@ class Run {
   void end(std::string_view how, std::string detail) {
     report_.ended = how;
     failure_.push_back({std::string(how), std::move(detail)});
+  }
+
+  // The step could not be made however short: says over what, and leaves it in a file.
+  void collapse(const std::string& when, const FrameReport& frame, const ClothMesh& mesh, std::span<const Vec3> x) {
+    std::string words = when + ": " + frame.diagnosis;
+    if (!frame.offenders.empty()) {
+      const ObjMesh offenders = offenders_obj(mesh, x, frame.offenders, body_triangles_,
+                                              body_ ? body_->positions() : std::span<const Vec3>{});
+      words += "; offenders.obj: " + name_triangles(mesh, frame.offenders);
+      const auto of_body = std::count(offenders.object.begin(), offenders.object.end(), 1);
+      if (of_body > 0) words += ", and " + std::to_string(of_body) + " triangles of the body near them";
+      writer_->offenders(offenders);
+    }
+    end(reason::step_collapsed, std::move(words));
   }
 
   void bad_start(const std::string& name, const std::string& what) {
@@ -252,7 +267,7 @@ class Run {
         end(reason::seam_blocked, which + dressing.explain());
         break;
       case SewingStatus::failed:
-        end(reason::step_collapsed, which + "while sewing: " + frame.diagnosis);
+        collapse(which + "while sewing", frame, sewing.model().mesh, sewing.state().x);
         break;
     }
     if (sewing.status() != SewingStatus::closed) {
@@ -274,8 +289,11 @@ class Run {
     for (int f = 1; f < frames && slow < rest_s * scene_.fps; ++f) {
       const FrameReport frame = run.frame();
       if (frame.interrupted || !frame.ok) {
-        end(frame.ok ? reason::interrupted : reason::step_collapsed,
-            "while " + printable(cloth_[k].garment.name) + " was draped: " + frame.diagnosis);
+        const std::string when = "while " + printable(cloth_[k].garment.name) + " was draped";
+        if (frame.ok)
+          end(reason::interrupted, when);
+        else
+          collapse(when, frame, outfit_.mesh, outfit_.state.x);
         return false;
       }
       slow =
@@ -359,7 +377,7 @@ class Run {
     add(phase, frame);
     if (also != nullptr) add(*also, frame);
     if (!frame.ok) {
-      end(reason::step_collapsed, "in frame " + std::to_string(k) + ": " + frame.diagnosis);
+      collapse("in frame " + std::to_string(k), frame, outfit_.mesh, outfit_.state.x);
       return false;
     }
     recorder_->frame(outfit_.state.x, body_x_);

@@ -59,6 +59,7 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
       if (halvings_ >= options_.most_halvings) {
         report.ok = false;
         report.diagnosis = diagnose(state, report.last);
+        report.offenders = offenders(state, report.last);
         return report;
       }
       if (growing_) patience_ = std::min(2 * patience_, longest_wait);
@@ -77,22 +78,50 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
   return report;
 }
 
+Index AdaptiveStep::most_strained(const ClothState& state) const {
+  std::vector<Vec2> w(integrator_.model().mesh.triangles.size());
+  integrator_.elements().stretch(state.x, w);
+  double worst = 0;
+  Index triangle = -1;
+  for (std::size_t t = 0; t < w.size(); ++t) {
+    const double strain = (w[t] - Vec2::Ones()).cwiseAbs().maxCoeff();
+    if (strain > worst) {
+      worst = strain;
+      triangle = static_cast<Index>(t);
+    }
+  }
+  return triangle;
+}
+
+// Of what was refused: the triangle, or all around the particles.
+std::vector<Index> AdaptiveStep::offenders(const ClothState& state, const StepReport& report) const {
+  const std::vector<Triangle>& triangles = integrator_.model().mesh.triangles;
+  std::vector<char> marked(state.x.size(), 0);
+  const auto mark = [&](Index particle) {  // the body's come behind the cloth's
+    if (particle >= 0 && static_cast<std::size_t>(particle) < marked.size())
+      marked[static_cast<std::size_t>(particle)] = 1;
+  };
+  mark(report.worst_particle);
+  if (report.status == StepStatus::passed_through) {
+    for (const auto impacts : {integrator_.filter().left(), integrator_.filter().left_with_body()})
+      for (const Impact& impact : impacts)
+        for (const Index particle : impact.particle) mark(particle);
+  }
+  const Index strained = report.status == StepStatus::solver_failed ? most_strained(state) : report.worst_triangle;
+  std::vector<Index> found;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const bool any = std::any_of(triangles[t].begin(), triangles[t].end(),
+                                 [&](Index i) { return marked[static_cast<std::size_t>(i)] != 0; });
+    if (any || static_cast<Index>(t) == strained) found.push_back(static_cast<Index>(t));
+  }
+  return found;
+}
+
 std::string AdaptiveStep::diagnose(const ClothState& state, const StepReport& report) const {
   std::string words = "the step collapsed below " + std::to_string(report.h_s) + " s: " + report.explain();
   const ClothModel& model = integrator_.model();
   Index triangle = report.worst_triangle;
-  if (triangle < 0 && report.worst_particle < 0) {  // the solver failed: show the most strained triangle of the state
-    std::vector<Vec2> w(model.mesh.triangles.size());
-    integrator_.elements().stretch(state.x, w);
-    double worst = 0;
-    for (std::size_t t = 0; t < w.size(); ++t) {
-      const double strain = (w[t] - Vec2::Ones()).cwiseAbs().maxCoeff();
-      if (strain > worst) {
-        worst = strain;
-        triangle = static_cast<Index>(t);
-      }
-    }
-  }
+  if (triangle < 0 && report.status == StepStatus::solver_failed) triangle = most_strained(state);
   if (triangle >= 0) {
     const Triangle& corners = model.mesh.triangles[static_cast<std::size_t>(triangle)];
     const Vec3& x = state.x[static_cast<std::size_t>(corners[0])];

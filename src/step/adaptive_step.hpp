@@ -40,6 +40,7 @@ struct FrameReport {
   int pierced = 0;        // impacts with the body that could not be prevented, summed over steps
   StepReport last;        // of the last attempt: when !ok, why
   std::string diagnosis;  // when !ok: which triangles and particles, in words
+  std::vector<Index> offenders;  // when !ok: triangles of the cloth to look at, ascending
 };
 
 class AdaptiveStep {
@@ -59,6 +60,8 @@ class AdaptiveStep {
 
  private:
   std::string diagnose(const ClothState& state, const StepReport& report) const;
+  Index most_strained(const ClothState& state) const;
+  std::vector<Index> offenders(const ClothState& state, const StepReport& report) const;
 
   ImplicitEuler integrator_;
   AdaptiveOptions options_;

@@ -90,6 +90,7 @@ class ImplicitEuler {
   ContactRows& contact_rows() { return rows_; }
   // e = A dv - b of the last pass on held particles, N s; H times the force.
   std::span<const Vec3> constraint_impulse() const { return e_; }
+  const SafeFilter& filter() const { return filter_; }  // of the last attempt
   PhaseSeconds seconds() const;
   // f + h K terms of the last assembled system, for tests.
   const BlockMatrix<float>& A() const { return A_; }

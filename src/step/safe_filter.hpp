@@ -47,6 +47,8 @@ class SafeFilter {
 
   // Of the last call without `truncate`: the impacts of cloth with cloth that are left.
   std::span<const Impact> left() const { return impacts_; }
+  // Those of cloth with the body; particles from the cloth's number on are the body's.
+  std::span<const Impact> left_with_body() const { return body_impacts_; }
   // [particle] of the last call: moved.
   std::span<const char> moved() const { return moved_; }
 
