@@ -97,7 +97,8 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
     model.membrane[t].beta = frame.beta;
     model.membrane[t].scale2 = options.paper_scaling ? frame.area_m2 * frame.area_m2 : frame.area_m2;
     model.stiffness[t] = {fabric.stretch_u_N_per_m, fabric.stretch_v_N_per_m, fabric.shear_N_per_m,
-                          fabric.stretch_damping_s, fabric.shear_damping_s,   fabric.compression_ratio};
+                          fabric.stretch_damping_s, fabric.shear_damping_s,   fabric.compression_ratio,
+                          fabric.strain_limit};
     for (const Index corner : model.mesh.triangles[t]) {
       const auto p = static_cast<std::size_t>(corner);
       model.mass_kg[p] += fabric.density_kg_per_m2 * frame.area_m2 / 3;

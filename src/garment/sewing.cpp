@@ -43,6 +43,7 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
   for (Fabric& fabric : stiff) {
     fabric.bend_u_N_m = std::max(fabric.bend_u_N_m, options.bend_N_m);
     fabric.bend_v_N_m = std::max(fabric.bend_v_N_m, options.bend_N_m);
+    fabric.strain_limit = 0;  // seams that close pull harder than cloth that is worn
   }
   model_ = build_model(garment.mesh, stiff, weightless);
   set_folds(model_, 0);

@@ -105,6 +105,7 @@ void check_fabric(const Fabric& fabric, std::string_view where, std::string_view
   if (fabric.compression_ratio > 1)
     throw InputError(where, std::string(place) + (place.empty() ? "" : "/") + "compression_ratio", "at most 1",
                      number(fabric.compression_ratio));
+  check("strain_limit", fabric.strain_limit, true);
   check("bend_u_N_m", fabric.bend_u_N_m, true);
   check("bend_v_N_m", fabric.bend_v_N_m, true);
   check("stretch_damping_s", fabric.stretch_damping_s, true);

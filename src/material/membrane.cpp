@@ -34,6 +34,23 @@ void add_stretch(const Vec3& w, const Vec3& w_dot, double b, double tension, dou
   D += (tension * tau) * outer;
 }
 
+// The barrier before the strain limit: energy, force and stiffness along the thread; across it, the force over the length.
+void add_limit(const Vec3& w, double b, double tension, double limit, double& energy_J, Vec3& P, Mat3& K) {
+  constexpr double last = 0.95;  // y_1
+  const double length = w.norm(), d = 0.5 * limit * b;
+  const double y = (length - b) / d - 1;
+  if (!(y > 0)) return;
+  const double inner = std::min(y, last), beyond = y - inner, left = 1 - inner;
+  const double phi = inner * inner * inner / left, phi1 = inner * inner * (3 - 2 * inner) / (left * left),
+               phi2 = 6 * inner / left + 2 * phi1 / left;
+  energy_J += tension * d * d * (phi + beyond * (phi1 + 0.5 * beyond * phi2));
+  const double force = tension * d * (phi1 + beyond * phi2);
+  const Vec3 along = w / length;
+  P += force * along;
+  K += (tension * phi2 - force / length) * along * along.transpose();
+  K.diagonal().array() += force / length;
+}
+
 // Adds stiffness * (g g^T + c J) with g = [w_v; w_u], J = [[0, I], [I, 0]].
 void add_shear_hessian(const Vec3& w_u, const Vec3& w_v, double c, double stiffness, FMatrix& K) {
   K.uu += stiffness * w_v * w_v.transpose();
@@ -111,6 +128,11 @@ MembraneResponse membrane_response(const MembraneRest& rest, const MembraneStiff
               r.P_u, r.Q_u, r.K.uu, r.D.uu);
   add_stretch(r.w_v, w_v_dot, rest.b_v, k.k_v * s2, k.compression, k.tau_stretch, damping_in_K, project, r.energy_J,
               r.P_v, r.Q_v, r.K.vv, r.D.vv);
+
+  if (k.strain_limit > 0) {
+    add_limit(r.w_u, rest.b_u, k.k_u * s2, k.strain_limit, r.energy_J, r.P_u, r.K.uu);
+    add_limit(r.w_v, rest.b_v, k.k_v * s2, k.strain_limit, r.energy_J, r.P_v, r.K.vv);
+  }
 
   const double stiffness = k.k_shear * s2;
   const double I6 = r.w_u.dot(r.w_v);

@@ -15,8 +15,8 @@ Fabric read_fabric(const Json& value) {
   if (!value.is_object())
     value.fail("the name of a fabric, or an object with \"base\" and what differs from it", value.describe());
   value.allow_only({"base", "density_kg_per_m2", "stretch_u_N_per_m", "stretch_v_N_per_m", "shear_N_per_m",
-                    "compression_ratio", "bend_u_N_m", "bend_v_N_m", "stretch_damping_s", "shear_damping_s",
-                    "bend_damping_s", "friction", "thickness_m"});
+                    "compression_ratio", "strain_limit", "bend_u_N_m", "bend_v_N_m", "stretch_damping_s",
+                    "shear_damping_s", "bend_damping_s", "friction", "thickness_m"});
   Fabric fabric;
   if (const Json* base = value.find("base")) fabric = fabric_preset(base->string(), base->where(), base->pointer());
   struct Member {
@@ -24,7 +24,8 @@ Fabric read_fabric(const Json& value) {
     double Fabric::*member;
     double most;
   };
-  static constexpr std::array<Member, 12> members = {{{"compression_ratio", &Fabric::compression_ratio, 1},
+  static constexpr std::array<Member, 13> members = {{{"compression_ratio", &Fabric::compression_ratio, 1},
+                                                      {"strain_limit", &Fabric::strain_limit, 1},
                                                       {"density_kg_per_m2", &Fabric::density_kg_per_m2, 1e3},
                                                       {"stretch_u_N_per_m", &Fabric::stretch_u_N_per_m, 1e9},
                                                       {"stretch_v_N_per_m", &Fabric::stretch_v_N_per_m, 1e9},

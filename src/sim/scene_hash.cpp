@@ -19,8 +19,8 @@ void add(Hash& hash, const std::optional<double>& x) {
 }
 void add(Hash& hash, const Fabric& f) {
   for (const double x : {f.density_kg_per_m2, f.stretch_u_N_per_m, f.stretch_v_N_per_m, f.shear_N_per_m,
-                         f.compression_ratio, f.bend_u_N_m, f.bend_v_N_m, f.stretch_damping_s, f.shear_damping_s,
-                         f.bend_damping_s, f.friction, f.thickness_m})
+                         f.compression_ratio, f.strain_limit, f.bend_u_N_m, f.bend_v_N_m, f.stretch_damping_s,
+                         f.shear_damping_s, f.bend_damping_s, f.friction, f.thickness_m})
     add(hash, x);
 }
 

@@ -280,7 +280,8 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
     if (pass >= contact_passes && report.relinearised < options_.relinearisations) {
       const Timed timed(seconds_.eval);
       find_end(state, step, candidate);
-      if (largest_stretch_change(candidate).change > limits.stretch) {
+      const StretchChange largest = largest_stretch_change(candidate);
+      if (largest.change > limits.stretch || largest.beyond >= 0) {
         relinearise(state, t_s, step, candidate);
         ++report.relinearised;
         continue;
@@ -319,6 +320,18 @@ void ImplicitEuler::judge(const StepLimits& limits, const ClothState& candidate,
   report.stretch_change = largest.change;
   report.worst_triangle = largest.triangle;
   if (largest.change > limits.stretch) report.status = StepStatus::stretched;
+  judge_strain(largest, report);
+}
+
+// A thread beyond its limit may only get shorter.
+void ImplicitEuler::judge_strain(const StretchChange& largest, StepReport& report) const {
+  if (largest.beyond < 0) return;
+  const auto t = static_cast<std::size_t>(largest.beyond);
+  const MembraneRest& rest = model_->membrane[t];
+  report.status = StepStatus::beyond_limit;
+  report.worst_triangle = largest.beyond;
+  report.strain = std::max(stretch_candidate_[t].x() / rest.b_u, stretch_candidate_[t].y() / rest.b_v) - 1;
+  report.strain_limit = model_->stiffness[t].strain_limit;
 }
 
 // Only changes away from the rest length count: a thread that relaxes is not diverging, however fast.  One that is pushed together
@@ -326,14 +339,22 @@ void ImplicitEuler::judge(const StepLimits& limits, const ClothState& candidate,
 ImplicitEuler::StretchChange ImplicitEuler::largest_stretch_change(const ClothState& candidate) {
   elements_.stretch(candidate.x, stretch_candidate_);
   StretchChange largest;
+  double farthest = 1;  // of the limit
   for (std::size_t t = 0; t < stretch_.size(); ++t) {
     const std::array<double, 2> rest{model_->membrane[t].b_u, model_->membrane[t].b_v};
+    const double limit = model_->stiffness[t].strain_limit;
     for (Eigen::Index k = 0; k < 2; ++k) {
       const double b = rest[static_cast<std::size_t>(k)], before = stretch_[t][k], after = stretch_candidate_[t][k];
       if (std::abs(after - b) <= std::abs(before - b)) continue;
+      if (limit > 0 && after > before && after - b > farthest * limit * b) {
+        farthest = (after - b) / (limit * b);
+        largest.beyond = static_cast<Index>(t);
+      }
       double change = std::abs(after - before);
       if (after < b) change *= std::sqrt(model_->stiffness[t].compression);
-      if (change > largest.change) largest = {change, static_cast<Index>(t)};
+      if (change <= largest.change) continue;
+      largest.change = change;
+      largest.triangle = static_cast<Index>(t);
     }
   }
   return largest;
@@ -362,6 +383,8 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
   }
   pierced_ = report.filter.body_left > 0;
   if (report.filter.corrected == 0) return;
+  judge_strain(largest_stretch_change(candidate), report);
+  if (!report) return;
   for (std::size_t i = 0; i < state.x.size(); ++i) {
     if (filter_.moved()[i]) candidate.v[i] = velocity_of_motion(candidate.x[i] - state.x[i], y_[i], h_s);
   }

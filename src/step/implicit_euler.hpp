@@ -108,9 +108,11 @@ class ImplicitEuler {
   struct StretchChange {
     double change = 0;
     Index triangle = -1;
+    Index beyond = -1;  // of those that got longer beyond their strain limit, the one farthest beyond
   };
   StretchChange largest_stretch_change(const ClothState& candidate);
   void judge(const StepLimits& limits, const ClothState& candidate, StepReport& report);
+  void judge_strain(const StretchChange& largest, StepReport& report) const;
   void look_through_body(const ClothState& state);
   void keep_apart(const ClothState& state, double h_s, const StepLimits& limits, ClothState& candidate,
                   StepReport& report);

@@ -12,6 +12,8 @@ std::string_view to_string(StepStatus status) {
       return "solver_failed";
     case StepStatus::stretched:
       return "stretched";
+    case StepStatus::beyond_limit:
+      return "beyond_limit";
     case StepStatus::passed_through:
       return "passed_through";
     case StepStatus::too_fast:
@@ -31,6 +33,12 @@ std::string StepReport::explain() const {
     case StepStatus::stretched:
       return fmt::sprintf("h = %.3g ms: stretch of triangle %d changes by %.3g in one step", 1e3 * h_s, worst_triangle,
                           stretch_change);
+    case StepStatus::beyond_limit:
+      return fmt::sprintf(
+          "h = %.3g ms: a thread of triangle %d would be stretched by %.3g %%, its limit is %.3g %%: what holds the "
+          "cloth "
+          "is farther apart than it may be long",
+          1e3 * h_s, worst_triangle, 100 * strain, 100 * strain_limit);
     case StepStatus::passed_through:
       return fmt::sprintf("h = %.3g ms: %d pairs of cloth, and %d of cloth and body, would pass through each other",
                           1e3 * h_s, filter.left, filter.body_left);

@@ -14,17 +14,18 @@ struct PhaseSeconds {
   double body = 0;  // where the body is, its tree and its normals
 };
 
-enum class StepStatus { accepted, solver_failed, stretched, passed_through, too_fast, not_finite };
+enum class StepStatus { accepted, solver_failed, stretched, beyond_limit, passed_through, too_fast, not_finite };
 std::string_view to_string(StepStatus status);
 
 struct StepReport {  // what happened, in numbers a log can plot
   StepStatus status = StepStatus::accepted;
   double h_s = 0;
   int passes = 0, cg_iterations = 0;
-  int relinearised = 0;        // solves about an end found before
-  FilterReport filter;         // of the end of the step
-  int touching = 0, rows = 0;  // body constraints and contact rows of the last pass
-  double stretch_change = 0;   // max over triangles of | |w|' - |w| | away from rest
+  int relinearised = 0;                 // solves about an end found before
+  FilterReport filter;                  // of the end of the step
+  int touching = 0, rows = 0;           // body constraints and contact rows of the last pass
+  double stretch_change = 0;            // max over triangles of | |w|' - |w| | away from rest
+  double strain = 0, strain_limit = 0;  // beyond_limit: |w|/b - 1 of a thread of the worst triangle, and what it may be
   Index worst_triangle = -1, worst_particle = -1;
   PcgReport pcg;  // of the last pass
   explicit operator bool() const { return status == StepStatus::accepted; }
