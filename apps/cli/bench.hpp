@@ -1,4 +1,4 @@
-// apps/cli/bench.hpp: the four benchmarks of `toile bench`.                                            docs/benchmarks.md
+// apps/cli/bench.hpp: the five benchmarks of `toile bench`.                                            docs/benchmarks.md
 //
 // Each fills tables and facts; bench_command.cpp adds the machine and prints.  An interrupt ends one after the row at hand.
 #pragma once
@@ -10,5 +10,6 @@ BenchResult bench_scaling(BenchRuns& runs);
 BenchResult bench_stiffness(BenchRuns& runs);
 BenchResult bench_paper(BenchRuns& runs);
 BenchResult bench_micro(BenchRuns& runs);
+BenchResult bench_torture(BenchRuns& runs);
 
 }  // namespace toile

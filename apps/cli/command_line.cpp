@@ -58,15 +58,22 @@ CLI::App* add_bench(CLI::App& app, CommandLine& line) {
       ->delimiter(',')
       ->check(CLI::IsMember({"1", "2", "3", "4", "5", "6", "7", "8", "9", "cg", "explicit"}));
   CLI::App* micro = bench->add_subcommand("micro", "Times of the pieces of a step");
+  CLI::App* torture = bench->add_subcommand("torture", "Scenes that break cloth simulators: which hold");
+  torture->add_option("--scenes", line.rows, "By their numbers, 01,12 (default: all)")->delimiter(',');
+  torture->add_option("--size", line.torture_size, "S, M or L")->check(CLI::IsMember({"S", "M", "L"}));
+  torture
+      ->add_option("--starts", line.starts, "Start so often; the first is the scene as it is, the others are jittered")
+      ->check(CLI::Range(1, 1000));
+  torture->add_option("--first-start", line.first_start, "The first of them")->check(CLI::Range(0, 1000000));
   for (CLI::App* kind : {stiffness, micro})
     kind->add_option("--size", line.sizes, "Particles (default: 2602)")->expected(1)->check(CLI::Range(50, 1000000));
-  for (CLI::App* kind : {paper, scaling, stiffness, micro}) {
+  for (CLI::App* kind : {paper, scaling, stiffness, micro, torture}) {
     add_common(*kind, line);
     CLI::Option* json = kind->get_option("--json");
     kind->add_flag("--csv", line.csv, "Print the result as CSV")->excludes(json);
     kind->add_option("--repeat", line.repeats, "Measure so often and keep the fastest")->check(CLI::Range(1, 1000));
   }
-  for (CLI::App* kind : {paper, scaling, stiffness})
+  for (CLI::App* kind : {paper, scaling, stiffness, torture})
     kind->add_option("--frames", line.bench_frames, "Frames of each run; fewer than the paper's are for a first look")
         ->check(CLI::Range(1, 100000));
   return bench;
@@ -157,7 +164,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   for (const auto& [command, value] : commands)
     if (command == chosen) line.command = value;
   if (chosen == bench && bench->get_subcommands().empty())
-    throw Error(ExitCode::usage, "bench: expected paper, scaling, stiffness or micro");
+    throw Error(ExitCode::usage, "bench: expected paper, scaling, stiffness, micro or torture");
   if (chosen == bench) {
     line.inputs = {bench->get_subcommands().front()->get_name()};
     if (line.sizes.empty() && line.inputs.front() == "scaling") line.sizes = {500, 899, 2602, 7359};

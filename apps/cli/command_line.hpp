@@ -28,8 +28,10 @@ struct CommandLine {
   bool csv = false;
   int repeats = 0;                // 0: 1, or 9 of the pieces in `bench micro`
   std::vector<int> sizes;         // particles
-  std::vector<std::string> rows;  // empty: all
+  std::vector<std::string> rows;  // of paper, scenes of torture; empty: all
   std::optional<int> bench_frames;
+  std::string torture_size = "S";
+  int starts = 1, first_start = 0;
 };
 
 // Throws Error(usage) with one line.

@@ -213,6 +213,28 @@ TEST(Bench, WithoutOutNothingIsLeft) {
   EXPECT_TRUE(std::filesystem::is_empty(temporary));
 }
 
+TEST(Bench, TortureSaysOfEveryRunWhetherItHolds) {
+  const Scratch scratch;
+  const Json json = bench(scratch, {"torture", "--scenes", "07,14", "--starts", "2", "--frames", "2", "--out", "kept"});
+  const auto& rows = json.at("rows").array();
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(json.at("runs").integer(), 4);
+  EXPECT_EQ(json.at("held").integer(), 4);
+  for (const Json& row : rows) {
+    EXPECT_EQ(row.at("frames").integer(), 2);
+    EXPECT_EQ(row.at("frames_expected").integer(), 2);
+    EXPECT_EQ(row.at("holds").string(), "yes");
+    EXPECT_GT(row.at("vertices").integer(), 2000);
+    EXPECT_LT(row.at("vertices").integer(), 4000);
+  }
+  EXPECT_EQ(rows[0].at("scene").string(), "07-rotating-sphere");
+  EXPECT_EQ(rows[1].at("start").integer(), 1);
+  EXPECT_NE(rows[0].at("state_hash").string(), rows[1].at("state_hash").string()) << "another start";
+  EXPECT_TRUE(std::filesystem::exists(scratch / "kept/14-sphere-through-S-1/cloth.pc2"));
+  const Json again = bench(scratch, {"torture", "--scenes", "07", "--first-start", "1", "--frames", "2"});
+  EXPECT_EQ(again.at("rows").array().at(0).at("state_hash").string(), rows[1].at("state_hash").string());
+}
+
 TEST(Bench, OptionsThatMeanNothingAreUsageErrors) {
   const Scratch scratch;
   for (const std::vector<std::string>& words :
@@ -225,6 +247,9 @@ TEST(Bench, OptionsThatMeanNothingAreUsageErrors) {
                                              {"bench", "stiffness", "--sizes", "100"},
                                              {"bench", "paper", "--rows", "10"},
                                              {"bench", "micro", "--frames", "3"},
+                                             {"bench", "torture", "--size", "XL"},
+                                             {"bench", "torture", "--scenes", "99"},
+                                             {"bench", "paper", "--starts", "2"},
                                              {"bench", "stiffness", "--size", "100,200"},
                                              {"bench", "scaling", "--repeat", "0"},
                                              {"bench", "scaling", "--csv", "--json"},
