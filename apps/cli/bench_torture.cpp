@@ -50,15 +50,6 @@ std::vector<std::string> torture_scenes(const std::vector<std::string>& wanted) 
   return names;
 }
 
-void scale_edges(Scene& scene, double scale) {
-  for (SceneCloth& cloth : scene.cloth) {
-    if (cloth.grid) cloth.grid->edge_m *= scale;
-    if (cloth.tube) cloth.tube->edge_m *= scale;
-    if (cloth.ribbon) cloth.ribbon->edge_m *= scale;
-    if (cloth.is_sewn()) cloth.resolution_m *= scale;
-  }
-}
-
 double extent_m(const SceneCloth& cloth) {
   if (cloth.grid) return std::max(cloth.grid->width_m, cloth.grid->height_m);
   if (cloth.tube) return std::max(2 * cloth.tube->radius_m, cloth.tube->length_m);
@@ -157,7 +148,7 @@ BenchResult bench_torture(BenchRuns& runs) {
   for (const std::string& name : torture_scenes(line.rows)) {
     for (int start = line.first_start; start < line.first_start + line.starts && !interrupted(); ++start) {
       Scene scene = embedded_scene("torture/" + name);
-      scale_edges(scene, size.edge_scale);
+      for (SceneCloth& cloth : scene.cloth) cloth.set_edge_m(size.edge_scale * cloth.edge_m());
       jitter(scene, start);
       if (line.bench_frames) scene.seconds = (*line.bench_frames + (moves(scene) ? 0 : 1)) / scene.fps;
       const std::string run = name + "-" + std::string(size.name) + "-" + std::to_string(start);

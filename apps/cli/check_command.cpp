@@ -111,7 +111,8 @@ std::string check_scene(const std::string& path, const std::string& text, JsonTe
     vertices += loaded.garment.mesh.particle_count;
     triangles += loaded.garment.mesh.triangle_count();
   }
-  const LoadedBody body = load_body(scene.body, hash);
+  LoadedBody body = load_body(scene.body, hash);
+  add_solids(scene.solids, body, hash);
   json.member("kind", "scene");
   json.member("vertices", vertices);
   json.member("triangles", triangles);

@@ -142,9 +142,7 @@ void set_quality(const std::string& quality, Scene& scene) {
   for (const Quality& q : qualities) {
     if (q.name != quality) continue;
     for (SceneCloth& cloth : scene.cloth) {
-      cloth.resolution_m = q.resolution_m;
-      cloth.vertices.reset();
-      if (cloth.grid) cloth.grid->edge_m = q.resolution_m;
+      cloth.set_edge_m(q.resolution_m);
     }
     scene.step_max_s = q.step_max_s;
     scene.tolerance = q.tolerance;
@@ -167,11 +165,7 @@ Scene scene_of(const CommandLine& line) {
   set_quality(line.quality, scene);
   for (SceneCloth& cloth : scene.cloth) {
     if (line.fabric) cloth.fabric = fabric_preset(*line.fabric, "", "--fabric");
-    if (line.resolution_cm) {
-      cloth.resolution_m = 0.01 * *line.resolution_cm;
-      cloth.vertices.reset();
-    }
-    if (line.resolution_cm && cloth.grid) cloth.grid->edge_m = 0.01 * *line.resolution_cm;
+    if (line.resolution_cm) cloth.set_edge_m(0.01 * *line.resolution_cm);
   }
   if (!line.start.empty()) scene.start = line.start;
   if (line.fps) scene.fps = *line.fps;

@@ -190,10 +190,4 @@ GarmentMesh shaped_cloth(const SceneCloth& cloth) {
   return make_grid(cloth);
 }
 
-double shape_edge_m(const SceneCloth& cloth) {
-  if (cloth.tube) return cloth.tube->edge_m;
-  if (cloth.ribbon) return cloth.ribbon->edge_m;
-  return cloth.grid->edge_m;
-}
-
 }  // namespace toile

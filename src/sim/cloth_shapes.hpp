@@ -14,7 +14,4 @@ namespace toile {
 // Lengths in the drawing are those of the curve, so that only bending is strained at the start.
 GarmentMesh shaped_cloth(const SceneCloth& cloth);
 
-// That its triangles were asked to have.
-double shape_edge_m(const SceneCloth& cloth);
-
 }  // namespace toile

@@ -85,8 +85,8 @@ void OutfitRun::take_and_let_go() {
   for (TimedPin& timed : events_.pins) {
     if (time_s() < timed.from_s || time_s() >= timed.to_s) continue;
     if (!timed.moves.empty() && !timed.pin.path) {
-      const Vec3 taken_at = outfit_->state.x[static_cast<std::size_t>(timed.pin.particle)];
-      timed.pin.path = [moves = timed.moves, taken_at](double t_s) { return moves.place(t_s, taken_at); };
+      const Vec3 from = timed.moves.before(time_s(), outfit_->state.x[static_cast<std::size_t>(timed.pin.particle)]);
+      timed.pin.path = [moves = timed.moves, from](double t_s) { return moves.place(t_s, from); };
     }
     world_.pins.push_back(timed.pin);
   }

@@ -37,6 +37,12 @@ void RigidPath::place(double t_s, std::span<const Vec3> x, std::span<Vec3> place
   for (std::size_t i = 0; i < x.size(); ++i) placed[i] = to + turn * (x[i] - centre_);
 }
 
+Vec3 RigidPath::before(double t_s, const Vec3& x) const {
+  if (keys_.empty()) return x;
+  const RigidKey key = at(t_s);
+  return centre_ + rotation_from_degrees(key.rotation_deg).transpose() * (x - centre_ - key.shift_m) / key.scale;
+}
+
 Vec3 RigidPath::place(double t_s, const Vec3& x) const {
   Vec3 placed;
   place(t_s, std::span(&x, 1), std::span(&placed, 1));

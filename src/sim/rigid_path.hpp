@@ -36,6 +36,8 @@ class RigidPath {
   // Where it has taken what was at `x` before it began; a whole surface at once, or a point.
   void place(double t_s, std::span<const Vec3> x, std::span<Vec3> placed) const;
   Vec3 place(double t_s, const Vec3& x) const;
+  // What was at the result before it began is at `x` at t_s.
+  Vec3 before(double t_s, const Vec3& x) const;
 
  private:
   RigidKey at(double t_s) const;

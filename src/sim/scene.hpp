@@ -86,6 +86,15 @@ struct SceneCloth {
   std::optional<SceneTube> tube;
   std::optional<SceneRibbon> ribbon;
   bool is_sewn() const { return !pattern.empty(); }
+  // Of its triangles: of the outlines of a pattern, or of its shape.
+  double edge_m() const { return grid ? grid->edge_m : tube ? tube->edge_m : ribbon ? ribbon->edge_m : resolution_m; }
+  void set_edge_m(double edge_m) {
+    vertices.reset();
+    resolution_m = edge_m;
+    if (grid) grid->edge_m = edge_m;
+    if (tube) tube->edge_m = edge_m;
+    if (ribbon) ribbon->edge_m = edge_m;
+  }
   double resolution_m = 0.01;
   std::optional<int> vertices;  // of the welded garment: then resolution_m does not count
   Fabric fabric;

@@ -155,7 +155,7 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
     const auto place = std::find(names.begin(), names.end(), panel.name);
     loaded.rest_stretch_paths.push_back({static_cast<Index>(place - names.begin()), panel.rest_stretch_path});
   }
-  loaded.edge_m = cloth.is_sewn() ? counted_edge_m.value_or(cloth.resolution_m) : shape_edge_m(cloth);
+  loaded.edge_m = counted_edge_m.value_or(cloth.edge_m());
   if (scene.cloth.size() > 1)  // two garments may both have a "front"
     for (std::string& panel : loaded.garment.mesh.panel_names) panel.insert(0, loaded.garment.name + '/');
   return loaded;

@@ -91,10 +91,11 @@ TEST(MovingThings, WhatIsHeldTurnsExactlyUntilItIsLetGo) {
   EXPECT_EQ(held, 9);
 }
 
-TEST(MovingThings, WhatIsTakenLaterMovesFromWhereItIs) {
+TEST(MovingThings, WhatIsTakenLaterMovesFromWhereItIs) {  // whatever its moves had done before
   const Frames frames = run(R"({
     "cloth": [{"grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.05},
-      "pins": [{"near_m": [0, 0.15, 0], "hold": "moves", "from_s": 0.5, "moves": [{"t_s": 0.5}, {"t_s": 0.6, "shift_m": [0, 0.1, 0]}]}]}],
+      "pins": [{"near_m": [0, 0.15, 0], "hold": "moves", "from_s": 0.5, "about_m": [0, 0.15, 0],
+        "moves": [{"t_s": 0, "shift_m": [0.3, 0, 0], "rotation_deg": [0, 0, 90]}, {"t_s": 0.5}, {"t_s": 0.6, "shift_m": [0.3, 0.1, 0]}]}]}],
     "time": {"seconds": 1}, "world": {"air_density_kg_per_m3": 0}})");
   EXPECT_TRUE(frames.report.verdict.pass);
   std::size_t taken = 0;
