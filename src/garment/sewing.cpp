@@ -126,8 +126,11 @@ FrameReport Sewing::frame() {
   report = stepper_->advance(state_, time_s_, frame_s);
   if (report.interrupted) return report;
   time_s_ += frame_s;
-  if (!report.ok) {
-    status_ = SewingStatus::failed;
+  if (!report.ok) {  // cloth that is drawn over what it is too small for gives way somewhere: the seam says why
+    const std::vector<SeamGap> open = gaps();
+    const bool too_small =
+        !open.empty() && open.front().gap_m >= options_.weld_gap_m && open.front().stretch > options_.too_small;
+    status_ = too_small ? SewingStatus::blocked : SewingStatus::failed;
     return report;
   }
   judge_progress();

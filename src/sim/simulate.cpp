@@ -264,10 +264,10 @@ class Run {
         end(reason::interrupted, which + "while sewing, after " + std::to_string(frames) + " frames");
         break;
       case SewingStatus::blocked:
-        end(reason::seam_blocked, which + dressing.explain());
+        end(reason::seam_blocked, which + dressing.explain() + (frame.ok ? "" : "; then " + frame.diagnosis));
         break;
       case SewingStatus::failed:
-        collapse(which + "while sewing", frame, sewing.model().mesh, sewing.state().x);
+        collapse(which + "while sewing (" + dressing.explain() + ")", frame, sewing.model().mesh, sewing.state().x);
         break;
     }
     if (sewing.status() != SewingStatus::closed) {

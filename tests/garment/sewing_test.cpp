@@ -189,6 +189,22 @@ TEST(Sewing, ATubeTooSmallForTheBodyIsBlockedAndItsSeamsAreStretched) {
   EXPECT_EQ(std::memcmp(before.data(), run.sewing->state().x.data(), before.size() * sizeof(Vec3)), 0);
 }
 
+// What gives way is some particle; why is the cloth beside an open seam.
+TEST(Sewing, AStepThatCollapsesOverTautClothIsBlockedAndNotAFault) {
+  const GarmentMesh garment = mesh_garment(test::tube_pattern(0.12, 0.12, 0.1), 0.02);
+  const Fabric fabric;
+  StepOptions step;
+  step.max_speed_m_per_s = 1e-6;  // no step is accepted
+  for (const bool taut : {false, true}) {
+    SewingOptions options;
+    if (taut) options.too_small = -1;
+    Sewing sewing(garment, std::span<const Fabric>(&fabric, 1), nullptr, step, options);
+    const FrameReport report = sewing.frame();
+    EXPECT_FALSE(report.ok);
+    EXPECT_EQ(sewing.status(), taut ? SewingStatus::blocked : SewingStatus::failed);
+  }
+}
+
 TEST(Sewing, ALabelledEdgeIsDrawnToItsHeightOnceTheSeamsAreClosed) {
   Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
   for (Panel& panel : pattern.panels) panel.edges[0].label = "lower_interface";
