@@ -128,9 +128,9 @@ FrameReport Sewing::frame() {
   time_s_ += frame_s;
   if (!report.ok) {  // cloth that is drawn over what it is too small for gives way somewhere: the seam says why
     const std::vector<SeamGap> open = gaps();
-    const bool too_small =
-        !open.empty() && open.front().gap_m >= options_.weld_gap_m && open.front().stretch > options_.too_small;
-    status_ = too_small ? SewingStatus::blocked : SewingStatus::failed;
+    const bool taut =
+        !open.empty() && open.front().gap_m >= options_.weld_gap_m && open.front().stretch > options_.taut;
+    status_ = taut ? SewingStatus::blocked : SewingStatus::failed;
     return report;
   }
   judge_progress();

@@ -35,6 +35,7 @@ struct SewingOptions {
       0.25;  // of the mean edge: a gap this small is welded where a seam stops closing (a fitted shoulder under tension)
   double patience_s = 0.2;       // without progress, before layers are thinned, and before each doubling of the pull
   double too_small = 0.2;        // stretch beside an open seam at which pulling harder is given up
+  double taut = 0.05;            // likewise, from which on the size is said to be why the seam is open
   double thickness_scale = 1.6;  // of the fabrics' contact distance, while sewing
   double thinnest = 0.2;         // the same, within `thin_radius_m` of a seam that will not close
   double thin_radius_m = 0.03;

@@ -33,7 +33,6 @@ Dressing::Dressing(const Outfit& outfit, const GarmentMesh& garment, std::span<c
 
 std::string Dressing::explain() const {
   constexpr std::size_t most = 5;
-  constexpr double too_small = 0.05;
   if (sewing_->weld_obstacle()) {  // the gaps are small, and not what is in the way
     const Vec3 p = *sewing_->weld_obstacle();
     return fmt::sprintf(
@@ -46,7 +45,7 @@ std::string Dressing::explain() const {
     if (gap.gap_m < options_.weld_gap_m) continue;
     if (++open > most) continue;
     const std::string why =
-        gap.stretch > too_small
+        gap.stretch > options_.taut
             ? fmt::sprintf("too small: the cloth beside it is stretched by %.0f %%", 100 * gap.stretch)
             : std::string("the body is in the way");
     text += (open == 1 ? "" : "; ") + ("seam " + panels_.seams[static_cast<std::size_t>(gap.seam)].name) +

@@ -197,7 +197,7 @@ TEST(Sewing, AStepThatCollapsesOverTautClothIsBlockedAndNotAFault) {
   step.max_speed_m_per_s = 1e-6;  // no step is accepted
   for (const bool taut : {false, true}) {
     SewingOptions options;
-    if (taut) options.too_small = -1;
+    if (taut) options.taut = -1;
     Sewing sewing(garment, std::span<const Fabric>(&fabric, 1), nullptr, step, options);
     const FrameReport report = sewing.frame();
     EXPECT_FALSE(report.ok);
