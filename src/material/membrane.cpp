@@ -37,8 +37,8 @@ void add_stretch(const Vec3& w, const Vec3& w_dot, double b, double tension, dou
 // The barrier before the strain limit: energy, force and stiffness along the thread; across it, the force over the length.
 void add_limit(const Vec3& w, double b, double tension, double limit, double& energy_J, Vec3& P, Mat3& K) {
   constexpr double last = 0.95;  // y_1
-  const double length = w.norm(), d = 0.5 * limit * b;
-  const double y = (length - b) / d - 1;
+  const double length = w.norm(), from = limited_from(b), d = 0.5 * limit * from;
+  const double y = (length - from) / d - 1;
   if (!(y > 0)) return;
   const double inner = std::min(y, last), beyond = y - inner, left = 1 - inner;
   const double phi = inner * inner * inner / left, phi1 = inner * inner * (3 - 2 * inner) / (left * left),

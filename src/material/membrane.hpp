@@ -14,8 +14,9 @@
 // A thread shorter than b may be softer, k times `compression`: the energy and the force stay continuous, and so does the damping,
 // which keeps the k of tension.  The projected K loses only what it had along the thread.
 //
-// Strain limit (off by default): a thread may not be longer than L = (1 + limit) b.  From half of the limit on, e_0 = b + (L - b)/2, a
-// barrier is added to its energy, with y = (|w| - e_0) / d, d = L - e_0:
+// Strain limit (off by default): a thread may not be longer than L = (1 + limit) c, c = max(b, 1): elastic that is worn is longer than it
+// wants to be, and may be.  From half of the limit on, e_0 = c + (L - c)/2, a barrier is added to its energy, with
+// y = (|w| - e_0) / d, d = L - e_0:
 //   E = k s^2 d^2 phi(y),   phi = y^3 / (1 - y)   up to y_1 = 0.95, and its second-order expansion about y_1 beyond it,
 // so that there is a force to be found wherever a trial step ends; who accepts steps refuses those beyond L.  phi begins with y^3, so the
 // stiffness is continuous; 397 k s^2 d hold a thread at y_1, 1197 at L.
@@ -30,7 +31,7 @@ struct MembraneStiffness {
   double k_u = 0, k_v = 0, k_shear = 0;   // N/m (N/m^3 with paper scaling)
   double tau_stretch = 0, tau_shear = 0;  // s
   double compression = 1;                 // in (0, 1]: k of a thread shorter than b, as part of k
-  double strain_limit = 0;                // of |w|/b - 1; 0: none
+  double strain_limit = 0;                // of |w| / limited_from(b) - 1; 0: none
 };
 
 struct MembraneRest {
@@ -38,6 +39,9 @@ struct MembraneRest {
   double scale2 = 0;        // s^2: area (default) or area^2 (paper scaling)
   double b_u = 1, b_v = 1;  // rest stretch; < 1 pulls the cloth together (elastic)
 };
+
+// c, from which the strain limit of a thread of rest stretch b counts.
+inline double limited_from(double b) { return b > 1 ? b : 1; }
 
 // A symmetric 6x6 matrix over (w_u, w_v).
 struct FMatrix {

@@ -326,12 +326,10 @@ void ImplicitEuler::judge(const StepLimits& limits, const ClothState& candidate,
 // A thread beyond its limit may only get shorter.
 void ImplicitEuler::judge_strain(const StretchChange& largest, StepReport& report) const {
   if (largest.beyond < 0) return;
-  const auto t = static_cast<std::size_t>(largest.beyond);
-  const MembraneRest& rest = model_->membrane[t];
   report.status = StepStatus::beyond_limit;
   report.worst_triangle = largest.beyond;
-  report.strain = std::max(stretch_candidate_[t].x() / rest.b_u, stretch_candidate_[t].y() / rest.b_v) - 1;
-  report.strain_limit = model_->stiffness[t].strain_limit;
+  report.strain = largest.strain;
+  report.strain_limit = model_->stiffness[static_cast<std::size_t>(largest.beyond)].strain_limit;
 }
 
 // Only changes away from the rest length count: a thread that relaxes is not diverging, however fast.  One that is pushed together
@@ -345,11 +343,12 @@ ImplicitEuler::StretchChange ImplicitEuler::largest_stretch_change(const ClothSt
     const double limit = model_->stiffness[t].strain_limit;
     for (Eigen::Index k = 0; k < 2; ++k) {
       const double b = rest[static_cast<std::size_t>(k)], before = stretch_[t][k], after = stretch_candidate_[t][k];
-      if (std::abs(after - b) <= std::abs(before - b)) continue;
-      if (limit > 0 && after > before && after - b > farthest * limit * b) {
-        farthest = (after - b) / (limit * b);
+      if (const double from = limited_from(b); limit > 0 && after > before && after - from > farthest * limit * from) {
+        farthest = (after - from) / (limit * from);
         largest.beyond = static_cast<Index>(t);
+        largest.strain = after / from - 1;
       }
+      if (std::abs(after - b) <= std::abs(before - b)) continue;
       double change = std::abs(after - before);
       if (after < b) change *= std::sqrt(model_->stiffness[t].compression);
       if (change <= largest.change) continue;

@@ -109,6 +109,7 @@ class ImplicitEuler {
     double change = 0;
     Index triangle = -1;
     Index beyond = -1;  // of those that got longer beyond their strain limit, the one farthest beyond
+    double strain = 0;  // of it
   };
   StretchChange largest_stretch_change(const ClothState& candidate);
   void judge(const StepLimits& limits, const ClothState& candidate, StepReport& report);

@@ -25,7 +25,7 @@ struct StepReport {  // what happened, in numbers a log can plot
   FilterReport filter;                  // of the end of the step
   int touching = 0, rows = 0;           // body constraints and contact rows of the last pass
   double stretch_change = 0;            // max over triangles of | |w|' - |w| | away from rest
-  double strain = 0, strain_limit = 0;  // beyond_limit: |w|/b - 1 of a thread of the worst triangle, and what it may be
+  double strain = 0, strain_limit = 0;  // beyond_limit: of a thread of the worst triangle, and what it may be
   Index worst_triangle = -1, worst_particle = -1;
   PcgReport pcg;  // of the last pass
   explicit operator bool() const { return status == StepStatus::accepted; }

@@ -6,8 +6,8 @@
 #include "core/error.hpp"
 #include "material/fabric.hpp"
 #include "material/membrane.hpp"
+#include "material/membrane_derivatives.hpp"
 #include "material/random_elements.hpp"
-#include "support/finite_difference.hpp"
 
 namespace toile {
 namespace {
@@ -27,20 +27,9 @@ TEST(Compression, ForceAndStiffnessAreTheDerivativesOfTheEnergyAwayFromTheKink) 
     squeezed += w_u.norm() < t.membrane.b_u ? 1 : 0;
     const std::array<Vec3, 3> x = deformed(t, w_u, w_v, Vec3::Zero());
     const double length = t.size * std::min({w_u.norm(), w_v.norm(), to_kink});
-    const auto response = [&](const Eigen::VectorXd& at) {
-      return membrane_response(t.membrane, k, corners<3>(at), at_rest, DampingJacobian::gauss_newton, Projection::none);
-    };
-    const auto energy = [&](const Eigen::VectorXd& at) {
-      return Eigen::VectorXd::Constant(1, response(at).energy_J).eval();
-    };
-    const auto force = [&](const Eigen::VectorXd& at) {
-      const MembraneResponse r = response(at);
-      return flat(corner_forces(t, r.P_u, r.P_v));
-    };
-    const MembraneResponse r = response(flat(x));
-    const Eigen::VectorXd gradient = -flat(corner_forces(t, r.P_u, r.P_v));
-    ASSERT_LT(relative_error(gradient, finite_difference(energy, flat(x), length).derivative.transpose()), 1e-6) << n;
-    ASSERT_LT(relative_error(expand(t, r.K), -finite_difference(force, flat(x), length).derivative), 1e-6) << n;
+    SCOPED_TRACE(n);
+    expect_derivatives_of_the_energy(t, k, x, length, 1e-6);
+    if (testing::Test::HasFailure()) return;
   }
   EXPECT_GT(squeezed, 100);
 }

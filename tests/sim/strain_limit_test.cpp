@@ -91,6 +91,17 @@ TEST(StrainLimitRun, IsNotPaidForWithACrossing) {
   EXPECT_EQ(limited.report.audit.cloth_body_edges.max, 0);
 }
 
+// A waistband that wants to be a fifth shorter, held at the length to which it was cut.
+TEST(StrainLimitRun, LeavesElasticItsStretch) {
+  const Result elastic = run(R"({"cloth": [{"name": "band", "grid": {"width_m": 0.4, "height_m": 0.1, "edge_m": 0.03},
+      "fabric": {"base": "silk", "strain_limit": 0.02}, "panels": {"band": {"rest_stretch_u": 0.8, "rest_stretch_v": 0.8}},
+      "pins": [{"in_box_m": [[-0.21, -1, -1], [-0.19, 1, 1]]}, {"in_box_m": [[0.19, -1, -1], [0.21, 1, 1]]}]}],
+    "time": {"seconds": 1}})");
+  EXPECT_EQ(elastic.report.ended, "time");
+  EXPECT_EQ(elastic.report.drape.steps_rejected, 0);
+  EXPECT_LE(elastic.longest, 0.02 + of_float);
+}
+
 TEST(StrainLimitRun, ContradictingPinsAreDiagnosed) {
   const Result torn = run(R"({"cloth": [{"name": "flag", "grid": {"width_m": 0.4, "height_m": 0.2, "edge_m": 0.04},
       "fabric": {"base": "silk", "strain_limit": 0.01},

@@ -157,5 +157,35 @@ TEST(Relinearise, ASqueezeCountsByItsEnergy) {
   EXPECT_NEAR(squeeze(0.1, 0.15).stretch_change, 0.15 * std::sqrt(0.1), 1e-9);
 }
 
+// From a squeeze of 8 % to a stretch of 6 %: nearer to its rest length than before, and still beyond a limit of 5 %.
+TEST(StrainLimitStep, AThreadBeyondItsLimitIsRefusedFromWhereverItComes) {
+  const auto lead = [](double limit, double from, double to, double b = 1) {
+    Fabric fabric;
+    fabric.strain_limit = limit;
+    ClothRun run(test::equilateral_sheet(0.1, 0.1, 0.02), fabric, weightless());
+    set_panel_rest_stretch(run.model, 0, Vec2(b, b));
+    for (std::size_t i = 0; i < run.state.x.size(); ++i) {  // every particle is led, so that the end is known
+      const Vec3 drawn = run.state.x[i];
+      Pin pin;
+      pin.particle = static_cast<Index>(i);
+      const Vec3 end(to * drawn.x(), drawn.y(), drawn.z());
+      pin.path = [end](double) -> Vec3 { return end; };
+      run.world.pins.push_back(pin);
+      run.state.x[i].x() = from * drawn.x();
+    }
+    return attempt(run, 1.0 / 60, 0).report;
+  };
+  const StepReport beyond = lead(0.05, 0.92, 1.06);
+  EXPECT_EQ(beyond.status, StepStatus::beyond_limit);
+  EXPECT_NEAR(beyond.strain, 0.06, 1e-9);
+  EXPECT_EQ(beyond.strain_limit, 0.05);
+  EXPECT_NE(beyond.explain().find("by 6 %, its limit is 5 %"), std::string::npos) << beyond.explain();
+  EXPECT_TRUE(lead(0.07, 0.92, 1.06));
+  EXPECT_TRUE(lead(0, 0.92, 1.06));
+  EXPECT_TRUE(lead(0.05, 1.08, 1.06)) << "beyond it already, and shorter than before";
+  EXPECT_TRUE(lead(0.05, 1, 1.04, 0.8)) << "elastic counts from its length as cut";
+  EXPECT_EQ(lead(0.05, 1.02, 1.06, 0.8).status, StepStatus::beyond_limit);
+}
+
 }  // namespace
 }  // namespace toile
