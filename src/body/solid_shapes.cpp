@@ -4,6 +4,7 @@
 #include "core/elementary.hpp"
 #include "core/error.hpp"
 
+#include <fmt/printf.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -26,17 +27,28 @@ double signed_volume(const SolidMesh& solid) {
   return six / 6;
 }
 
+// How many pieces of at most edge_m a side of the outline is cut into.
+double pieces_of(const Vec2& from, const Vec2& to, double edge_m) {
+  return std::max(1.0, std::ceil((to - from).norm() / edge_m - 1e-9));
+}
+
 // The outline cut into pieces of at most edge_m.
 std::vector<Vec2> cut(std::span<const Vec2> profile, bool closed, double edge_m) {
   std::vector<Vec2> points;
   const std::size_t sides = closed ? profile.size() : profile.size() - 1;
   for (std::size_t k = 0; k < sides; ++k) {
     const Vec2 &from = profile[k], &to = profile[(k + 1) % profile.size()];
-    const double pieces = std::max(1.0, std::ceil((to - from).norm() / edge_m - 1e-9));
+    const double pieces = pieces_of(from, to, edge_m);
     for (int i = 0; i < static_cast<int>(pieces); ++i) points.push_back(from + (i / pieces) * (to - from));
   }
   if (!closed) points.push_back(profile.back());
   return points;
+}
+
+void check_count(double triangles) {
+  if (triangles > static_cast<double>(most_solid_triangles))
+    throw InputError("", "edge_m", fmt::sprintf("at most %d triangles", static_cast<int>(most_solid_triangles)),
+                     fmt::sprintf("at least %.0f", triangles));
 }
 
 [[noreturn]] void bad_profile(const char* expected, const std::string& got) {
@@ -106,13 +118,13 @@ SolidMesh ball(double radius_m, double edge_m) {
   SolidMesh solid;
   solid.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   solid.triangles = {{2, 4, 0}, {2, 0, 5}, {2, 5, 1}, {2, 1, 4}, {3, 0, 4}, {3, 5, 0}, {3, 1, 5}, {3, 4, 1}};
-  constexpr int most_halvings = 8;
-  for (int halving = 0; halving < most_halvings; ++halving) {
+  for (;;) {
     double longest = 0;
     for (const Triangle& t : solid.triangles)
       for (std::size_t k = 0; k < 3; ++k)
         longest = std::max(longest, (solid.positions[at(t[k])] - solid.positions[at(t[(k + 1) % 3])]).norm());
     if (radius_m * longest <= edge_m) break;
+    check_count(4.0 * static_cast<double>(solid.triangles.size()));
     std::map<std::pair<Index, Index>, Index> middles;
     const auto middle = [&](Index a, Index b) {
       const auto [place, added] = middles.try_emplace(std::minmax(a, b), static_cast<Index>(solid.positions.size()));
@@ -146,10 +158,15 @@ SolidMesh block(const Vec3& size_m) {
 
 SolidMesh revolved(std::span<const Vec2> profile_m, double edge_m) {
   const bool closed = check_profile(profile_m);
+  double widest = 0, along = 0;
+  for (std::size_t k = 0; k < profile_m.size(); ++k) {
+    widest = std::max(widest, profile_m[k].x());
+    if (closed || k > 0) along += pieces_of(profile_m[k], profile_m[k == 0 ? profile_m.size() - 1 : k - 1], edge_m);
+  }
+  const double pieces_around = std::max(6.0, std::ceil(2 * std::numbers::pi * widest / edge_m));
+  check_count(2 * (along - (closed ? 0 : 1)) * pieces_around);
+  const auto around = static_cast<Index>(pieces_around);
   const std::vector<Vec2> outline = cut(profile_m, closed, edge_m);
-  double widest = 0;
-  for (const Vec2& p : outline) widest = std::max(widest, p.x());
-  const auto around = static_cast<Index>(std::clamp(std::ceil(2 * std::numbers::pi * widest / edge_m), 6.0, 4096.0));
   SolidMesh solid;
   std::vector<Index> first;  // [point of the outline] its vertex at angle 0
   for (const Vec2& p : outline) {
@@ -176,6 +193,20 @@ SolidMesh revolved(std::span<const Vec2> profile_m, double edge_m) {
     }
   }
   if (signed_volume(solid) < 0) turn_inside_out(solid);
+  return solid;
+}
+
+SolidMesh whole_of(const ObjMesh& mesh) {
+  std::vector<Index> place(mesh.positions.size(), -1);
+  for (const Triangle& t : mesh.triangles)
+    for (const Index v : t) place[at(v)] = 0;
+  SolidMesh solid;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    if (place[i] < 0) continue;
+    place[i] = static_cast<Index>(solid.positions.size());
+    solid.positions.push_back(mesh.positions[i]);
+  }
+  for (const auto& [a, b, c] : mesh.triangles) solid.triangles.push_back({place[at(a)], place[at(b)], place[at(c)]});
   return solid;
 }
 

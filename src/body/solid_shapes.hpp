@@ -2,7 +2,9 @@
 // Lengths in metres, > 0.
 #pragma once
 #include "core/types.hpp"
+#include "io/obj.hpp"
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -17,6 +19,9 @@ struct SolidMesh {
 // counts [BW98 8].  `top` is the middle of the upper cap.
 SolidMesh rounded_cylinder(double radius_m, double height_m, const Vec3& top);
 
+// More in one solid is an InputError("", "edge_m", ...), before any is made.
+inline constexpr std::size_t most_solid_triangles = 2'000'000;
+
 // Around the origin: an octahedron halved until no edge is longer than `edge_m`.  Corners lie on the sphere.
 SolidMesh ball(double radius_m, double edge_m);
 
@@ -29,6 +34,9 @@ SolidMesh block(const Vec3& size_m);
 // Throws InputError("", "profile", ...) for fewer than three points, a distance below 0, points that coincide, an outline
 // that touches the axis between its ends, or has one end on it.
 SolidMesh revolved(std::span<const Vec2> profile_m, double edge_m);
+
+// Everything in the file, however many parts it has; vertices that no triangle uses go.  Who takes it checks it.
+SolidMesh whole_of(const ObjMesh& mesh);
 
 // A room: the same surface seen from inside.
 void turn_inside_out(SolidMesh& solid);

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "io/file.hpp"
 #include "io/obj.hpp"
+#include "mesh/check.hpp"
 #include "sim/setup.hpp"
 
 #include <fmt/printf.h>
@@ -93,28 +94,44 @@ SolidMesh shape_of(const SceneSolid& solid, Hash& inputs) {
     SolidMesh operator()(const SceneSolid::Sphere& sphere) const { return ball(sphere.radius_m, solid.edge_m); }
     SolidMesh operator()(const SceneSolid::Box& box) const { return block(box.size_m); }
     SolidMesh operator()(const SceneSolid::Revolved& revolved) const {
-      try {
-        return toile::revolved(revolved.profile_m, solid.edge_m);
-      } catch (const InputError& error) {
-        throw Error(error.code(), solid.where + ": " + solid.pointer + "/revolved: " + error.what());
-      }
+      return toile::revolved(revolved.profile_m, solid.edge_m);
     }
     SolidMesh operator()(const SceneSolid::Mesh& mesh) const {
-      const std::string text = read_file(mesh.path);
+      const std::string text = read_file(mesh.path), file = printable(mesh.path);
       inputs.add_bytes(text.data(), text.size());
-      CollisionBody read = make_collision_body(parse_obj(text, printable(mesh.path)), printable(mesh.path), mesh.unit);
-      check_areas(printable(mesh.path), read.positions, read.triangles);
-      return {std::move(read.positions), std::move(read.triangles)};
+      SolidMesh read = whole_of(parse_obj(text, file));
+      check_closed(file, read.positions, read.triangles);
+      check_areas(file, read.positions, read.triangles);
+      return read;
     }
   };
-  SolidMesh shape = std::visit(Make{solid, inputs}, solid.shape);
+  SolidMesh shape;
+  try {
+    shape = std::visit(Make{solid, inputs}, solid.shape);
+  } catch (const InputError& error) {
+    if (std::holds_alternative<SceneSolid::Mesh>(solid.shape)) throw;  // names its own file
+    throw Error(error.code(), solid.where + ": " + solid.pointer + ": " + error.what());
+  }
   if (solid.inside_out) turn_inside_out(shape);
   const Mat3 turn = rotation_from_degrees(solid.rotation_deg);
-  for (Vec3& x : shape.positions) x = turn * x + solid.translation_m;
+  double reach_m = 0;
+  for (Vec3& x : shape.positions) {
+    reach_m = std::max(reach_m, x.norm());
+    x = turn * x + solid.translation_m;
+  }
+  check_speed(solid.moves, reach_m, solid.where, solid.pointer);
   return shape;
 }
 
 }  // namespace
+
+void check_speed(const RigidPath& moves, double reach_m, std::string_view where, std::string_view pointer) {
+  const auto [key, m_per_s] = moves.fastest(reach_m);
+  if (m_per_s > most_led_m_per_s)
+    throw InputError(where, std::string(pointer) + "/moves/" + std::to_string(key),
+                     fmt::sprintf("no point faster than %g m/s from the key before", most_led_m_per_s),
+                     fmt::sprintf("up to %.4g m/s", m_per_s));
+}
 
 void add_solids(std::span<const SceneSolid> solids, LoadedBody& body, Hash& inputs) {
   struct Part {

@@ -3,7 +3,8 @@
 #include "garment/pattern.hpp"
 
 #include <algorithm>
-#include <cstddef>
+#include <cmath>
+#include <numbers>
 
 namespace toile {
 
@@ -24,6 +25,20 @@ RigidKey RigidPath::at(double t_s) const {
             r * from.scale + s * to.scale};
   }
   return keys_.back();
+}
+
+// d/dt (shift + s R r) is at most |shift'| + (|s'| + s |omega|) |r|, and omega at most the sum of the three angles' rates.
+RigidPath::Fastest RigidPath::fastest(double reach_m) const {
+  Fastest most;
+  for (std::size_t k = 1; k < keys_.size(); ++k) {
+    const RigidKey &from = keys_[k - 1], &to = keys_[k];
+    const double turn = std::numbers::pi / 180 * (to.rotation_deg - from.rotation_deg).lpNorm<1>(),
+                 size = std::max(from.scale, to.scale), growth = std::abs(to.scale - from.scale);
+    const double m_per_s =
+        ((to.shift_m - from.shift_m).norm() + (growth + size * turn) * reach_m) / (to.t_s - from.t_s);
+    if (m_per_s > most.m_per_s) most = {k, m_per_s};
+  }
+  return most;
 }
 
 void RigidPath::place(double t_s, std::span<const Vec3> x, std::span<Vec3> placed) const {

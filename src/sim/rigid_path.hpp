@@ -6,11 +6,15 @@
 #pragma once
 #include "core/types.hpp"
 
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace toile {
+
+// Nothing that a scene leads is faster: contacts are found along straight ways within a step.
+inline constexpr double most_led_m_per_s = 100;
 
 struct RigidKey {
   double t_s = 0;
@@ -32,6 +36,13 @@ class RigidPath {
   const std::vector<RigidKey>& keys() const { return keys_; }
   const Vec3& centre() const { return centre_; }
   double duration_s() const { return keys_.empty() ? 0 : keys_.back().t_s; }
+
+  // The fastest piece, by the key at its end: no point that was within `reach_m` of the centre is faster on it.
+  struct Fastest {
+    std::size_t key = 0;
+    double m_per_s = 0;
+  };
+  Fastest fastest(double reach_m) const;
 
   // Where it has taken what was at `x` before it began; a whole surface at once, or a point.
   void place(double t_s, std::span<const Vec3> x, std::span<Vec3> placed) const;

@@ -143,8 +143,7 @@ struct SceneSolid {
     std::vector<Vec2> profile_m;
   };
   struct Mesh {
-    std::string path;  // resolved
-    LengthUnit unit = LengthUnit::m;
+    std::string path;  // resolved; in metres
   };
   std::variant<Sphere, Box, Revolved, Mesh> shape;
   double edge_m = 0.02;     // of curved shapes

@@ -1,6 +1,8 @@
 // sim/scene_cloth.cpp: reads one cloth of a scene: its shape, fabric, pins and hands.
 #include "sim/scene_reading.hpp"
 
+#include <fmt/printf.h>
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -55,6 +57,9 @@ std::vector<ScenePin::Key> read_path(const Json& path) {
     ScenePin::Key at{number_in(key.array()[0], 0, most_seconds), {}};
     for (std::size_t k = 0; k < 3; ++k) at.x_m[static_cast<Eigen::Index>(k)] = number_in(key.array()[k + 1], -1e4, 1e4);
     if (!keys.empty() && !(at.t_s > keys.back().t_s)) key.fail("times that ascend", "a time not after the one before");
+    if (const double m_per_s = keys.empty() ? 0 : (at.x_m - keys.back().x_m).norm() / (at.t_s - keys.back().t_s);
+        m_per_s > most_led_m_per_s)
+      key.fail(fmt::sprintf("at most %g m/s from the key before", most_led_m_per_s), fmt::sprintf("%.4g m/s", m_per_s));
     keys.push_back(at);
   }
   if (keys.empty()) path.fail("at least one [t_s, x, y, z]", "an empty array");

@@ -116,6 +116,9 @@ std::vector<TimedPin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) 
               "particle " + std::to_string(i) + ", held by pin " + std::to_string(holder[at(i)]) + " already");
       holder[at(i)] = k;
     }
+    double reach_m = 0;
+    for (const Index i : held) reach_m = std::max(reach_m, (x[at(i)] - given.moves.centre()).norm());
+    check_speed(given.moves, reach_m, given.where, given.pointer);
     for (const Index i : held) {
       TimedPin timed;
       timed.from_s = given.from_s;

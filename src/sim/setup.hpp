@@ -30,6 +30,9 @@ LoadedBody load_body(const SceneBody& body, Hash& inputs);
 // Puts the solids beside the body; they move with its motion, or by themselves.
 void add_solids(std::span<const SceneSolid> solids, LoadedBody& body, Hash& inputs);
 
+// Throws InputError("<where>", "<pointer>/moves/2", ...) for moves that lead what is within `reach_m` of their centre faster than
+// most_led_m_per_s.
+void check_speed(const RigidPath& moves, double reach_m, std::string_view where, std::string_view pointer);
 // Throws InputError for the first triangle whose corners lie on a line.
 void check_areas(std::string_view file, std::span<const Vec3> positions, std::span<const Triangle> triangles);
 

@@ -103,5 +103,42 @@ TEST(SolidShapes, RefuseAnOutlineThatMakesNoSolid) {
   }
 }
 
+TEST(SolidShapes, AreAsFineAsAskedOrRefused) {
+  const std::vector<Vec2> hoop = {{10, 0}, {10.005, 0}, {10, 0.005}};
+  const SolidMesh fine = revolved(hoop, 0.008);
+  EXPECT_EQ(fine.positions.size(), 3u * 7858u) << "2 pi 10.005 / 0.008 around";
+  EXPECT_EQ(fine.triangles.size(), 2 * fine.positions.size());
+  const auto refused = [](const auto& make) {
+    try {
+      make();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(
+      refused([] { return ball(1, 1e-3); }).find("edge_m: expected at most 2000000 triangles, got at least 2097152"),
+      std::string::npos);
+  EXPECT_NE(refused([&] { return revolved(hoop, 5e-5); }).find("edge_m"), std::string::npos);
+  const std::vector<Vec2> needle = {{0, 0}, {1e-3, 50}, {0, 100}};
+  EXPECT_NE(refused([&] { return revolved(needle, 1e-5); }).find("edge_m"), std::string::npos);
+}
+
+TEST(SolidShapes, AFileIsTakenWhole) {  // parts that a body would not have too
+  ObjMesh file;
+  const SolidMesh large = block(Vec3(1, 1, 1)), small = block(Vec3(0.01, 0.01, 0.01));
+  file.positions.push_back(Vec3(7, 7, 7));  // used by no face
+  for (const SolidMesh& part : {large, small}) {
+    const auto first = static_cast<Index>(file.positions.size());
+    for (const Vec3& x : part.positions) file.positions.push_back(x + Vec3(2.0 * first, 0, 0));
+    for (const auto& [a, b, c] : part.triangles) file.triangles.push_back({a + first, b + first, c + first});
+  }
+  const SolidMesh whole = whole_of(file);
+  check_closed("whole", whole.positions, whole.triangles);
+  EXPECT_EQ(whole.positions.size(), 16u);
+  EXPECT_EQ(whole.positions.front(), file.positions[1]);
+  EXPECT_NEAR(volume(whole), 1 + 1e-6, 1e-12);
+}
+
 }  // namespace
 }  // namespace toile

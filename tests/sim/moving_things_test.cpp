@@ -67,6 +67,46 @@ TEST(MovingThings, ASolidThatRisesTakesTheClothAlong) {
   EXPECT_LT(top, 0.515);
 }
 
+TEST(MovingThings, ASolidGrowsAboutItsOwnPlace) {
+  const Frames frames = run(R"({
+    "cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05}, "pins": [{"near_m": [0, 0.1, 0]}]}],
+    "solids": [{"box": {"size_m": [0.2, 0.2, 0.2]}, "placement": {"translation_m": [2, 1, 0], "rotation_deg": [0, 0, 45]},
+                "moves": [{"t_s": 0}, {"t_s": 0.1, "scale": 1.5}]}],
+    "time": {"seconds": 0.2}})");
+  EXPECT_TRUE(frames.report.verdict.pass);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Vec3 from = frames.body.front()[i] - Vec3(2, 1, 0);
+    EXPECT_NEAR(from.norm(), std::sqrt(0.03), 1e-6);
+    EXPECT_LT((frames.body.back()[i] - Vec3(2, 1, 0) - 1.5 * from).norm(), 1e-6);
+  }
+}
+
+TEST(MovingThings, WhatNoStepCouldFollowIsRefusedBeforeTheRun) {
+  const auto refusal = [](const std::string& what) {
+    try {
+      run(R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05})" + what +
+          R"(], "time": {"seconds": 0.1}})");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("(accepted)");
+  };
+  const std::string ball =
+      R"(}], "solids": [{"sphere": {"radius_m": 0.5}, "placement": {"translation_m": [9, 0, 0]}, )";
+  EXPECT_NE(
+      refusal(ball + R"("moves": [{"t_s": 0}, {"t_s": 1}, {"t_s": 1.001, "shift_m": [0, 0.2, 0]}]})")
+          .find("/solids/0/moves/2: expected no point faster than 100 m/s from the key before, got up to 200 m/s"),
+      std::string::npos);
+  EXPECT_NE(refusal(ball + R"("moves": [{"t_s": 0}, {"t_s": 1, "rotation_deg": [0, 36000, 0]}]})").find("/moves/1"),
+            std::string::npos);
+  EXPECT_NE(refusal(ball + R"("edge_m": 0.0005})").find("/solids/0: edge_m: expected at most 2000000 triangles"),
+            std::string::npos);
+  EXPECT_NE(refusal(R"(, "pins": [{"near_m": [0.1, 0.1, 0], "hold": "moves", "about_m": [0.1, 0, 0],
+                        "moves": [{"t_s": 0}, {"t_s": 0.01, "rotation_deg": [0, 0, 900]}]}]})")
+                .find("/cloth/0/pins/0/moves/1"),
+            std::string::npos);
+}
+
 TEST(MovingThings, WhatIsHeldTurnsExactlyUntilItIsLetGo) {
   const Frames frames = run(R"({
     "cloth": [{"grid": {"width_m": 0.4, "height_m": 0.4, "edge_m": 0.05},

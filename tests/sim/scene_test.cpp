@@ -147,6 +147,8 @@ TEST(Scene, RefusesShapesAndSolidsThatAreNone) {
   expect_refused(with_pin(R"("near_m": [0, 0, 0], "hold": "moves", "moves": [{"t_s": 1}, {"t_s": 1}])"),
                  {"/moves/1/t_s", "ascend"});
   expect_refused(with_pin(R"("near_m": [0, 0, 0], "from_s": 2, "to_s": 1)"), {"/pins/0", "lets go after"});
+  expect_refused(with_pin(R"("near_m": [0, 0, 0], "hold": "path", "path_m": [[0, 0, 0, 0], [0.1, 0, 11, 0]])"),
+                 {"/pins/0/path_m/1", "at most 100 m/s", "got 110 m/s"});
   expect_refused(with_solid(""), {"/solids/0", "none of them"});
   expect_refused(with_solid(R"("sphere": {"radius_m": 1}, "box": {"size_m": [1, 1, 1]})"), {"/solids/0", "2 of them"});
   expect_refused(with_solid(R"("sphere": {})"), {"/solids/0/sphere", "radius_m"});
