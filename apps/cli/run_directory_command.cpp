@@ -47,6 +47,7 @@ std::string as_json(const VerifyReport& audit, const Verdict& verdict) {
   json.key("penetrations");
   json.begin_object();
   add_count(json, "cloth_body_edges", audit.cloth_body_edges);
+  add_count(json, "cloth_body_edges_outside_pinches", audit.outside_pinches);
   add_count(json, "cloth_cloth_edges", audit.cloth_cloth_edges);
   json.end_object();
   json.key("stretch");
@@ -91,6 +92,7 @@ std::string as_text(const std::string& directory, const VerifyReport& audit, con
                         count.max, count.frames);
   };
   if (audit.has_body) line("cloth and body", audit.cloth_body_edges);
+  if (audit.cloth_body_edges.frames > 0) line("of them where the body leaves room", audit.outside_pinches);
   line("cloth and cloth", audit.cloth_cloth_edges);
   out += fmt::sprintf("  stretch p50 %.2f %%, p99 %.2f %%, max %.2f %%; shear p99 %.1f degrees; still %.2f mm/s\n",
                       100 * audit.stretch.p50, 100 * audit.stretch.p99, 100 * audit.stretch.max,

@@ -122,6 +122,7 @@ void add_measurements(JsonText& text, const Report& report) {
   text.key("penetrations");
   text.begin_object();
   add(text, "cloth_body_edges", report.audit.cloth_body_edges);
+  add(text, "cloth_body_edges_outside_pinches", report.audit.outside_pinches);
   add(text, "cloth_cloth_edges", report.audit.cloth_cloth_edges);
   text.end_object();
   text.key("gap_mm");

@@ -5,6 +5,7 @@
 #include "io/json.hpp"
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
+#include "verify/pinch.hpp"
 #include "verify/surface.hpp"
 #include "verify/verdict.hpp"
 
@@ -111,7 +112,7 @@ void RunAudit::add(std::span<const Vec3> x, std::span<const Vec3> body_x) {
   const bool finite = all_finite(x) && all_finite(body_x);
   report_.last_body_crossings.clear();
   report_.last_cloth_crossings.clear();
-  report_.cloth_body_edges.last = report_.cloth_cloth_edges.last = 0;
+  report_.cloth_body_edges.last = report_.outside_pinches.last = report_.cloth_cloth_edges.last = 0;
   if (finite) {
     jitter_.add(x, body_x);
     CrossingSearch::Found found = crossings_.find(x, body_x);
@@ -119,6 +120,9 @@ void RunAudit::add(std::span<const Vec3> x, std::span<const Vec3> body_x) {
     report_.last_body_crossings = std::move(found.of_body);
     count(report_.last_cloth_crossings, frame, report_.cloth_cloth_edges, report_.first_cloth_crossing_frame);
     count(report_.last_body_crossings, frame, report_.cloth_body_edges, report_.first_body_crossing_frame);
+    Index first_outside = -1;
+    count(outside_pinches(report_.last_body_crossings, run_.mesh.triangles, x, run_.body_triangles, body_x), frame,
+          report_.outside_pinches, first_outside);
   } else {
     jitter_.skip();
     if (report_.finite) report_.first_bad_frame = frame;

@@ -6,6 +6,7 @@
 //
 //   predicates.hpp   signs, exactly                      crossings.hpp    edges through triangles
 //   box_tree.hpp     candidates                          statistics.hpp   stretch, shear, gap, speed
+//   winding.hpp      inside or outside                   pinch.hpp        where a body leaves no room
 //   jitter.hpp       trembling                           verdict.hpp      pass or fail, and why
 //   verify.hpp       a run, frame by frame
 //
@@ -37,6 +38,7 @@ struct VerifyReport {
   Index first_bad_frame = -1;  // the first with a value that is not finite; such frames are measured no further
   bool has_body = false;
   PenetrationCount cloth_body_edges;  // cloth edges through the body and body edges through the cloth
+  PenetrationCount outside_pinches;   // of those, where the body itself leaves room (verify/pinch.hpp)
   PenetrationCount cloth_cloth_edges;
   Index first_body_crossing_frame = -1, first_cloth_crossing_frame = -1;
   StretchStatistics stretch;      // last frame

@@ -1,0 +1,90 @@
+#include "verify/winding.hpp"
+
+#include "verify/predicates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+namespace toile {
+namespace {
+
+using Side = std::array<Index, 2>;
+
+// Triangles and positions.
+std::pair<std::vector<Triangle>, Vec3s> close_holes(std::span<const Triangle> triangles, std::span<const Vec3> x) {
+  std::pair<std::vector<Triangle>, Vec3s> closed{{triangles.begin(), triangles.end()}, {x.begin(), x.end()}};
+  std::vector<Side> sides, reversed;
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      sides.push_back({t[k], t[(k + 1) % 3]});
+      reversed.push_back({t[(k + 1) % 3], t[k]});
+    }
+  std::sort(sides.begin(), sides.end());
+  std::sort(reversed.begin(), reversed.end());
+  // As chains the boundary is sides - reversed, each pair twice: the half of it that runs along a triangle.
+  std::vector<Side> boundary;
+  std::set_difference(sides.begin(), sides.end(), reversed.begin(), reversed.end(), std::back_inserter(boundary));
+  if (boundary.empty()) return closed;
+
+  // One fan per connected piece of the boundary.  The boundary of a fan around any point is the piece itself, reversed.
+  std::vector<Index> root(x.size());
+  for (std::size_t i = 0; i < root.size(); ++i) root[i] = static_cast<Index>(i);
+  const auto find = [&](Index i) {
+    while (root[static_cast<std::size_t>(i)] != i) {
+      root[static_cast<std::size_t>(i)] = root[static_cast<std::size_t>(root[static_cast<std::size_t>(i)])];
+      i = root[static_cast<std::size_t>(i)];
+    }
+    return i;
+  };
+  for (const auto& [a, b] : boundary) {
+    const Index root_a = find(a), root_b = find(b);
+    root[static_cast<std::size_t>(std::max(root_a, root_b))] = std::min(root_a, root_b);
+  }
+  std::vector<Index> middle(x.size(), -1);
+  std::vector<int> members(x.size(), 0);
+  for (const auto& [a, b] : boundary) {
+    const auto piece = static_cast<std::size_t>(find(a));
+    if (middle[piece] < 0) {
+      middle[piece] = static_cast<Index>(closed.second.size());
+      closed.second.push_back(Vec3::Zero());
+    }
+    closed.second[static_cast<std::size_t>(middle[piece])] += x[static_cast<std::size_t>(a)];
+    ++members[piece];
+    closed.first.push_back({b, a, middle[piece]});
+  }
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (middle[i] >= 0) closed.second[static_cast<std::size_t>(middle[i])] /= members[i];
+  return closed;
+}
+
+}  // namespace
+
+ClosedSurface::ClosedSurface(std::span<const Triangle> triangles, std::span<const Vec3> x)
+    : ClosedSurface(close_holes(triangles, x)) {}
+
+ClosedSurface::ClosedSurface(std::pair<std::vector<Triangle>, Vec3s> closed)
+    : triangles_(std::move(closed.first)), x_(std::move(closed.second)), tree_(triangles_, x_) {}
+
+// Crossings of the ray from p upwards, with their direction.
+int ClosedSurface::winding_number(const Vec3& p) const {
+  const ExactBox bounds = tree_.bounds();
+  Vec3 far = p;
+  far.y() = std::max(p.y(), bounds.high.y()) + std::max(1.0, bounds.high.y() - bounds.low.y());
+  ExactBox ray;
+  ray.add(p);
+  ray.add(far);
+  const auto particles = static_cast<std::int64_t>(x_.size());
+  const RankedPoint from{p, particles}, to{far, particles + 1};
+  int winding = 0;
+  tree_.visit_meeting(ray, [&](Index t) {
+    const auto [i, j, k] = triangles_[static_cast<std::size_t>(t)];
+    const RankedPoint a{x_[static_cast<std::size_t>(i)], i}, b{x_[static_cast<std::size_t>(j)], j},
+        c{x_[static_cast<std::size_t>(k)], k};
+    if (segment_crosses_triangle(from, to, a, b, c)) winding += orient3d_perturbed(a, b, c, from);
+  });
+  return winding;
+}
+
+}  // namespace toile

@@ -1,0 +1,126 @@
+// Which crossings lie where the body itself leaves no room.
+#include "verify/pinch.hpp"
+
+#include "verify/winding.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace toile {
+namespace {
+
+struct Solid {
+  std::vector<Vec3> x;
+  std::vector<Triangle> triangles;
+
+  // 60 x 60 cm, its top at the height `top_m`.
+  void add_slab(double top_m, double thickness_m) {
+    const auto first = static_cast<Index>(x.size());
+    for (const double y : {top_m - thickness_m, top_m})
+      for (const double z : {-0.3, 0.3})
+        for (const double u : {-0.3, 0.3}) x.emplace_back(u, y, z);
+    // Corners: bit 0 = x, bit 1 = z, bit 2 = y.
+    for (const auto& [a, b, c] : {Triangle{4, 6, 5},
+                                  {5, 6, 7},
+                                  {0, 1, 2},
+                                  {1, 3, 2},
+                                  {0, 4, 1},
+                                  {1, 4, 5},
+                                  {2, 3, 6},
+                                  {3, 7, 6},
+                                  {0, 2, 4},
+                                  {2, 6, 4},
+                                  {1, 5, 3},
+                                  {3, 5, 7}})
+      triangles.push_back({a + first, b + first, c + first});
+  }
+};
+
+// 10 cm thick: the lower one's top at 0, the upper one's bottom at `gap_m`.
+struct Slabs : Solid {
+  explicit Slabs(double gap_m) {
+    add_slab(0, 0.1);
+    add_slab(gap_m + 0.1, 0.1);
+  }
+  // Of one triangle whose tip, at `tip`, pokes into something from 1 cm above it.
+  std::size_t outside(const Vec3& tip, int& all) const {
+    const std::vector<Vec3> cloth = {tip, tip + Vec3(0.011, 0.01, 0.003), tip + Vec3(-0.007, 0.01, 0.004)};
+    const std::vector<Triangle> one = {{0, 1, 2}};
+    const std::vector<Crossing> crossings = find_body_crossings(one, cloth, triangles, x);
+    all = static_cast<int>(crossings.size());
+    return outside_pinches(crossings, one, cloth, triangles, x).size();
+  }
+};
+
+TEST(Pinches, ACrossingWithinAnotherPartOfTheBodyLiesInOne) {
+  int all = 0;
+  EXPECT_EQ(Slabs(-0.03).outside(Vec3(0.1, -0.005, 0.05), all), 0u)
+      << "through the lower one's top, within the upper one";
+  EXPECT_GT(all, 0);
+  EXPECT_EQ(Slabs(-0.03).outside(Vec3(0.1, -0.035, 0.05), all), 0u)
+      << "through the upper one's bottom, within the lower one";
+  EXPECT_GT(all, 0);
+}
+
+TEST(Pinches, ACrossingBeforeANearFaceThatLooksBackLiesInOne) {
+  int all = 0;
+  EXPECT_EQ(Slabs(0.004).outside(Vec3(0.1, -0.009, 0.05), all), 0u);
+  EXPECT_GT(all, 0);
+}
+
+TEST(Pinches, WhereTheBodyLeavesRoomThereIsNone) {
+  int all = 0;
+  EXPECT_GT(Slabs(0.02).outside(Vec3(0.1, -0.005, 0.05), all), 0u) << "2 cm of room";
+  EXPECT_GT(Slabs(-0.03).outside(Vec3(0.1, 0.065, 0.05), all), 0u) << "the upper one's top";
+  EXPECT_GT(Slabs(1).outside(Vec3(0.1, -0.005, 0.05), all), 0u);
+  // The back of a thin thing is nearer than 5 mm, and looks away.
+  Solid plate;
+  plate.add_slab(0, 0.002);
+  const std::vector<Vec3> cloth = {{0.1, -0.001, 0.05}, {0.11, 0.01, 0.05}, {0.09, 0.01, 0.06}};
+  const std::vector<Triangle> one = {{0, 1, 2}};
+  const std::vector<Crossing> crossings = find_body_crossings(one, cloth, plate.triangles, plate.x);
+  ASSERT_GT(crossings.size(), 0u);
+  EXPECT_EQ(outside_pinches(crossings, one, cloth, plate.triangles, plate.x).size(), crossings.size());
+}
+
+TEST(Pinches, AnEdgeThatLeadsOutOfOneHasToComeOutSomewhere) {
+  // From within both slabs, which overlap by 3 cm, past the rim at x = 0.3, through the lower one's side.
+  const Slabs slabs(-0.03);
+  const std::vector<Vec3> cloth = {{0.29, -0.015, 0.05}, {0.32, -0.05, 0.06}, {0.32, -0.05, 0.04}};
+  const std::vector<Triangle> one = {{0, 1, 2}};
+  const std::vector<Crossing> crossings = find_body_crossings(one, cloth, slabs.triangles, slabs.x);
+  ASSERT_GT(crossings.size(), 0u);
+  for (const Crossing& crossing : crossings) EXPECT_LT(crossing.position.y(), -0.0251) << "out of the lower one alone";
+  EXPECT_EQ(outside_pinches(crossings, one, cloth, slabs.triangles, slabs.x).size(), 0u);
+}
+
+TEST(Pinches, AnEdgeOfTheBodyThroughClothIsAskedToo) {
+  const auto outside = [](double gap_m, std::size_t& all) {
+    const Slabs slabs(gap_m);
+    // Around the lower slab's upper edge at x = 0.3, and through none of its own edges.
+    const std::vector<Vec3> cloth = {{0.29, 0.01, 0.005}, {0.305, -0.02, 0.005}, {0.305, 0.02, 0.011}};
+    const std::vector<Triangle> one = {{0, 1, 2}};
+    std::vector<Crossing> crossings;
+    for (const Crossing& crossing : find_body_crossings(one, cloth, slabs.triangles, slabs.x))
+      if (crossing.edge_of_body) crossings.push_back(crossing);
+    all = crossings.size();
+    return outside_pinches(crossings, one, cloth, slabs.triangles, slabs.x).size();
+  };
+  std::size_t all = 0;
+  EXPECT_EQ(outside(1, all), all);
+  EXPECT_GT(all, 0u);
+}
+
+TEST(Winding, CountsThePartsAroundAPoint) {
+  const Slabs slabs(-0.03);
+  const ClosedSurface closed(slabs.triangles, slabs.x);
+  EXPECT_EQ(closed.winding_number(Vec3(0.1, -0.01, 0.05)), 2);
+  EXPECT_EQ(closed.winding_number(Vec3(0.1, -0.05, 0.05)), 1);
+  EXPECT_EQ(closed.winding_number(Vec3(0.1, 0.5, 0.05)), 0);
+  std::vector<Triangle> open(slabs.triangles.begin(), slabs.triangles.end() - 1);  // a hole is closed by a fan
+  EXPECT_EQ(ClosedSurface(open, slabs.x).winding_number(Vec3(0.1, -0.01, 0.05)), 2);
+}
+
+}  // namespace
+}  // namespace toile
