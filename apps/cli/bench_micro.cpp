@@ -112,8 +112,9 @@ void measure_contact(Stopwatches& time, Drape& drape) {
   const std::vector<double> contact_m(state.x.size(), 1e-3);
   ImpactWorkspace impact_workspace;
   std::vector<Impact> impacts;
-  time.add("impacts on the way", "triangle", triangles,
-           [&] { find_impacts(topology, tree, state.x, next, contact_m, impact_workspace, impacts); });
+  time.add("impacts on the way", "triangle", triangles, [&] {
+    static_cast<void>(find_impacts(topology, tree, state.x, next, contact_m, impact_workspace, impacts));
+  });
 
   // A vertex over the middle of every face that comes down from 5 mm to 0.2 mm, and slides.
   std::vector<std::array<Vec3, 4>> x, u;

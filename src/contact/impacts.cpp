@@ -14,7 +14,12 @@ constexpr double separation_share = 0.1;  // of r
 constexpr double gap_share = 0.5;         // of d_0
 constexpr double no_gap_m = 1e-12;        // pairs that coincide have no side to be kept on
 
+constexpr std::size_t few = 20'000;
+
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// A task that finds more by itself stops there: a hundred that each went on to most_impacts would fill the memory.
+std::size_t most_of_a_task(std::size_t particles) { return std::max(few, most_impacts(particles) / 8); }
 
 std::array<Vec3, 4> gather(const std::array<Index, 4>& particle, std::span<const Vec3> x) {
   return {x[at(particle[0])], x[at(particle[1])], x[at(particle[2])], x[at(particle[3])]};
@@ -43,7 +48,9 @@ class ImpactQuery {
       : cloth_(cloth), start_(start), contact_m_(contact_m), workspace_(workspace) {}
 
   void walk(TreeTask task, std::vector<Impact>& found) const {
+    const std::size_t most = most_of_a_task(start_.size());
     workspace_.tree.visit_self(task, [&](Index a, Index b) {
+      if (found.size() > most) return;
       const unsigned owned_a = cloth_.owned(a), owned_b = cloth_.owned(b);
       if (owned_a & 7u) meet_vertices(a, owned_a, b, found);
       if (owned_b & 7u) meet_vertices(b, owned_b, a, found);
@@ -119,13 +126,13 @@ bool decide_impact(const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, I
   return true;
 }
 
-void find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+bool find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
                   std::span<const Vec3> end, std::span<const double> contact_m, ImpactWorkspace& workspace,
                   std::vector<Impact>& impacts) {
   TOILE_ASSERT(start.size() == cloth.particle_count() && end.size() == start.size() &&
                contact_m.size() == start.size());
   impacts.clear();
-  if (start.empty()) return;
+  if (start.empty()) return true;
   if (!workspace.tree.same_hierarchy(tree)) workspace.tree = tree;
   const double widest_m = *std::max_element(contact_m.begin(), contact_m.end());
   workspace.tree.refit(start, end, separation_share * widest_m / 2);
@@ -138,8 +145,13 @@ void find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::spa
     workspace.found[i].clear();
     query.walk(workspace.tasks[i], workspace.found[i]);
   });
-  for (std::size_t i = 0; i < workspace.tasks.size(); ++i)
+  const std::size_t most = most_impacts(start.size()), of_a_task = most_of_a_task(start.size());
+  bool all = true;
+  for (std::size_t i = 0; i < workspace.tasks.size() && all; ++i) {
     impacts.insert(impacts.end(), workspace.found[i].begin(), workspace.found[i].end());
+    all = workspace.found[i].size() <= of_a_task && impacts.size() <= most;
+  }
+  return all;
 }
 
 double impact_time(const Impact& pair, std::span<const Vec3> start, std::span<const Vec3> end) {

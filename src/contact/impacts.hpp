@@ -35,11 +35,15 @@ struct ImpactWorkspace {
   std::vector<Vec3> displacement_m;
 };
 
+// Impacts beyond which a motion is not worth correcting: whatever made it threw cloth through cloth.
+inline std::size_t most_impacts(std::size_t particles) { return 20'000 + 4 * particles; }
+
 // All impacts, in an order that depends on the input only.  `contact_m` is r per particle, a pair takes the least of
 // its four; 0 exempts.  Of `tree` only the hierarchy is used.
-void find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
-                  std::span<const Vec3> end, std::span<const double> contact_m, ImpactWorkspace& workspace,
-                  std::vector<Impact>& impacts);
+// Returns false when there are more than most_impacts, or far too many in one place: then not all are there.
+[[nodiscard]] bool find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+                                std::span<const Vec3> end, std::span<const double> contact_m,
+                                ImpactWorkspace& workspace, std::vector<Impact>& impacts);
 
 // The impact of one pair whose corners x move by u, if it has one; particle, kind and contact_m are those of `impact`, the rest is
 // filled in.  A pair that coincides at the start has no side to be kept on, and none.

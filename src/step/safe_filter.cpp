@@ -36,19 +36,19 @@ FilterReport SafeFilter::operator()(const ClothTopology& cloth, const TriangleTr
   impacts_.clear();
   body_impacts_.clear();
   const auto look = [&] {
-    if (!contact_m.empty()) find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_);
-    if (guard) find_body_impacts(cloth, tree, start, end, *guard, body_workspace_, body_impacts_);
+    if (!contact_m.empty()) report.hopeless |= !find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_);
+    if (guard && !report.hopeless) find_body_impacts(cloth, tree, start, end, *guard, body_workspace_, body_impacts_);
   };
   look();
   report.impacts = static_cast<int>(impacts_.size() + body_impacts_.size());
-  while (!(impacts_.empty() && body_impacts_.empty()) && report.rounds < most_rounds) {
+  while (!(impacts_.empty() && body_impacts_.empty()) && report.rounds < most_rounds && !report.hopeless) {
     ++report.rounds;
     push_apart(inverse_mass, before_body, guard, end);
     look();
   }
   report.left = static_cast<int>(impacts_.size());
   report.body_left = static_cast<int>(body_impacts_.size());
-  if (!impacts_.empty() && truncate) {
+  if (!impacts_.empty() && truncate && !report.hopeless) {
     cut_short(cloth, tree, start, inverse_mass, contact_m, end, report);
     if (guard) find_body_impacts(cloth, tree, start, end, *guard, body_workspace_, body_impacts_);
     report.body_left = static_cast<int>(body_impacts_.size());
@@ -143,7 +143,7 @@ void SafeFilter::cut_short(const ClothTopology& cloth, const TriangleTree& tree,
       end[i] = start[i] + m + share[z] * (whole_[i] - start[i] - m);
       moved_[i] = 1;
     }
-    find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_);
+    if (!find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_)) growth = most_growths;
   }
   report.truncated = static_cast<int>(std::count(inside.begin(), inside.end(), 1));
   report.left = static_cast<int>(impacts_.size());

@@ -5,7 +5,7 @@
 //      gap at the end to min(r/4, d_0);  particles that are held (pins, body) have infinite mass, the body has too,
 //      and against it only pins do: what it touches may always be moved away from it
 //      every round looks for impacts anew
-//   3  impacts left: the step is refused and halved by its caller
+//   3  impacts left: the step is refused and halved by its caller; so is one with more impacts than are worth correcting
 //   4  where a step may not be shorter, zones are cut short: particles joined by impacts move by
 //            m + s (u - m),   u their displacement, m the zone's mean, s = 0.9 x the zone's earliest impact,
 //      so their relative motion shrinks to what was found free.  Pairs across zones are asked again and join them.
@@ -23,12 +23,13 @@
 namespace toile {
 
 struct FilterReport {
-  int impacts = 0;    // on the way to the candidate
-  int left = 0;       // of cloth with cloth, after the last round; 0 once zones are cut short
-  int body_left = 0;  // of cloth with the body, in the end
-  int rounds = 0;     // of impulses
-  int corrected = 0;  // particles that were moved
-  int truncated = 0;  // particles in zones that were cut short
+  int impacts = 0;        // on the way to the candidate
+  int left = 0;           // of cloth with cloth, after the last round; 0 once zones are cut short
+  int body_left = 0;      // of cloth with the body, in the end
+  int rounds = 0;         // of impulses
+  int corrected = 0;      // particles that were moved
+  int truncated = 0;      // particles in zones that were cut short
+  bool hopeless = false;  // more impacts of cloth with cloth than most_impacts: it gave up, `left` is what was counted
 };
 
 // Velocity of a particle that moves by `moved_m` in a step of h_s in which it was to be altered by y.  Only the part of y that was

@@ -29,7 +29,7 @@ struct Query {
         contact_m(mesh.x.size(), 2.5e-3) {}
   std::vector<Impact> operator()(const Vec3s& end) {
     std::vector<Impact> impacts;
-    find_impacts(cloth, tree, mesh.x, end, contact_m, workspace, impacts);
+    EXPECT_TRUE(find_impacts(cloth, tree, mesh.x, end, contact_m, workspace, impacts));
     return impacts;
   }
   Mesh mesh;

@@ -35,7 +35,7 @@ struct Filter {
   std::size_t impacts(const Vec3s& end) {
     std::vector<Impact> list;
     ImpactWorkspace workspace;
-    find_impacts(cloth, tree, x, end, contact_m, workspace, list);
+    EXPECT_TRUE(find_impacts(cloth, tree, x, end, contact_m, workspace, list));
     return list.size();
   }
   Vec3 mean_motion(const Vec3s& end) const {
@@ -387,6 +387,20 @@ TEST(SafeFilterBody, WhatIsThroughAtTheStartMayLeave) {
   std::vector<char> marked;
   EXPECT_FALSE(mark_through_body(cloth, TriangleTree(run.state.x, run.model.mesh.triangles), run.state.x, body,
                                  workspace, marked));
+}
+
+// Sixty layers turned upside down in one step: every one passes through every other.
+TEST(SafeFilter, GivesUpWhereThereIsTooMuchToCorrect) {
+  Filter filter(test::stack(0.3, 0.02, 3e-3, 60));
+  Vec3s end = filter.x;
+  for (Vec3& p : end) p.y() = 0.177 - p.y();
+  const FilterReport report = filter(end, false);
+  EXPECT_TRUE(report.hopeless);
+  EXPECT_GT(report.left, 0);
+  EXPECT_LT(report.left, 200'000) << "of some millions, no more are kept";
+  EXPECT_EQ(report.rounds, 0);
+  Vec3s cut = end;
+  EXPECT_TRUE(filter(cut, true).hopeless) << "nor is it cut short: the caller takes a shorter step";
 }
 
 }  // namespace
