@@ -101,7 +101,7 @@ bool came_to_its_end(const std::string& name, const Scene& scene, const Report& 
 
 bool holds(bool ended_as_it_should, const Report& report) {
   const VerifyReport& audit = report.audit;
-  return ended_as_it_should && audit.finite && audit.cloth_cloth_edges.max == 0 && audit.cloth_body_edges.max == 0;
+  return ended_as_it_should && audit.finite && audit.cloth_cloth_edges.max == 0 && audit.outside_pinches.max == 0;
 }
 
 BenchRow row_of(const std::string& name, const Size& size, int start, const Scene& scene, const Report& report,
@@ -121,6 +121,7 @@ BenchRow row_of(const std::string& name, const Size& size, int start, const Scen
   row.add("cloth_cloth_frames", "frames", static_cast<long>(audit.cloth_cloth_edges.frames));
   row.add("cloth_body_edges_max", "c-b max", static_cast<long>(audit.cloth_body_edges.max));
   row.add("cloth_body_frames", "frames", static_cast<long>(audit.cloth_body_edges.frames));
+  row.add("outside_pinches_max", "with room", static_cast<long>(audit.outside_pinches.max));
   row.add("stretch_max_percent", "stretch %", 100 * audit.stretch.max, 1);
   if (audit.has_body)
     row.add("gap_min_mm", "gap mm", audit.gap.min_mm, 2);
@@ -131,6 +132,7 @@ BenchRow row_of(const std::string& name, const Size& size, int start, const Scen
   row.add("corrected", "corrected", phase.corrected);
   row.add("truncated", "frozen", phase.truncated);
   row.add("pierced", "pierced", phase.pierced);
+  row.add("pinched_max", "pinched", static_cast<long>(phase.pinched));
   row.add("seconds_per_frame", "s/frame", seconds_per_frame(phase), 3);
   row.add("peak_memory_mb", "MB so far", report.peak_memory_mb, 0);
   row.add("state_hash", "hash", report.state_hash);

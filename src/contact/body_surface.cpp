@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t normal_grain = 2048;
 constexpr double touching_m = 1e-9;  // nearer than this the direction to the body is rounding
 constexpr double flat_bend = 1e-3;
+constexpr double facing_cosine = 0.5;
 constexpr double cancelled_normal = 1e-6;  // a sum of unit normals shorter than this says nothing (a knife's edge)
 
 Vec3 unit_or_zero(const Vec3& v) {
@@ -161,6 +162,23 @@ BodyPoint BodySurface::nearest(const Vec3& p, double reach_m) const {
   const double side = from_body.dot(out) < 0 ? -1.0 : 1.0;
   result.gap_m = side * distance;
   result.normal = distance > touching_m ? Vec3(side / distance * from_body) : out;
+  return result;
+}
+
+BodyPoint BodySurface::nearest_facing(const Vec3& p, const Vec3& direction, double reach_m) const {
+  const auto x = [&](Index i) -> const Vec3& { return start_[static_cast<std::size_t>(i)]; };
+  BodyPoint result;
+  tree_now_.nearest(p, reach_m * reach_m, [&](Index t, double bound2) {
+    const Vec3& n = face_normal(t);
+    if (n.dot(direction) <= facing_cosine * direction.norm()) return bound2;
+    const Triangle& c = triangle(t);
+    const double height = n.dot(p - x(c[0]));
+    if (height * height >= bound2) return bound2;
+    const VertexTriangle candidate = closest_vertex_triangle(p, x(c[0]), x(c[1]), x(c[2]));
+    if (!(candidate.distance2 < bound2)) return bound2;
+    result = {t, candidate.barycentric, n, height};
+    return candidate.distance2;
+  });
   return result;
 }
 

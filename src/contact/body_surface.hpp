@@ -49,6 +49,9 @@ class BodySurface {
 
   // Nearest point of the body as it is now, within `reach_m`.
   BodyPoint nearest(const Vec3& p, double reach_m) const;
+  // Likewise, of the faces alone whose normal is within 60 degrees of `direction`, whatever else is nearer.  The normal is the
+  // face's, and the gap the height over its plane: negative behind it.
+  BodyPoint nearest_facing(const Vec3& p, const Vec3& direction, double reach_m) const;
 
   // The material point (triangle, barycentric) now and at the end of the step; its mean velocity over a step of h
   // seconds is (next_position - position) / h.

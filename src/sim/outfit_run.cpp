@@ -119,7 +119,9 @@ FrameReport OutfitRun::frame() {
   happen();
   std::vector<double>& thickness = outfit_->thickness_scale;
   if (settled()) grow_thickness(thickness);
-  if (tangles_.any()) tangles_.find(outfit_->mesh.triangles, outfit_->state.x);
+  const bool pinched = stepper_->integrator().flypaper().any();
+  if (pinched) tangles_.look_again();
+  if (tangles_.any() || pinched) tangles_.find(outfit_->mesh.triangles, outfit_->state.x);
   tangles_.switch_off(outfit_->state.x, thickness);  // also where sewing had left it so
   stepper_->integrator().contact_rows().set_thickness_scale(thickness);
   const FrameReport report = stepper_->advance(outfit_->state, time_s(), 1 / scene_->fps);

@@ -44,6 +44,7 @@ void add_steps(JsonText& text, const PhaseReport& phase) {
   text.member("truncated", phase.truncated);
   text.member("pierced", phase.pierced);
   text.end_object();
+  text.member("pinched_max", phase.pinched);
 }
 
 void add_cg(JsonText& text, const PhaseReport& phase) {

@@ -20,6 +20,7 @@ struct PhaseReport {  // of the sewing, or of everything after it
   long corrected = 0,
        truncated = 0;  // particles that the safe filter moved, summed over steps; of them in zones cut short
   long pierced = 0;    // impacts of cloth with the body that it could not prevent, summed over steps
+  int pinched = 0;     // particles held between parts of the body, most of all steps
   long touching = 0, contact_rows = 0;  // in the last step of each frame, summed over frames
   double step_min_s = 0, step_max_s = 0;
   double simulated_s = 0;

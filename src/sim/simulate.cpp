@@ -50,6 +50,7 @@ void add(PhaseReport& phase, const FrameReport& frame) {
   phase.corrected += frame.corrected;
   phase.truncated += frame.truncated;
   phase.pierced += frame.pierced;
+  phase.pinched = std::max(phase.pinched, frame.pinched);
   phase.touching += frame.last.touching;
   phase.contact_rows += frame.last.rows;
   if (frame.steps == 0) return;

@@ -47,6 +47,7 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
         report.corrected += report.last.filter.corrected;
         report.truncated += report.last.filter.truncated;
         report.pierced += report.last.filter.body_left;
+        report.pinched = std::max(report.pinched, report.last.pinched);
         report.step_min_s = report.steps == 1 ? h : std::min(report.step_min_s, h);
         report.step_max_s = std::max(report.step_max_s, h);
         report.cg_max = std::max(report.cg_max, report.last.cg_iterations);

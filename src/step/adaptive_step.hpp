@@ -38,6 +38,7 @@ struct FrameReport {
   int corrected = 0,
       truncated = 0;      // particles moved by the safe filter, and of them those in zones cut short; summed over steps
   int pierced = 0;        // impacts with the body that could not be prevented, summed over steps
+  int pinched = 0;        // particles held between parts of the body, most of all steps
   StepReport last;        // of the last attempt: when !ok, why
   std::string diagnosis;  // when !ok: which triangles and particles, in words
   std::vector<Index> offenders;  // when !ok: triangles of the cloth to look at, ascending

@@ -111,7 +111,6 @@ double BodyConstraints::alteration(const Near& near) const {
 
 void BodyConstraints::apply(const ClothState& state, const StepFormula& step, ParticleConstraints& constraints,
                             std::span<Vec3> y, std::vector<LinearSpring>& springs) {
-  std::fill(y.begin(), y.end(), Vec3::Zero());
   for (Near& near : near_) {
     near.pinned = !constraints.is_free(near.particle);
     if (near.touch == Touch::none || near.pinned) continue;

@@ -45,8 +45,8 @@ class BodyConstraints {
   // The active set with which a step begins; `dv` is the guess of the coming change of velocity.  The body's travel is read
   // here: it may have been told of a shorter step since detect.
   void begin(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step);
-  // Adds S, z of the touching particles, fills y (others zero), and appends the drag of those that slide.  Particles that
-  // `constraints` already holds are left to their pins.
+  // Adds S, z and y of the touching particles, and appends the drag of those that slide.  Particles that `constraints` already holds
+  // are left to what holds them.
   void apply(const ClothState& state, const StepFormula& step, ParticleConstraints& constraints, std::span<Vec3> y,
              std::vector<LinearSpring>& springs);
   // After a solve: releases, adds (also what detect thought too far), and lets slip.  `first_passes`: releases are allowed.
@@ -66,6 +66,7 @@ class BodyConstraints {
     const BodyPoint& point = points_[static_cast<std::size_t>(particle)];
     return point.triangle >= 0 && point.gap_m < 0;
   }
+  std::span<const BodyPoint> points() const { return points_; }  // [particle] of the last detect; empty without a body
   bool any_near() const { return !near_.empty(); }
   int touching() const;
   Touch touch(Index particle) const { return touch_[static_cast<std::size_t>(particle)]; }

@@ -75,6 +75,12 @@ void ContactRows::set_thickness_scale(std::span<const double> scale) {
   }
 }
 
+template <class Particles>
+bool ContactRows::is_let_be(const Particles& particles) const {
+  return !let_be_.empty() &&
+         std::any_of(particles.begin(), particles.end(), [&](Index i) { return i >= 0 && let_be_[at(i)] != 0; });
+}
+
 Vec3 ContactRows::relative_velocity(const Pair& pair, const Vec3s& v, double h_s) const {
   Vec3 sum = -pair.body_travel_m / h_s;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -100,6 +106,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
     find_cloth_contacts(topology_, tree_, state.x, {range, 0, options_.region_tolerance, acting_edges_}, workspace_,
                         cloth_contacts_);
     for (const ClothContact& contact : cloth_contacts_) {
+      if (is_let_be(contact.particle)) continue;
       double r = std::numeric_limits<double>::infinity(), full = r, friction = 0;
       for (std::size_t k = 0; k < 4; ++k) {
         if (contact.particle[k] < 0) continue;
@@ -133,6 +140,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
     find_body_contacts(topology_, tree_, state.x, *body_, {range, 4 * body_r_m_, options_.region_tolerance}, workspace_,
                        body_contacts_);
     for (const BodyContact& contact : body_contacts_) {
+      if (is_let_be(contact.particle)) continue;
       Pair pair{{contact.kind,
                  true,
                  {contact.particle[0], contact.particle[1], contact.particle[2], contact.body_vertex[0],

@@ -59,6 +59,9 @@ class ContactRows {
   // are a centimetre thick: sewing thins them there to let the corner close.  0 switches the contact of layers off.
   void set_thickness_scale(std::span<const double> scale);
 
+  // [particle] whose contacts with layers and the body are none of ours for now: pinched, or 0; empty: nobody.  From the next detect on.
+  void let_be(std::span<const char> particles) { let_be_.assign(particles.begin(), particles.end()); }
+
   // What the safe filter asks for: whose features touch, a hierarchy over the triangles (after detect), and the distance at which layers
   // meet, per particle.
   const ClothTopology& topology() const { return topology_; }
@@ -113,6 +116,8 @@ class ContactRows {
   void take_over_contacts();
   void aim_at_the_end(Pair& pair, const ClothState& state, std::span<const Vec3> dv, const StepFormula& step) const;
   void measure_reach();
+  template <class Particles>
+  bool is_let_be(const Particles& particles) const;
   void find_acting_edges();
 
   const ClothModel* model_;
@@ -122,6 +127,7 @@ class ContactRows {
   std::vector<double> reach_m_;    // [particle] thickness, at most 0.45 of the shortest rest edge around it
   std::vector<double> contact_m_;  // [particle] the same, scaled
   std::vector<double> scale_;      // [particle]
+  std::vector<char> let_be_;       // [particle] or empty
   int rest_version_ = 0;           // of the model, when reach_m_ was measured
   ClothTopology topology_;
   TriangleTree tree_;

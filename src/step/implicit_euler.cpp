@@ -25,6 +25,7 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       pcg_(model.mesh),
       constraints_(model.particle_count()),
       body_(model, world.body, options.body),
+      flypaper_(world.body, model.mass_kg.size(), options.body.offset_m),
       rows_(model, world.body, world.merged_particle, options.body.offset_m, options.body.friction, options.rows) {
   const auto n = static_cast<std::size_t>(model.particle_count());
   for (Vec3s* vector : {&force_, &b_, &y_, &y_known_, &y_linearised_, &linearised_, &displacement_, &force_linearised_,
@@ -78,6 +79,8 @@ void ImplicitEuler::prepare(const ClothState& state, double t_s, double h_s, dou
   {
     const Timed timed(seconds_.cloth_solid);
     body_.detect(state, base_h_s);
+    flypaper_.detect(state, body_.points());
+    rows_.let_be(flypaper_.any() ? flypaper_.pinched() : std::span<const char>());
   }
   rows_.detect(state, base_h_s);
   if (world_->body && options_.guard_body) look_through_body(state);
@@ -86,6 +89,7 @@ void ImplicitEuler::prepare(const ClothState& state, double t_s, double h_s, dou
 // What is through the body already is not kept there.  That it is can only come of a start, or of a step that let it in.
 void ImplicitEuler::look_through_body(const ClothState& state) {
   const Timed timed(seconds_.cloth_solid);
+  may_be_through_ |= flypaper_.any();
   if (may_be_through_) {
     may_be_through_ =
         mark_through_body(rows_.topology(), rows_.tree(), state.x, *world_->body, body_workspace_, through_body_);
@@ -93,7 +97,7 @@ void ImplicitEuler::look_through_body(const ClothState& state) {
     through_body_.assign(state.x.size(), 0);
   }
   for (std::size_t i = 0; i < state.x.size(); ++i) {
-    if (body_.inside(static_cast<Index>(i))) through_body_[i] = 1;
+    if (body_.inside(static_cast<Index>(i)) || flypaper_.pinched()[i] != 0) through_body_[i] = 1;
   }
 }
 
@@ -170,6 +174,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     return again;
   }
   report.touching = body_.touching();
+  report.pinched = static_cast<int>(flypaper_.count());
   judge(limits, candidate, report);
   if (report && (options_.rows.cloth_cloth || (world_->body && options_.guard_body)))
     keep_apart(state, h_s, limits, candidate, report);
@@ -224,6 +229,8 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
       constraints_.clear();
       hold_pins(state, t_s, step);
       springs_.clear();
+      std::fill(y_.begin(), y_.end(), Vec3::Zero());
+      flypaper_.apply(state, step, constraints_);
       body_.apply(state, step, constraints_, y_, springs_);
       if (options_.position_alteration == PositionAlteration::in_solve) y_known_ = y_;
       rows_.append_springs(springs_);
@@ -299,7 +306,7 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
   }
 }
 
-void ImplicitEuler::judge(const StepLimits& limits, const ClothState& candidate, StepReport& report) {
+void ImplicitEuler::judge_speed(const ClothState& candidate, StepReport& report) const {
   double fastest2 = options_.max_speed_m_per_s * options_.max_speed_m_per_s;
   for (std::size_t i = 0; i < candidate.x.size(); ++i) {
     const double speed2 = candidate.v[i].squaredNorm();
@@ -314,6 +321,10 @@ void ImplicitEuler::judge(const StepLimits& limits, const ClothState& candidate,
       fastest2 = speed2;
     }
   }
+}
+
+void ImplicitEuler::judge(const StepLimits& limits, const ClothState& candidate, StepReport& report) {
+  judge_speed(candidate, report);
   if (!report) return;
   const Timed timed(seconds_.eval);
   const StretchChange largest = largest_stretch_change(candidate);
@@ -367,6 +378,12 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
     inverse_mass_[i] = constraints_.is_free(static_cast<Index>(i)) ? 1 / model_->mass_kg[i] : 0;
   std::span<const double> contact_m;
   if (options_.rows.cloth_cloth) contact_m = rows_.contact_m();
+  if (options_.rows.cloth_cloth && flypaper_.any()) {
+    contact_m_.assign(contact_m.begin(), contact_m.end());
+    for (std::size_t i = 0; i < contact_m_.size(); ++i)
+      if (flypaper_.pinched()[i] != 0) contact_m_[i] = 0;
+    contact_m = contact_m_;
+  }
   BodyGuard guard{world_->body, options_.body.offset_m, through_body_};
   const bool guarded = world_->body && options_.guard_body;
   if (guarded) {
@@ -387,6 +404,7 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
   for (std::size_t i = 0; i < state.x.size(); ++i) {
     if (filter_.moved()[i]) candidate.v[i] = velocity_of_motion(candidate.x[i] - state.x[i], y_[i], h_s);
   }
+  judge_speed(candidate, report);  // impulses out of one thing may lead far into another
 }
 
 void ImplicitEuler::accept(const ClothState& candidate) {

@@ -16,6 +16,7 @@
 #include "step/body_constraints.hpp"
 #include "step/contact_rows.hpp"
 #include "step/drag.hpp"
+#include "step/flypaper.hpp"
 #include "step/step_report.hpp"
 
 #include <functional>
@@ -87,6 +88,7 @@ class ImplicitEuler {
   const Elements& elements() const { return elements_; }
   const BodyConstraints& body_constraints() const { return body_; }
   BodyConstraints& body_constraints() { return body_; }
+  const Flypaper& flypaper() const { return flypaper_; }
   ContactRows& contact_rows() { return rows_; }
   // e = A dv - b of the last pass on held particles, N s; H times the force.
   std::span<const Vec3> constraint_impulse() const { return e_; }
@@ -113,6 +115,7 @@ class ImplicitEuler {
   };
   StretchChange largest_stretch_change(const ClothState& candidate);
   void judge(const StepLimits& limits, const ClothState& candidate, StepReport& report);
+  void judge_speed(const ClothState& candidate, StepReport& report) const;
   void judge_strain(const StretchChange& largest, StepReport& report) const;
   void look_through_body(const ClothState& state);
   void keep_apart(const ClothState& state, double h_s, const StepLimits& limits, ClothState& candidate,
@@ -128,8 +131,10 @@ class ImplicitEuler {
   ModifiedPcg<float> pcg_;
   ParticleConstraints constraints_;
   BodyConstraints body_;
+  Flypaper flypaper_;
   ContactRows rows_;
   SafeFilter filter_;
+  std::vector<double> contact_m_;                   // [particle] r that the safe filter keeps
   std::vector<double> inverse_mass_, before_body_;  // [particle] 1/kg, 0 while it is held; held by a pin
   std::vector<char> through_body_;  // [particle] is within the body, or next to where cloth passes through it
   bool may_be_through_ = true, pierced_ = false;  // pierced_: by the last attempt

@@ -24,6 +24,7 @@ struct StepReport {  // what happened, in numbers a log can plot
   int relinearised = 0;                 // solves about an end found before
   FilterReport filter;                  // of the end of the step
   int touching = 0, rows = 0;           // body constraints and contact rows of the last pass
+  int pinched = 0;                      // particles held between parts of the body (step/flypaper.hpp)
   double stretch_change = 0;            // max over triangles of | |w|' - |w| | away from rest
   double strain = 0, strain_limit = 0;  // beyond_limit: of a thread of the worst triangle, and what it may be
   Index worst_triangle = -1, worst_particle = -1;

@@ -1,0 +1,154 @@
+// What two parts of a body pinch: who, where it goes, and when it is free again.
+#include "support/bodies.hpp"
+#include "support/crossings.hpp"
+#include "support/run_cloth.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace toile {
+namespace {
+
+using test::ClothRun;
+
+const double offset = BodyContactOptions{}.offset_m;
+
+// Two slabs of 60 x 60 cm, one below the other: the heights of the lower one's top and of the upper one's bottom.
+struct Jaws {
+  BodySurface body;
+  Vec3s x;
+
+  explicit Jaws(double thickness_m) {
+    const BodySurface slab = test::tilted_slab(0.3, thickness_m, 0);
+    std::vector<Triangle> triangles(slab.triangles().begin(), slab.triangles().end());
+    x.assign(slab.positions().begin(), slab.positions().end());
+    for (const auto& [a, b, c] : slab.triangles()) triangles.push_back({a + 8, b + 8, c + 8});
+    for (const Vec3& p : slab.positions()) x.push_back(p + Vec3(0, thickness_m, 0));
+    body = BodySurface(x, triangles);
+  }
+  void place(double lower_m, double upper_m, std::span<Vec3> placed) const {
+    for (std::size_t i = 0; i < x.size(); ++i) placed[i] = x[i] + Vec3(0, i < 8 ? lower_m : upper_m, 0);
+  }
+};
+
+ClothRun between(Jaws& jaws, const std::function<double(double)>& lower, const std::function<double(double)>& upper) {
+  test::Sheet sheet = test::equilateral_sheet(0.2, 0.2, 0.02);
+  for (Vec3& p : sheet.x) p += Vec3(-0.1, lower(0) + offset, 0.1);
+  ModelOptions options;
+  options.gravity_m_per_s2.setZero();
+  ClothRun run(sheet, Fabric{}, options);
+  run.world.body = &jaws.body;
+  run.world.body_at = [&jaws, lower, upper](double t_s, std::span<Vec3> x) { jaws.place(lower(t_s), upper(t_s), x); };
+  run.adaptive.step_max_s = 1.0 / 60;
+  return run;
+}
+
+std::size_t pinched(const ClothRun& run) { return run.stepper->integrator().flypaper().count(); }
+
+TEST(Flypaper, GoesWithTheMeanOfBothSurfacesWhileTheyAreWithinEachOther) {
+  // The upper one closes by 5 cm at 0.1 m/s, 2 cm into the lower one, and opens again.
+  Jaws jaws(0.1);
+  const auto upper = [](double t_s) { return 0.03 - 0.1 * std::min(t_s, std::max(0.0, 1.0 - t_s)); };
+  ClothRun run = between(
+      jaws, [](double) { return 0.0; }, upper);
+  const std::size_t all = run.state.x.size();
+  double fastest = 0;
+  for (int frame = 1; frame <= 36; ++frame) {
+    run.frame();
+    fastest = std::max(fastest, run.fastest());
+    const double gap = upper(run.time_s);
+    if (gap < 0.5 * offset && frame < 15) {
+      EXPECT_EQ(pinched(run), all) << frame;
+      for (const Vec3& p : run.state.x) EXPECT_NEAR(p.y(), 0.5 * gap, 0.5 * offset) << frame;
+    }
+  }
+  EXPECT_EQ(pinched(run), 0u);
+  EXPECT_LT(fastest, 0.2) << "the upper one's speed, and what a thread in it adds";
+  for (const Vec3& p : run.state.x) {
+    EXPECT_GT(p.y(), 0.9 * offset);
+    EXPECT_LT(p.y(), upper(run.time_s) - 0.9 * offset);
+  }
+}
+
+TEST(Flypaper, ThinThingsAreNotTwoSurfaces) {  // 2 mm, less than two offsets: a plate that lifts the sheet
+  Jaws jaws(0.002);
+  const auto lower = [](double t_s) { return 0.05 * t_s; };
+  ClothRun run = between(jaws, lower, [](double) { return 1.0; });
+  for (int frame = 0; frame < 15; ++frame) {
+    run.frame();
+    EXPECT_EQ(pinched(run), 0u) << frame;
+  }
+  for (const Vec3& p : run.state.x) EXPECT_NEAR(p.y(), lower(run.time_s) + offset, 0.1 * offset);
+}
+
+TEST(Flypaper, ANarrowPlaceThatDoesNotCloseIsNoPinch) {
+  Jaws jaws(0.1);
+  ClothRun still = between(
+      jaws, [](double) { return 0.0; }, [](double) { return 1.5 * offset; });
+  still.run(5);
+  EXPECT_EQ(pinched(still), 0u);
+  ClothRun moving = between(
+      jaws, [](double t_s) { return 0.3 * t_s; }, [](double t_s) { return 1.5 * offset + 0.3 * t_s; });
+  moving.run(5);
+  EXPECT_EQ(pinched(moving), 0u);
+}
+
+TEST(Flypaper, LayersThatArePinchedTogetherPartAgain) {
+  Jaws jaws(0.1);
+  const auto upper = [](double t_s) { return 0.04 - 0.1 * std::min(t_s, std::max(0.0, 1.0 - t_s)); };
+  test::Sheet layers = test::stack(0.2, 0.02, 3e-3, 3);
+  for (Vec3& p : layers.x) p += Vec3(-0.1, offset, 0.1);
+  ModelOptions options;
+  options.gravity_m_per_s2.setZero();
+  ClothRun run(layers, Fabric{}, options);
+  run.world.body = &jaws.body;
+  run.world.body_at = [&](double t_s, std::span<Vec3> x) { jaws.place(0, upper(t_s), x); };
+  run.adaptive.step_max_s = 1.0 / 60;
+  bool all = false;
+  double fastest = 0;
+  for (int frame = 0; frame < 45; ++frame) {
+    run.frame();
+    all |= pinched(run) == run.state.x.size();
+    fastest = std::max(fastest, run.fastest());
+  }
+  EXPECT_TRUE(all);
+  EXPECT_EQ(pinched(run), 0u);
+  EXPECT_LT(fastest, 0.5);
+  EXPECT_EQ(test::crossings_of(run.state.x, run.model.mesh.triangles), 0);
+  const std::size_t one = run.state.x.size() / 3;
+  for (std::size_t i = 0; i < one; ++i) {
+    EXPECT_GT(run.state.x[one + i].y(), run.state.x[i].y()) << "in their order";
+    EXPECT_GT(run.state.x[2 * one + i].y(), run.state.x[one + i].y());
+  }
+}
+
+TEST(NearestFacing, IsTheNearestOfTheFacesThatLookThatWay) {
+  const BodySurface ball = test::sphere(Vec3(0.1, 0, 0), 0.2, 3);
+  test::Random random(5);
+  int found = 0;
+  for (int n = 0; n < 300; ++n) {
+    const Vec3 p = Vec3(0.1, 0, 0) + random.vector(0.3), direction = random.vector(1);
+    const double reach = random(0.02, 0.5);
+    double best = reach;
+    for (std::size_t t = 0; t < ball.triangles().size(); ++t) {
+      if (ball.face_normal(static_cast<Index>(t)).dot(direction.normalized()) <= 0.5) continue;
+      const auto& [a, b, c] = ball.triangles()[t];
+      const auto x = [&](Index i) -> const Vec3& { return ball.positions()[static_cast<std::size_t>(i)]; };
+      best = std::min(best, std::sqrt(closest_vertex_triangle(p, x(a), x(b), x(c)).distance2));
+    }
+    const BodyPoint point = ball.nearest_facing(p, direction, reach);
+    if (best == reach) {
+      EXPECT_EQ(point.triangle, -1) << n;
+      continue;
+    }
+    ++found;
+    ASSERT_GE(point.triangle, 0) << n;
+    EXPECT_NEAR((p - ball.position(point.triangle, point.barycentric)).norm(), best, 1e-12) << n;
+    EXPECT_EQ(point.normal, ball.face_normal(point.triangle));
+    EXPECT_NEAR(point.gap_m, point.normal.dot(p - ball.position(point.triangle, point.barycentric)), 1e-12);
+  }
+  EXPECT_GT(found, 100);
+}
+
+}  // namespace
+}  // namespace toile
