@@ -123,6 +123,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
 
   CLI::App* verify = app.add_subcommand("verify", "Audit a finished run");
   verify->add_option("DIR", line.inputs, "Directory of the run")->required()->expected(1);
+  verify->add_flag("--picture", line.picture, "Draw the worst frame's crossings in red: DIR/crossings.png");
 
   CLI::App* preview = app.add_subcommand("preview", "Make preview.png and preview.mp4 of a finished run");
   preview->add_option("DIR", line.inputs, "Directory of the run")->required()->expected(1);

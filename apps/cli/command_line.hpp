@@ -15,7 +15,7 @@ struct CommandLine {
 
   std::string out;  // empty: ./out/NAME
   int threads = 0;  // 0: one per core
-  bool no_preview = false, quiet = false, json = false;
+  bool no_preview = false, quiet = false, json = false, picture = false;
 
   std::string body, body_unit, motion, quality, start;
   std::vector<int> frames;  // of preview

@@ -30,6 +30,51 @@ void add_count(JsonText& json, std::string_view key, const PenetrationCount& cou
   json.end_object();
 }
 
+constexpr std::size_t most_lines = 10;
+
+// {"edge": [12, 40], "of": "cloth", "triangle": 7, "of_triangle": "body", "position_m": [x, y, z]}
+void add_crossings(JsonText& json, const std::vector<Crossing>& crossings, bool with_body) {
+  for (const Crossing& c : crossings) {
+    json.begin_object();
+    json.key("edge");
+    json.begin_array();
+    for (const Index i : c.edge) json.value(i);
+    json.end_array();
+    json.member("edge_of", c.edge_of_body ? "body" : "cloth");
+    json.member("triangle", c.triangle);
+    json.member("triangle_of", with_body && !c.edge_of_body ? "body" : "cloth");
+    json.key("position_m");
+    json.begin_array();
+    for (const double coordinate : c.position) json.value(coordinate);
+    json.end_array();
+    json.end_object();
+  }
+}
+
+std::string as_line(const Crossing& c, bool with_body) {
+  return fmt::sprintf("    edge %d-%d of the %s through triangle %d of the %s at (%.3f, %.3f, %.3f) m\n", c.edge[0],
+                      c.edge[1], c.edge_of_body ? "body" : "cloth", c.triangle,
+                      with_body && !c.edge_of_body ? "body" : "cloth", c.position.x(), c.position.y(), c.position.z());
+}
+
+// The first few; all of them are in --json.
+std::string crossings_as_text(const VerifyReport& audit) {
+  std::string out;
+  const std::size_t all = audit.worst_body_crossings.size() + audit.worst_cloth_crossings.size();
+  if (all == 0) return out;
+  out += fmt::sprintf("  frame %d has most crossings, %d of an edge and a triangle:\n", audit.worst_frame,
+                      static_cast<int>(all));
+  std::size_t shown = 0;
+  for (const bool with_body : {true, false})
+    for (const Crossing& c : with_body ? audit.worst_body_crossings : audit.worst_cloth_crossings)
+      if (shown < most_lines) {
+        ++shown;
+        out += as_line(c, with_body);
+      }
+  if (shown < all) out += fmt::sprintf("    and %d more (--json)\n", static_cast<int>(all - shown));
+  return out;
+}
+
 std::string as_json(const VerifyReport& audit, const Verdict& verdict) {
   JsonText json;
   json.begin_object();
@@ -50,6 +95,13 @@ std::string as_json(const VerifyReport& audit, const Verdict& verdict) {
   add_count(json, "cloth_body_edges_outside_pinches", audit.outside_pinches);
   add_count(json, "cloth_cloth_edges", audit.cloth_cloth_edges);
   json.end_object();
+  json.key("worst_frame");
+  audit.worst_frame >= 0 ? json.value(audit.worst_frame) : json.null();
+  json.key("worst_frame_crossings");
+  json.begin_array();
+  add_crossings(json, audit.worst_body_crossings, true);
+  add_crossings(json, audit.worst_cloth_crossings, false);
+  json.end_array();
   json.key("stretch");
   json.begin_object();
   json.member("p50", audit.stretch.p50);
@@ -94,6 +146,7 @@ std::string as_text(const std::string& directory, const VerifyReport& audit, con
   if (audit.has_body) line("cloth and body", audit.cloth_body_edges);
   if (audit.cloth_body_edges.frames > 0) line("of them where the body leaves room", audit.outside_pinches);
   line("cloth and cloth", audit.cloth_cloth_edges);
+  out += crossings_as_text(audit);
   out += fmt::sprintf("  stretch p50 %.2f %%, p99 %.2f %%, max %.2f %%; shear p99 %.1f degrees; still %.2f mm/s\n",
                       100 * audit.stretch.p50, 100 * audit.stretch.p99, 100 * audit.stretch.max,
                       audit.stretch.shear_p99_deg, audit.still_mm_per_s_p99);
@@ -129,6 +182,11 @@ ExitCode verify_command(const CommandLine& line) {
     print(as_json(audit, verdict));
   } else if (!line.quiet) {
     print(as_text(directory, audit, verdict));
+  }
+  if (line.picture && audit.worst_frame >= 0) {
+    const std::string png = (std::filesystem::path(directory) / "crossings.png").string();
+    picture_crossings(directory, audit.worst_frame, png);
+    if (!line.json && !line.quiet) print(png + '\n');
   }
   return verdict.pass ? ExitCode::ok : ExitCode::simulation_failed;
 }

@@ -64,11 +64,11 @@ void grow(std::array<Vec3, 2>& box, const Vec3s& x) {
   }
 }
 
-// Front, side and back of the cloth as it is; of the body only as much as the cloth reaches, and a little more.
-Image three_views(const PreviewScene& scene, const Vec3s& cloth, const RenderOptions& options) {
+// Front, side and back of what is around some points, and a little more.
+Image three_views(const PreviewScene& scene, const Vec3s& points, double least_margin_m, const RenderOptions& options) {
   std::array<Vec3, 2> box{Vec3::Constant(1e30), Vec3::Constant(-1e30)};
-  grow(box, cloth);
-  const Vec3 margin = 0.08 * (box[1] - box[0]);
+  grow(box, points);
+  const Vec3 margin = (0.08 * (box[1] - box[0])).cwiseMax(least_margin_m);
   std::vector<Image> views;
   const double aspect = static_cast<double>(options.width) / options.height;
   for (const double azimuth_deg : {0.0, 90.0, 180.0}) {
@@ -76,6 +76,21 @@ Image three_views(const PreviewScene& scene, const Vec3s& cloth, const RenderOpt
   }
   const std::array<std::string, 3> captions{"front", "side", "back"};
   return contact_sheet(views, captions, 3);
+}
+
+// The edges that pass through a triangle.  Positions are finite; the body may be empty.
+std::vector<std::array<Vec3, 2>> crossing_edges(const Take& cloth, const Vec3s& x, const Take& body,
+                                                const Vec3s& body_x) {
+  std::vector<std::array<Vec3, 2>> edges;
+  const auto add = [&](const std::vector<Crossing>& crossings) {
+    for (const Crossing& c : crossings) {
+      const Vec3s& ends = c.edge_of_body ? body_x : x;
+      edges.push_back({ends[static_cast<std::size_t>(c.edge[0])], ends[static_cast<std::size_t>(c.edge[1])]});
+    }
+  };
+  add(find_cloth_crossings(cloth.obj.triangles, x));
+  add(find_body_crossings(cloth.obj.triangles, x, body.obj.triangles, body_x));
+  return edges;
 }
 
 // `count` frames of first ... last, evenly.
@@ -146,22 +161,12 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   const Take& last = draped ? cloth : sewing;
   show({&last, last.frames->samples() - 1});
   const bool finite = std::all_of(x.begin(), x.end(), [](const Vec3& p) { return p.allFinite(); });
-  if (draped && finite) {
-    const auto red = [&](const std::vector<Crossing>& crossings, const Vec3s& ends) {
-      for (const Crossing& c : crossings)
-        scene.red_segments.push_back(
-            {ends[static_cast<std::size_t>(c.edge[0])], ends[static_cast<std::size_t>(c.edge[1])]});
-    };
-    red(find_cloth_crossings(cloth.obj.triangles, x), x);
-    if (dressed)
-      for (const Crossing& c : find_body_crossings(cloth.obj.triangles, x, body.obj.triangles, body_x))
-        red({c}, c.edge_of_body ? body_x : x);
-  }
+  if (draped && finite) scene.red_segments = crossing_edges(cloth, x, body, body_x);
   RenderOptions sheet;
   sheet.width = options.sheet_width;
   sheet.height = options.sheet_height;
   sheet.samples = options.sheet_samples;
-  write_png((folder / "preview.png").string(), three_views(scene, x, sheet));
+  write_png((folder / "preview.png").string(), three_views(scene, x, 0, sheet));
   scene.red_segments.clear();
   const Timing timing = timing_of(folder);
   if (draped && !options.frames.empty()) {
@@ -217,6 +222,33 @@ void picture_run(const std::string& directory, const PictureOptions& options,
     if (progress) progress(0.1 + 0.9 * (k + 1) / static_cast<double>(shots.size()));
     return image;
   });
+}
+
+void picture_crossings(const std::string& directory, int frame, const std::string& png) {
+  const std::filesystem::path folder(directory);
+  Take cloth, body;
+  if (!cloth.open(folder, "cloth")) throw IoError((folder / "cloth.obj").string(), "no such file");
+  const bool dressed = body.open(folder, "body");
+  Vec3s x, body_x;
+  cloth.frames->read(frame, x);
+  if (dressed) body.frames->read(frame, body_x);
+  PreviewScene scene;
+  for (std::size_t k = 0; k < cloth.pieces.size(); ++k)
+    scene.cloths.push_back(
+        {cloth.pieces[k].triangles, cloth.pieces[k].uv, x, garment_colours[k % garment_colours.size()]});
+  scene.body_triangles = body.obj.triangles;
+  scene.body_positions = body_x;
+  std::array<Vec3, 2> box{Vec3::Constant(1e30), Vec3::Constant(-1e30)};
+  grow(box, x);
+  grow(box, body_x);
+  scene.ground_y_m = box[0].y();
+  scene.red_segments = crossing_edges(cloth, x, body, body_x);
+  Vec3s ends;
+  for (const auto& [a, b] : scene.red_segments) ends.insert(ends.end(), {a, b});
+  RenderOptions options;
+  options.width = 480;
+  options.height = 480;
+  write_png(png, three_views(scene, ends.empty() ? x : ends, 0.05, options));
 }
 
 }  // namespace toile

@@ -123,6 +123,12 @@ void RunAudit::add(std::span<const Vec3> x, std::span<const Vec3> body_x) {
     Index first_outside = -1;
     count(outside_pinches(report_.last_body_crossings, run_.mesh.triangles, x, run_.body_triangles, body_x), frame,
           report_.outside_pinches, first_outside);
+    const std::size_t crossings = report_.last_cloth_crossings.size() + report_.last_body_crossings.size();
+    if (crossings > report_.worst_cloth_crossings.size() + report_.worst_body_crossings.size()) {
+      report_.worst_frame = frame;
+      report_.worst_cloth_crossings = report_.last_cloth_crossings;
+      report_.worst_body_crossings = report_.last_body_crossings;
+    }
   } else {
     jitter_.skip();
     if (report_.finite) report_.first_bad_frame = frame;

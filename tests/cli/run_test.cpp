@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstring>
@@ -108,6 +109,43 @@ TEST(Run, WritesTheFilesOfTheContractAndVerifyAgrees) {
               report.at("penetrations").at(kind).at("max").number());
   for (const char* part : {"p50", "p99", "max"})
     EXPECT_NEAR(judged.at("stretch").at(part).number(), report.at("stretch").at(part).number(), 1e-4) << part;
+}
+
+TEST(Run, TheJudgeNamesAndDrawsCrossings) {
+  const Scratch scratch;
+  scratch.put(
+      "s.json",
+      R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05}, "pins": [{"near_m": [0, 0.1, 0]}]}],
+    "time": {"seconds": 0.1}})");
+  ASSERT_EQ(run_toile(scratch, {"run", "s.json", "--out", "a", "--no-preview"}).exit_code, 0);
+  // In frame 2 the two ends of an edge are put on either side of the middle.
+  std::string cache = scratch.get("a/cloth.pc2");
+  std::int32_t points = 0;
+  std::memcpy(&points, cache.data() + 16, 4);
+  const auto place = [&](int i) { return cache.data() + 32 + 12 * (2 * points + i); };
+  std::array<float, 3> first{}, last{};
+  std::memcpy(first.data(), place(0), 12);
+  std::memcpy(last.data(), place(points - 1), 12);
+  for (std::size_t k = 0; k < 3; ++k) first[k] = 0.45F * first[k] + 0.55F * last[k];
+  for (const int i : {0, 1}) {
+    std::array<float, 3> end = first;
+    end[2] += i == 0 ? 0.02F : -0.02F;
+    std::memcpy(place(i), end.data(), 12);
+  }
+  scratch.put("a/cloth.pc2", cache);
+  const Ended judged = run_toile(scratch, {"verify", "a", "--picture"});
+  EXPECT_NE(judged.out.find("frame 2 has most crossings"), std::string::npos) << judged.out;
+  EXPECT_NE(judged.out.find("of the cloth through triangle"), std::string::npos) << judged.out;
+  EXPECT_GT(std::filesystem::file_size(scratch / "a/crossings.png"), 10'000u);
+  const Json json = Json::parse(run_toile(scratch, {"verify", "a", "--json"}).out, "stdout");
+  EXPECT_EQ(json.at("worst_frame").integer(), 2);
+  const auto& crossings = json.at("worst_frame_crossings").array();
+  ASSERT_FALSE(crossings.empty());
+  for (const Json& crossing : crossings) {
+    EXPECT_EQ(crossing.at("edge").array().size(), 2u);
+    EXPECT_EQ(crossing.at("edge_of").string(), "cloth");
+    EXPECT_EQ(crossing.at("position_m").array().size(), 3u);
+  }
 }
 
 TEST(Run, AnUnfinishedFailureIsDiagnosedWithExitCodeFive) {
