@@ -102,12 +102,13 @@ Scene parse_scene(std::string_view text, const std::string& file) {
   if (const Json* time = root.find("time")) read_time(*time, scene);
   if (const Json* solver = root.find("solver")) read_solver(*solver, scene);
   if (const Json* contact = root.find("contact")) {
-    contact->allow_only({"thickness_mm", "friction", "friction_between", "self_contact", "strict_start"});
+    contact->allow_only({"thickness_mm", "friction", "friction_between", "self_contact", "strict_start", "flypaper"});
     read_number(*contact, "thickness_mm", scene.contact_thickness_m, 1e-3, 0.1, 100);
     read_number(*contact, "friction", scene.contact_friction, 1, 0, 100);
     if (const Json* pairs = contact->find("friction_between"))
       for (const Json& pair : pairs->array()) scene.friction_between.push_back(read_pair_friction(pair));
     scene.self_contact = contact->boolean_or("self_contact", true);
+    scene.flypaper = contact->boolean_or("flypaper", false);
     scene.strict_start = contact->boolean_or("strict_start", false);
   }
   if (const Json* start = root.find("start")) scene.start = resolve(file, *start);

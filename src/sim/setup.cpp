@@ -230,6 +230,7 @@ StepOptions step_options(const Scene& scene, const Fabric& fabric, double edge_m
   step.newton_iterations = scene.newton_iterations;
   step.relinearisations = scene.relinearisations;
   step.rows.cloth_cloth = scene.self_contact;
+  step.flypaper = scene.flypaper;
   step.body.offset_m = scene.body.offset_m.value_or(default_offset_m(edge_m));
   step.body.friction = scene.body.friction.value_or(fabric.friction);
   return step;

@@ -60,12 +60,9 @@ void Flypaper::detect(const ClothState& state, std::span<const BodyPoint> neares
   for (std::size_t v = 0; v < body_->positions().size(); ++v)
     travel2 = std::max(travel2, body_->vertex_travel(static_cast<Index>(v)).squaredNorm());
   farthest_travel_m_ = std::sqrt(travel2);
-  const auto ended = [&](Pinch& pinch) {
-    const bool end = !goes_on(pinch, state.x[at(pinch.particle)]);
-    if (end) pinched_[at(pinch.particle)] = 0;
-    return end;
-  };
   was_.assign(pinched_.begin(), pinched_.end());  // what has just been let go of stays free for this step
+  for (Pinch& pinch : pinches_) pinched_[at(pinch.particle)] = goes_on(pinch, state.x[at(pinch.particle)]) ? 1 : 0;
+  const auto ended = [&](const Pinch& pinch) { return pinched_[at(pinch.particle)] == 0; };
   pinches_.erase(std::remove_if(pinches_.begin(), pinches_.end(), ended), pinches_.end());
   if (!(travel2 > 0)) return;  // nothing closes
   candidates_.clear();

@@ -10,6 +10,7 @@
 //   goes on with the nearest faces that look the way that the last ones looked, found anew in every step: the particle may be within both
 //   ends    2.2 r apart; or outside of both, while they part and are r apart; or when one of them is not found any more
 //
+// Around it faces are not guarded: where two parts only come near each other and do not overlap, it lets edges pass (docs/theory/step.md).
 // A crease that does not close pinches nothing, however narrow it is.
 #pragma once
 #include "assembly/cloth_model.hpp"

@@ -79,8 +79,10 @@ void ImplicitEuler::prepare(const ClothState& state, double t_s, double h_s, dou
   {
     const Timed timed(seconds_.cloth_solid);
     body_.detect(state, base_h_s);
-    flypaper_.detect(state, body_.points());
-    rows_.let_be(flypaper_.any() ? flypaper_.pinched() : std::span<const char>());
+    if (options_.flypaper) {
+      flypaper_.detect(state, body_.points());
+      rows_.let_be(flypaper_.any() ? flypaper_.pinched() : std::span<const char>());
+    }
   }
   rows_.detect(state, base_h_s);
   if (world_->body && options_.guard_body) look_through_body(state);

@@ -48,6 +48,7 @@ struct StepOptions {
   int max_passes = 8;              // of the active set, per linear solve
   double max_speed_m_per_s = 100;  // beyond this the step is refused
   bool guard_body = true;          // the safe filter keeps cloth out of the body too
+  bool flypaper = false;           // what the body pinches goes with it (step/flypaper.hpp)
 };
 
 // What a step must not do.

@@ -38,6 +38,7 @@ ClothRun between(Jaws& jaws, const std::function<double(double)>& lower, const s
   options.gravity_m_per_s2.setZero();
   ClothRun run(sheet, Fabric{}, options);
   run.world.body = &jaws.body;
+  run.step.flypaper = true;
   run.world.body_at = [&jaws, lower, upper](double t_s, std::span<Vec3> x) { jaws.place(lower(t_s), upper(t_s), x); };
   run.adaptive.step_max_s = 1.0 / 60;
   return run;
@@ -102,6 +103,7 @@ TEST(Flypaper, LayersThatArePinchedTogetherPartAgain) {
   options.gravity_m_per_s2.setZero();
   ClothRun run(layers, Fabric{}, options);
   run.world.body = &jaws.body;
+  run.step.flypaper = true;
   run.world.body_at = [&](double t_s, std::span<Vec3> x) { jaws.place(0, upper(t_s), x); };
   run.adaptive.step_max_s = 1.0 / 60;
   bool all = false;
