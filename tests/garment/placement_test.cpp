@@ -21,18 +21,7 @@ BodySurface box(const Vec3& centre, const Vec3& half) {
       for (const double u : {-1.0, 1.0}) x.push_back(centre + half.cwiseProduct(Vec3(u, y, z)));
     }
   }
-  return BodySurface(std::move(x), {{4, 6, 5},
-                                    {5, 6, 7},
-                                    {0, 1, 2},
-                                    {1, 3, 2},
-                                    {0, 4, 1},
-                                    {1, 4, 5},
-                                    {2, 3, 6},
-                                    {3, 7, 6},
-                                    {0, 2, 4},
-                                    {2, 6, 4},
-                                    {1, 5, 3},
-                                    {3, 5, 7}});
+  return BodySurface(std::move(x), {test::box_triangles.begin(), test::box_triangles.end()});
 }
 
 // Panels 20 cm wide and 10 high before and behind a slab 20 cm deep, 40 wide and 20 high, whose top is at y = 0.  Their sides are sewn straight

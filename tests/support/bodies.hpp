@@ -1,6 +1,7 @@
 // tests/support/bodies.hpp: small closed bodies for tests.
 #pragma once
 #include "contact/body_surface.hpp"
+#include "support/box.hpp"
 
 #include <Eigen/Geometry>
 
@@ -19,10 +20,7 @@ inline BodySurface tilted_slab(double half_width_m, double thickness_m, double a
       for (const double u : {-half_width_m, half_width_m}) x.push_back(turn * Vec3(u, y, z));
     }
   }
-  // Corners: bit 0 = x, bit 1 = z, bit 2 = y.
-  const std::vector<Triangle> triangles = {{4, 6, 5}, {5, 6, 7}, {0, 1, 2}, {1, 3, 2}, {0, 4, 1}, {1, 4, 5},
-                                           {2, 3, 6}, {3, 7, 6}, {0, 2, 4}, {2, 6, 4}, {1, 5, 3}, {3, 5, 7}};
-  return BodySurface(std::move(x), triangles);
+  return BodySurface(std::move(x), {box_triangles.begin(), box_triangles.end()});
 }
 
 // An octahedron subdivided `levels` times onto a sphere.

@@ -1,6 +1,7 @@
 // Which crossings lie where the body itself leaves no room.
 #include "verify/pinch.hpp"
 
+#include "support/box.hpp"
 #include "verify/winding.hpp"
 
 #include <gtest/gtest.h>
@@ -20,20 +21,7 @@ struct Solid {
     for (const double y : {top_m - thickness_m, top_m})
       for (const double z : {-0.3, 0.3})
         for (const double u : {-0.3, 0.3}) x.emplace_back(u, y, z);
-    // Corners: bit 0 = x, bit 1 = z, bit 2 = y.
-    for (const auto& [a, b, c] : {Triangle{4, 6, 5},
-                                  {5, 6, 7},
-                                  {0, 1, 2},
-                                  {1, 3, 2},
-                                  {0, 4, 1},
-                                  {1, 4, 5},
-                                  {2, 3, 6},
-                                  {3, 7, 6},
-                                  {0, 2, 4},
-                                  {2, 6, 4},
-                                  {1, 5, 3},
-                                  {3, 5, 7}})
-      triangles.push_back({a + first, b + first, c + first});
+    for (const auto& [a, b, c] : test::box_triangles) triangles.push_back({a + first, b + first, c + first});
   }
 };
 
