@@ -32,7 +32,7 @@ void add_count(JsonText& json, std::string_view key, const PenetrationCount& cou
 
 constexpr std::size_t most_lines = 10;
 
-// {"edge": [12, 40], "of": "cloth", "triangle": 7, "of_triangle": "body", "position_m": [x, y, z]}
+// {"edge": [12, 40], "edge_of": "cloth", "triangle": 7, "triangle_of": "body", "position_m": [x, y, z]}
 void add_crossings(JsonText& json, const std::vector<Crossing>& crossings, bool with_body) {
   for (const Crossing& c : crossings) {
     json.begin_object();

@@ -59,7 +59,7 @@ class ContactRows {
   // are a centimetre thick: sewing thins them there to let the corner close.  0 switches the contact of layers off.
   void set_thickness_scale(std::span<const double> scale);
 
-  // [particle] whose contacts with layers and the body are none of ours for now: pinched, or 0; empty: nobody.  From the next detect on.
+  // [particle] 1: it gets no rows, neither with layers nor with the body, from the next detect on (step/flypaper.hpp); empty: all do.
   void let_be(std::span<const char> particles) { let_be_.assign(particles.begin(), particles.end()); }
 
   // What the safe filter asks for: whose features touch, a hierarchy over the triangles (after detect), and the distance at which layers
