@@ -47,8 +47,8 @@ bool Flypaper::begins(Pinch& pinch, const Vec3& x) const {
   if (near.gap_m < 0 || reach <= 0) return false;
   pinch.side[1] = body_->nearest_facing(x, -near.normal, reach);
   const BodyPoint& other = pinch.side[1];
-  if (other.triangle < 0 || other.gap_m < 0 || near.normal.dot(other.normal) >= opposite) return false;
-  // Beside the face, not over it: the way to it leads along it.
+  if (other.triangle < 0 || near.normal.dot(other.normal) >= opposite) return false;
+  // Within it; or beside it, not over it: the way to it leads along it.
   if (other.gap_m < 0.5 * (x - body_->position(other.triangle, other.barycentric)).norm()) return false;
   const double closes = closing(pinch), apart = near.gap_m + other.gap_m;
   return closes > closes_by * offset_m_ && apart - closes < begins_below * offset_m_;

@@ -51,6 +51,19 @@ TEST(Pinches, ACrossingWithinAnotherPartOfTheBodyLiesInOne) {
   EXPECT_GT(all, 0);
 }
 
+TEST(Pinches, AnEdgeThroughAllOfItPassesTwoFacesThatLieInOne) {
+  // From above both to below both: in by the upper one's top, where the bottom of the one and the top of the other are, out by the lower
+  // one's bottom.  No end of it is near a pinch.
+  const Slabs slabs(-0.03);
+  const std::vector<Vec3> cloth = {{0.1, 0.2, 0.05}, {0.11, -0.2, 0.05}, {0.09, -0.2, 0.06}};
+  const std::vector<Triangle> one = {{0, 1, 2}};
+  const std::vector<Crossing> crossings = find_body_crossings(one, cloth, slabs.triangles, slabs.x);
+  const std::vector<Crossing> outside = outside_pinches(crossings, one, cloth, slabs.triangles, slabs.x);
+  EXPECT_EQ(2 * outside.size(), crossings.size());
+  EXPECT_GT(outside.size(), 0u);
+  for (const Crossing& crossing : outside) EXPECT_TRUE(crossing.position.y() > 0.069 || crossing.position.y() < -0.099);
+}
+
 TEST(Pinches, ACrossingBeforeANearFaceThatLooksBackLiesInOne) {
   int all = 0;
   EXPECT_EQ(Slabs(0.004).outside(Vec3(0.1, -0.009, 0.05), all), 0u);
