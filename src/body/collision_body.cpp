@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "mesh/check.hpp"
+#include "mesh/surface_parts.hpp"
 
 #include <fmt/printf.h>
 #include <Eigen/Geometry>
@@ -54,59 +55,18 @@ std::vector<Index> named_body(const ObjMesh& mesh) {
   return kept;
 }
 
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<Index>(i);
-  }
-  Index find(Index i) {
-    while (parent_[z(i)] != i) i = parent_[z(i)] = parent_[z(parent_[z(i)])];
-    return i;
-  }
-  void join(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    parent_[z(std::max(a, b))] = std::min(a, b);  // the smallest vertex stands for the part
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
 // The triangles of the closed parts that are large enough; all triangles when no part is closed, so that the check
 // of the whole can say where it is open.
 std::vector<Index> closed_parts(const ObjMesh& mesh) {
-  struct Part {
-    double volume = 0;
-    bool closed = true;
-  };
-  DisjointSets sets(mesh.positions.size());
-  for (const Triangle& t : mesh.triangles) {
-    sets.join(t[0], t[1]);
-    sets.join(t[0], t[2]);
-  }
-  std::vector<Part> parts(mesh.positions.size());  // at the vertex that stands for the part
-  std::vector<std::pair<Index, Index>> directed;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 &a = mesh.positions[z(t[0])], &b = mesh.positions[z(t[1])], &c = mesh.positions[z(t[2])];
-    const Vec3& root = mesh.positions[z(sets.find(t[0]))];  // near the part: the volume keeps its digits
-    parts[z(sets.find(t[0]))].volume += (a - root).dot((b - root).cross(c - root)) / 6.0;
-    for (std::size_t k = 0; k < 3; ++k) directed.emplace_back(t[k], t[(k + 1) % 3]);
-  }
-  std::sort(directed.begin(), directed.end());
-  for (std::size_t i = 0; i < directed.size(); ++i) {
-    const auto [a, b] = directed[i];
-    const bool once = i == 0 || directed[i - 1] != directed[i];
-    if (!once || !std::binary_search(directed.begin(), directed.end(), std::pair{b, a}))
-      parts[z(sets.find(a))].closed = false;
-  }
+  const SurfaceParts found = surface_parts(mesh.triangles, mesh.positions);
   double largest = 0;
-  for (const Part& p : parts)
-    if (p.closed) largest = std::max(largest, std::abs(p.volume));
+  for (const SurfacePart& part : found.parts)
+    if (part.closed) largest = std::max(largest, std::abs(part.volume_m3));
   std::vector<Index> kept;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Part& p = parts[z(sets.find(mesh.triangles[t][0]))];
-    if (largest == 0 || (p.closed && std::abs(p.volume) >= part_share * largest)) kept.push_back(static_cast<Index>(t));
+    const SurfacePart& part = found.parts[z(found.of[t])];
+    if (largest == 0 || (part.closed && std::abs(part.volume_m3) >= part_share * largest))
+      kept.push_back(static_cast<Index>(t));
   }
   return kept;
 }

@@ -1,5 +1,6 @@
 #include "contact/features.hpp"
 
+#include "core/disjoint_sets.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -27,34 +28,23 @@ IndexRows make_rows(std::size_t row_count, std::size_t value_count, RowOf&& row_
   return rows;
 }
 
-// The smallest particle of each class of `merged_particle`, by union-find.
+// The smallest particle of each class of `merged_particle`.
 std::vector<Index> merge_classes(std::size_t particle_count, std::span<const Index> merged_particle) {
-  std::vector<Index> parent(particle_count);
-  std::iota(parent.begin(), parent.end(), 0);
-  if (merged_particle.empty()) return parent;
+  DisjointSets sets(particle_count);
+  if (merged_particle.empty()) return sets.representatives();
   if (merged_particle.size() != particle_count) {
     throw InputError("", "merged_particle", std::to_string(particle_count) + " entries",
                      std::to_string(merged_particle.size()));
   }
-  const auto root = [&](Index i) {
-    while (parent[static_cast<std::size_t>(i)] != i) {
-      Index& up = parent[static_cast<std::size_t>(i)];
-      up = parent[static_cast<std::size_t>(up)];
-      i = up;
-    }
-    return i;
-  };
   for (std::size_t i = 0; i < particle_count; ++i) {
     const Index to = merged_particle[i];
     if (to < 0 || static_cast<std::size_t>(to) >= particle_count) {
       throw InputError("", "merged_particle " + std::to_string(i), "a particle below " + std::to_string(particle_count),
                        std::to_string(to));
     }
-    const Index a = root(static_cast<Index>(i)), b = root(to);
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    sets.join(static_cast<Index>(i), to);
   }
-  for (std::size_t i = 0; i < particle_count; ++i) parent[i] = root(static_cast<Index>(i));
-  return parent;
+  return sets.representatives();
 }
 
 }  // namespace

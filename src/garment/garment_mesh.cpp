@@ -1,5 +1,6 @@
 #include "garment/garment_mesh.hpp"
 
+#include "core/disjoint_sets.hpp"
 #include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "garment/fold_lines.hpp"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace toile {
 namespace {
@@ -18,11 +18,6 @@ namespace {
 constexpr double twist_ratio = 2;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-Index find_root(std::vector<Index>& parent, Index i) {
-  while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
-  return i;
-}
 
 std::string side_name(const Pattern& pattern, const StitchSide& side) {
   const Panel& panel = pattern.panels[at(side.panel)];
@@ -221,13 +216,9 @@ GarmentMesh mesh_panels(const Pattern& pattern, double outline_m, std::span<cons
   for (const Stitch& stitch : pattern.stitches) add_seam(garment, pattern, stitch, meshed);
   orient_panels(garment, pattern, meshed);
 
-  garment.merged.resize(at(garment.mesh.particle_count));
-  std::iota(garment.merged.begin(), garment.merged.end(), 0);
-  for (const SeamPair& pair : garment.pairs) {
-    const Index a = find_root(garment.merged, pair.a), b = find_root(garment.merged, pair.b);
-    garment.merged[at(std::max(a, b))] = std::min(a, b);
-  }
-  for (Index i = 0; i < garment.mesh.particle_count; ++i) garment.merged[at(i)] = find_root(garment.merged, i);
+  DisjointSets merged(at(garment.mesh.particle_count));
+  for (const SeamPair& pair : garment.pairs) merged.join(pair.a, pair.b);
+  garment.merged = merged.representatives();
   return garment;
 }
 

@@ -1,11 +1,11 @@
 #include "solver/coarse_space.hpp"
 
+#include "core/disjoint_sets.hpp"
 #include "core/parallel.hpp"
 #include "solver/sweep_kernels.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <type_traits>
 
 namespace toile {
@@ -45,23 +45,12 @@ void bisect(std::vector<Index>& members, std::size_t begin, std::size_t end, std
 
 // The smallest particle that each hangs together with through triangles.
 std::vector<Index> connected_to(const ClothMesh& mesh) {
-  std::vector<Index> root(static_cast<std::size_t>(mesh.particle_count));
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](Index i) {
-    while (root[static_cast<std::size_t>(i)] != i) {
-      Index& up = root[static_cast<std::size_t>(i)];
-      i = up = root[static_cast<std::size_t>(up)];
-    }
-    return i;
-  };
+  DisjointSets sets(static_cast<std::size_t>(mesh.particle_count));
   for (const Triangle& t : mesh.triangles) {
-    for (std::size_t c = 1; c < 3; ++c) {
-      const Index a = find(t[0]), b = find(t[c]);
-      root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
+    sets.join(t[0], t[1]);
+    sets.join(t[0], t[2]);
   }
-  for (std::size_t i = 0; i < root.size(); ++i) root[i] = find(static_cast<Index>(i));
-  return root;
+  return sets.representatives();
 }
 
 // What is cut into aggregates: the particles of each panel, and of several pieces in one panel each its own.  Two pieces in one

@@ -14,11 +14,6 @@ constexpr int most_growths = 50;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-Index root(std::vector<Index>& parent, Index i) {
-  while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
-  return i;
-}
-
 }  // namespace
 
 Vec3 velocity_of_motion(const Vec3& moved_m, const Vec3& y_m, double h_s) {
@@ -99,8 +94,7 @@ void SafeFilter::cut_short(const ClothTopology& cloth, const TriangleTree& tree,
                            FilterReport& report) {
   const std::size_t n = start.size();
   whole_.assign(end.begin(), end.end());
-  zone_.resize(n);
-  std::iota(zone_.begin(), zone_.end(), 0);
+  zones_.reset(n);
   std::vector<double> share(n, 1), mass(n, 0);
   std::vector<char> inside(n, 0), held(n, 0);
   Vec3s mean(n, Vec3::Zero());
@@ -109,8 +103,7 @@ void SafeFilter::cut_short(const ClothTopology& cloth, const TriangleTree& tree,
     for (const Impact& impact : impacts_) {
       for (std::size_t k = 0; k < 4; ++k) {
         inside[at(impact.particle[k])] = 1;
-        const Index a = root(zone_, impact.particle[0]), b = root(zone_, impact.particle[k]);
-        zone_[at(std::max(a, b))] = std::min(a, b);
+        zones_.join(impact.particle[0], impact.particle[k]);
       }
     }
     // Times belong to the motion that is cut, which is the whole one, whatever the zones were when the impact was found.
@@ -118,7 +111,7 @@ void SafeFilter::cut_short(const ClothTopology& cloth, const TriangleTree& tree,
     std::fill(share.begin(), share.end(), growth < shrinking_growths ? 1 : 0);
     if (growth < shrinking_growths) {
       for (const Impact& impact : seen) {
-        double& s = share[at(root(zone_, impact.particle[0]))];
+        double& s = share[at(zones_.find(impact.particle[0]))];
         s = std::min(s, cut_share * std::min(1.0, impact_time(impact, start, whole_)));
       }
     }
@@ -127,10 +120,10 @@ void SafeFilter::cut_short(const ClothTopology& cloth, const TriangleTree& tree,
     std::fill(held.begin(), held.end(), 0);
     std::fill(mean.begin(), mean.end(), Vec3::Zero());
     for (std::size_t i = 0; i < n; ++i)
-      if (inside[i] && inverse_mass[i] == 0) held[at(root(zone_, static_cast<Index>(i)))] = 1;
+      if (inside[i] && inverse_mass[i] == 0) held[at(zones_.find(static_cast<Index>(i)))] = 1;
     for (std::size_t i = 0; i < n; ++i) {
       if (!inside[i]) continue;
-      const std::size_t z = at(root(zone_, static_cast<Index>(i)));
+      const std::size_t z = at(zones_.find(static_cast<Index>(i)));
       if (held[z] && inverse_mass[i] > 0) continue;
       const double m = inverse_mass[i] > 0 ? 1 / inverse_mass[i] : 1;
       mass[z] += m;
@@ -138,7 +131,7 @@ void SafeFilter::cut_short(const ClothTopology& cloth, const TriangleTree& tree,
     }
     for (std::size_t i = 0; i < n; ++i) {
       if (!inside[i]) continue;
-      const std::size_t z = at(root(zone_, static_cast<Index>(i)));
+      const std::size_t z = at(zones_.find(static_cast<Index>(i)));
       const Vec3 m = mean[z] / mass[z];
       end[i] = start[i] + m + share[z] * (whole_[i] - start[i] - m);
       moved_[i] = 1;

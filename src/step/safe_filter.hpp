@@ -16,6 +16,7 @@
 // Easily got wrong: pairs that intersect already would be kept so; their particles must have contact_m = 0.
 #pragma once
 #include "contact/body_impacts.hpp"
+#include "core/disjoint_sets.hpp"
 
 #include <span>
 #include <vector>
@@ -65,7 +66,7 @@ class SafeFilter {
   std::vector<Impact> impacts_, body_impacts_;
   std::vector<std::size_t> order_;
   std::vector<char> moved_;
-  std::vector<Index> zone_;
+  DisjointSets zones_;
   Vec3s whole_;  // the candidate before zones were cut
 };
 

@@ -1,5 +1,6 @@
 #include "verify/winding.hpp"
 
+#include "core/disjoint_sets.hpp"
 #include "verify/predicates.hpp"
 
 #include <algorithm>
@@ -29,23 +30,12 @@ std::pair<std::vector<Triangle>, Vec3s> close_holes(std::span<const Triangle> tr
   if (boundary.empty()) return closed;
 
   // One fan per connected piece of the boundary.  The boundary of a fan around any point is the piece itself, reversed.
-  std::vector<Index> root(x.size());
-  for (std::size_t i = 0; i < root.size(); ++i) root[i] = static_cast<Index>(i);
-  const auto find = [&](Index i) {
-    while (root[static_cast<std::size_t>(i)] != i) {
-      root[static_cast<std::size_t>(i)] = root[static_cast<std::size_t>(root[static_cast<std::size_t>(i)])];
-      i = root[static_cast<std::size_t>(i)];
-    }
-    return i;
-  };
-  for (const auto& [a, b] : boundary) {
-    const Index root_a = find(a), root_b = find(b);
-    root[static_cast<std::size_t>(std::max(root_a, root_b))] = std::min(root_a, root_b);
-  }
+  DisjointSets pieces(x.size());
+  for (const auto& [a, b] : boundary) pieces.join(a, b);
   std::vector<Index> middle(x.size(), -1);
   std::vector<int> members(x.size(), 0);
   for (const auto& [a, b] : boundary) {
-    const auto piece = static_cast<std::size_t>(find(a));
+    const auto piece = static_cast<std::size_t>(pieces.find(a));
     if (middle[piece] < 0) {
       middle[piece] = static_cast<Index>(closed.second.size());
       closed.second.push_back(Vec3::Zero());
