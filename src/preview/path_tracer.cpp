@@ -85,7 +85,8 @@ PathTracer::Surface PathTracer::surface_at(const RayHit& hit, const Vec3f& origi
   s.albedo = right_side ? s.mesh->right_side : s.mesh->wrong_side;
   if (!s.mesh->uv.empty()) s.albedo *= grid_mean_;
 
-  const Vec3f n0 = side * s.mesh->normals[i0], n1 = side * s.mesh->normals[i1], n2 = side * s.mesh->normals[i2];
+  const Vec3f n0 = side * s.mesh->normals[hit.triangle][0], n1 = side * s.mesh->normals[hit.triangle][1],
+              n2 = side * s.mesh->normals[hit.triangle][2];
   s.normal = b0 * n0 + hit.b1 * n1 + hit.b2 * n2;
   const float smooth_length = s.normal.norm();
   s.normal = smooth_length > 1e-6f ? Vec3f(s.normal / smooth_length) : s.geometric;

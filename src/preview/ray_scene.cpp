@@ -6,9 +6,11 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "mesh/surface_parts.hpp"
 
 #include <embree3/rtcore.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -18,31 +20,82 @@ namespace {
 // Neutral clay.
 const Vec3f body_colour(0.50f, 0.465f, 0.435f);
 
+constexpr float crease_cosine = 0.7f;  // 46 degrees
+
 // The wrong side of a fabric: paler in hue and darker, never black.
 Vec3f wrong_side_of(const Vec3f& colour) {
   return 0.62f * mix(colour, Vec3f::Constant(luminance(colour)), 0.45f) + Vec3f::Constant(0.015f);
 }
 
-std::vector<Vec3f> vertex_normals(const std::vector<Vec3f>& positions, std::span<const Triangle> triangles) {
-  std::vector<Vec3f> normals(positions.size(), Vec3f::Zero());
-  for (const Triangle& t : triangles) {
-    const Vec3f& a = positions[static_cast<std::size_t>(t[0])];
-    const Vec3f& b = positions[static_cast<std::size_t>(t[1])];
-    const Vec3f& c = positions[static_cast<std::size_t>(t[2])];
-    const Vec3f twice_area = (b - a).cross(c - a);
-    if (!twice_area.allFinite()) continue;
-    for (const Index i : t) normals[static_cast<std::size_t>(i)] += twice_area;
+Vec3f unit_or_zero(const Vec3f& n) {
+  const float length = n.norm();
+  return length > 0 && std::isfinite(length) ? Vec3f(n / length) : Vec3f(Vec3f::Zero());
+}
+
+// Smooth over the faces around a vertex; where `creased`, over those that lean by less than crease_cosine only: the corner of a box
+// is no part of a ball.
+std::vector<std::array<Vec3f, 3>> corner_normals(const std::vector<Vec3f>& positions,
+                                                 std::span<const Triangle> triangles, bool creased) {
+  std::vector<Vec3f> twice_area(triangles.size(), Vec3f::Zero());
+  std::vector<std::vector<std::size_t>> around(positions.size());
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    const auto corner = [&](std::size_t c) { return positions[static_cast<std::size_t>(triangles[k][c])]; };
+    const Vec3f n = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    if (!n.allFinite()) continue;
+    twice_area[k] = n;
+    for (const Index i : triangles[k]) around[static_cast<std::size_t>(i)].push_back(k);
   }
-  for (Vec3f& n : normals) {
-    const float length = n.norm();
-    n = length > 0 && std::isfinite(length) ? Vec3f(n / length) : Vec3f(Vec3f::Zero());
-  }
+  std::vector<std::array<Vec3f, 3>> normals(triangles.size(), {Vec3f::Zero(), Vec3f::Zero(), Vec3f::Zero()});
+  parallel_for(triangles.size(), 256, [&](std::size_t k) {
+    const Vec3f own = unit_or_zero(twice_area[k]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      Vec3f& sum = normals[k][c];
+      for (const std::size_t other : around[static_cast<std::size_t>(triangles[k][c])]) {
+        if (!creased || twice_area[other].dot(own) >= crease_cosine * twice_area[other].norm())
+          sum += twice_area[other];
+      }
+      sum = unit_or_zero(sum);
+    }
+  });
   return normals;
 }
 
+// Empty when there is none.
+std::vector<char> rooms_of(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
+  const SurfaceParts found = surface_parts(triangles, positions);
+  std::vector<char> room(triangles.size(), 0);
+  bool any = false;
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    const SurfacePart& part = found.parts[static_cast<std::size_t>(found.of[k])];
+    room[k] = part.closed && part.volume_m3 < 0;
+    any = any || room[k] != 0;
+  }
+  if (!any) room.clear();
+  return room;
+}
+
+// A ray meets a room's wall from inside only.
+void meet_rooms_from_inside(const RTCFilterFunctionNArguments* arguments) {
+  const auto& mesh = *static_cast<const RayMesh*>(arguments->geometryUserPtr);
+  const auto k = static_cast<std::size_t>(RTCHitN_primID(arguments->hit, arguments->N, 0));
+  if (mesh.room[k] == 0) return;
+  const auto corner = [&](std::size_t c) { return mesh.positions[static_cast<std::size_t>(mesh.triangles[k][c])]; };
+  const Vec3f direction(RTCRayN_dir_x(arguments->ray, arguments->N, 0), RTCRayN_dir_y(arguments->ray, arguments->N, 0),
+                        RTCRayN_dir_z(arguments->ray, arguments->N, 0));
+  if ((corner(1) - corner(0)).cross(corner(2) - corner(0)).dot(direction) >= 0) arguments->valid[0] = 0;
+}
+
+// Nor does it cast a shadow.
+void let_light_into_rooms(const RTCFilterFunctionNArguments* arguments) {
+  const auto& mesh = *static_cast<const RayMesh*>(arguments->geometryUserPtr);
+  if (mesh.room[static_cast<std::size_t>(RTCHitN_primID(arguments->hit, arguments->N, 0))] != 0)
+    arguments->valid[0] = 0;
+}
+
 RayMesh ray_mesh(const std::string& place, std::span<const Triangle> triangles, std::span<const Vec3> positions,
-                 const Vec3& origin) {
+                 const Vec3& origin, bool cloth) {
   RayMesh mesh;
+  mesh.cloth = cloth;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (const Index v : triangles[i]) {
       if (v < 0 || static_cast<std::size_t>(v) >= positions.size()) {
@@ -56,7 +109,8 @@ RayMesh ray_mesh(const std::string& place, std::span<const Triangle> triangles, 
   for (const Vec3& p : positions) mesh.positions.push_back((p - origin).cast<float>());
   mesh.positions.push_back(Vec3f::Zero());
   mesh.triangles = triangles;
-  mesh.normals = vertex_normals(mesh.positions, triangles);
+  mesh.normals = corner_normals(mesh.positions, triangles, !cloth);
+  if (!cloth) mesh.room = rooms_of(triangles, positions);
   return mesh;
 }
 
@@ -102,14 +156,13 @@ void RayScene::build(const PreviewScene& scene, const Vec3& origin) {
       throw InputError("", place, "uv for each of " + std::to_string(cloth.triangles.size()) + " triangles or for none",
                        std::to_string(cloth.uv.size()));
     }
-    RayMesh mesh = ray_mesh(place, cloth.triangles, cloth.positions, origin);
+    RayMesh mesh = ray_mesh(place, cloth.triangles, cloth.positions, origin, true);
     mesh.uv = cloth.uv;
     mesh.right_side = cloth.colour.cast<float>().cwiseMax(0.0f).cwiseMin(1.0f);
     mesh.wrong_side = wrong_side_of(mesh.right_side);
-    mesh.cloth = true;
     meshes_.push_back(std::move(mesh));
   }
-  meshes_.push_back(ray_mesh("preview: body", scene.body_triangles, scene.body_positions, origin));
+  meshes_.push_back(ray_mesh("preview: body", scene.body_triangles, scene.body_positions, origin, false));
   meshes_.back().right_side = meshes_.back().wrong_side = body_colour;
 
   device_->scene = rtcNewScene(device_->device);
@@ -123,6 +176,11 @@ void RayScene::build(const PreviewScene& scene, const Vec3& origin) {
                                sizeof(Vec3f), mesh.positions.size() - 1);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                                sizeof(Triangle), mesh.triangles.size());
+    if (!mesh.room.empty()) {
+      rtcSetGeometryUserData(geometry, const_cast<RayMesh*>(&mesh));  // read only
+      rtcSetGeometryIntersectFilterFunction(geometry, meet_rooms_from_inside);
+      rtcSetGeometryOccludedFilterFunction(geometry, let_light_into_rooms);
+    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(device_->scene, geometry, static_cast<unsigned>(i));
     rtcReleaseGeometry(geometry);

@@ -12,12 +12,14 @@
 namespace toile {
 
 struct RayMesh {
-  std::vector<Vec3f> positions;  // one unused entry at the end: the ray tracer reads 16 bytes per vertex
-  std::vector<Vec3f> normals;    // per vertex, weighted by area; zero where undefined
+  std::vector<Vec3f> positions;               // one unused entry at the end: the ray tracer reads 16 bytes per vertex
+  std::vector<std::array<Vec3f, 3>> normals;  // of each triangle's corners, weighted by area; zero where undefined
   std::span<const Triangle> triangles;
   std::span<const std::array<Vec2, 3>> uv;  // empty: none
   Vec3f right_side, wrong_side;             // linear RGB
   bool cloth = false;
+  // [triangle] of a body's part that faces inwards, a room: seen from inside only, and light comes through it.  Empty: none.
+  std::vector<char> room;
 };
 
 struct RayHit {

@@ -1,9 +1,9 @@
 // verify/gap.cpp: how near the cloth is to the body, and on which side (statistics.hpp).
 #include "verify/box_tree.hpp"
+#include "verify/interior.hpp"
 #include "verify/nearest_point.hpp"
 #include "verify/statistics.hpp"
 #include "verify/surface.hpp"
-#include "verify/winding.hpp"
 
 #include "core/parallel.hpp"
 
@@ -18,7 +18,7 @@ GapStatistics measure_gap(std::span<const Vec3> x, std::span<const Triangle> bod
   GapStatistics result;
   if (x.empty() || body.empty()) return result;
 
-  const ClosedSurface closed(body, body_x);
+  const Interior interior(body, body_x);
   const BoxTree tree(body, body_x);
   const auto at = [&](Index i) -> const Vec3& { return body_x[static_cast<std::size_t>(i)]; };
   std::vector<double> gap_mm(x.size());
@@ -27,8 +27,7 @@ GapStatistics measure_gap(std::span<const Vec3> x, std::span<const Triangle> bod
       const auto [a, b, c] = body[static_cast<std::size_t>(t)];
       return squared_distance_to_triangle(x[i], at(a), at(b), at(c));
     });
-    const bool inside = closed.winding_number(x[i]) != 0;
-    gap_mm[i] = (inside ? -1000 : 1000) * std::sqrt(nearest.squared_distance);
+    gap_mm[i] = (interior.depth(x[i]) != 0 ? -1000 : 1000) * std::sqrt(nearest.squared_distance);
   });
   const auto nearest = std::min_element(gap_mm.begin(), gap_mm.end());
   result.min_mm = *nearest;

@@ -1,7 +1,8 @@
 #include "verify/pinch.hpp"
 
+#include "verify/box_tree.hpp"
+#include "verify/interior.hpp"
 #include "verify/nearest_point.hpp"
-#include "verify/winding.hpp"
 
 #include <Eigen/Geometry>
 
@@ -26,7 +27,7 @@ Vec3 unit_normal(const Triangle& t, std::span<const Vec3> x) {
 class Pinches {
  public:
   Pinches(std::span<const Triangle> body, std::span<const Vec3> x)
-      : body_(body), x_(x), closed_(body, x), tree_(body, x) {
+      : body_(body), x_(x), interior_(body, x), tree_(body, x) {
     for (const Triangle& t : body) normals_.push_back(unit_normal(t, x));
   }
 
@@ -35,7 +36,7 @@ class Pinches {
                     crossing.edge_of_body ? edge_normal(crossing.edge) : normals_[at(crossing.triangle)]))
       return true;
     const auto begins_in_one = [&](Index particle) {
-      return closed_.winding_number(x[at(particle)]) > 1 || nearest_lies_in_one(x[at(particle)]);
+      return interior_.depth(x[at(particle)]) > 1 || nearest_lies_in_one(x[at(particle)]);
     };
     if (!crossing.edge_of_body) return std::any_of(crossing.edge.begin(), crossing.edge.end(), begins_in_one);
     const Triangle& corners = cloth[at(crossing.triangle)];
@@ -45,7 +46,7 @@ class Pinches {
  private:
   // Of a point p of the surface, where its normal is `out`.
   bool lies_in_one(const Vec3& p, const Vec3& out) const {
-    if (closed_.winding_number(p + just_outside_m * out) > 0) return true;
+    if (interior_.depth(p + just_outside_m * out) > 0) return true;
     const auto distance2 = [&](Index t) {
       const Triangle& c = body_[at(t)];
       if (normals_[at(t)].dot(out) >= opposite || normals_[at(t)].dot(p - x_[at(c[0])]) < 0)
@@ -84,7 +85,7 @@ class Pinches {
 
   std::span<const Triangle> body_;
   std::span<const Vec3> x_;
-  ClosedSurface closed_;
+  Interior interior_;
   BoxTree tree_;
   Vec3s normals_;
 };

@@ -6,7 +6,7 @@
 //
 //   predicates.hpp   signs, exactly                      crossings.hpp    edges through triangles
 //   box_tree.hpp     candidates                          statistics.hpp   stretch, shear, gap, speed
-//   winding.hpp      inside or outside                   pinch.hpp        where a body leaves no room
+//   interior.hpp     inside or outside                   pinch.hpp        where a body leaves no room
 //   jitter.hpp       trembling                           verdict.hpp      pass or fail, and why
 //   verify.hpp       a run, frame by frame
 //

@@ -1,11 +1,12 @@
-// Which crossings lie where the body itself leaves no room.
+// Which crossings lie where the body itself leaves no room, and what is inside.
 #include "verify/pinch.hpp"
 
 #include "support/box.hpp"
-#include "verify/winding.hpp"
+#include "verify/interior.hpp"
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 namespace toile {
@@ -121,6 +122,43 @@ TEST(Winding, CountsThePartsAroundAPoint) {
   EXPECT_EQ(closed.winding_number(Vec3(0.1, 0.5, 0.05)), 0);
   std::vector<Triangle> open(slabs.triangles.begin(), slabs.triangles.end() - 1);  // a hole is closed by a fan
   EXPECT_EQ(ClosedSurface(open, slabs.x).winding_number(Vec3(0.1, -0.01, 0.05)), 2);
+}
+
+// A room of 2 m, a box of 20 cm in it that has a hollow, and a box that sticks out through the room's wall.
+struct Room {
+  std::vector<Vec3> x;
+  std::vector<Triangle> triangles;
+
+  Room() {
+    add(Vec3::Zero(), 2, true);
+    add(Vec3::Zero(), 0.2, false);
+    add(Vec3::Zero(), 0.1, true);
+    add(Vec3(1, 0, 0), 0.4, false);
+  }
+  void add(const Vec3& middle, double edge_m, bool inwards) {
+    const auto first = static_cast<Index>(x.size());
+    const double half = 0.5 * edge_m;
+    for (const double y : {-half, half})
+      for (const double z : {-half, half})
+        for (const double u : {-half, half}) x.push_back(middle + Vec3(u, y, z));
+    for (auto [a, b, c] : test::box_triangles) {
+      if (inwards) std::swap(b, c);
+      triangles.push_back({a + first, b + first, c + first});
+    }
+  }
+};
+
+TEST(Interior, OfARoomIsItsWallAndOfAHollowItsShell) {
+  const Room room;
+  const Interior interior(room.triangles, room.x);
+  EXPECT_EQ(interior.depth(Vec3(0.5, 0.3, 0.2)), 0) << "in the room";
+  EXPECT_EQ(interior.depth(Vec3(0.073, 0.02, 0.01)), 1) << "in the box's shell";
+  EXPECT_EQ(interior.depth(Vec3(0.02, 0.01, 0.013)), 0) << "in its hollow";
+  EXPECT_EQ(interior.depth(Vec3(0.93, 0.05, 0.02)), 1) << "in the other box";
+  EXPECT_EQ(interior.depth(Vec3(1.07, 0.05, 0.02)), 2) << "where it is in the wall";
+  EXPECT_EQ(interior.depth(Vec3(3, 0.1, 0.2)), 1) << "outside of the room is wall";
+  const Room other;
+  EXPECT_EQ(Interior(std::span(other.triangles).subspan(12), other.x).depth(Vec3(3, 0.1, 0.2)), 0) << "without rooms";
 }
 
 }  // namespace
