@@ -27,6 +27,7 @@ void add_seconds_per_frame(JsonText& text, const PhaseReport& phase) {
   text.member("eval", phase.eval / n);
   text.member("cg", phase.cg / n);
   text.member("cloth_cloth", phase.cloth_cloth / n);
+  text.member("safe_filter", phase.filter / n);
   text.member("cloth_solid", phase.cloth_solid / n);
   text.member("body", phase.body / n);
   text.member("other", (phase.seconds - parts) / n);
@@ -40,6 +41,8 @@ void add_steps(JsonText& text, const PhaseReport& phase) {
   text.member("step_max_ms", 1e3 * phase.step_max_s);
   text.key("safe_filter");
   text.begin_object();
+  text.member("steps_met", phase.met);
+  text.member("steps_refused", phase.refused);
   text.member("corrected", phase.corrected);
   text.member("truncated", phase.truncated);
   text.member("pierced", phase.pierced);

@@ -15,8 +15,12 @@ namespace toile {
 struct PhaseReport {  // of the sewing, or of everything after it
   int frames = 0;     // simulated: one less than the samples of the cache
   double seconds = 0, eval = 0, cg = 0, cloth_cloth = 0, cloth_solid = 0, body = 0;  // wall time, s
+  double filter = 0;                                                                 // of cloth_cloth
   long steps = 0, steps_rejected = 0, passes = 0, cg_iterations = 0;
   int cg_max = 0;
+  long met = 0,
+       refused =
+           0;  // steps in which the safe filter met impacts; steps that were rejected for what it could not prevent
   long corrected = 0,
        truncated = 0;  // particles that the safe filter moved, summed over steps; of them in zones cut short
   long pierced = 0;    // impacts of cloth with the body that it could not prevent, summed over steps

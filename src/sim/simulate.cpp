@@ -47,6 +47,8 @@ void add(PhaseReport& phase, const FrameReport& frame) {
   phase.passes += frame.passes;
   phase.cg_iterations += frame.cg_iterations;
   phase.cg_max = std::max(phase.cg_max, frame.cg_max);
+  phase.met += frame.met;
+  phase.refused += frame.refused;
   phase.corrected += frame.corrected;
   phase.truncated += frame.truncated;
   phase.pierced += frame.pierced;
@@ -63,6 +65,7 @@ void set_seconds(PhaseReport& phase, const PhaseSeconds& seconds, const PhaseSec
   phase.eval = seconds.eval - before.eval;
   phase.cg = seconds.cg - before.cg;
   phase.cloth_cloth = seconds.cloth_cloth - before.cloth_cloth;
+  phase.filter = seconds.filter - before.filter;
   phase.cloth_solid = seconds.cloth_solid - before.cloth_solid;
   phase.body = seconds.body - before.body;
 }
@@ -256,6 +259,7 @@ class Run {
     phase.eval += seconds.eval;
     phase.cg += seconds.cg;
     phase.cloth_cloth += seconds.cloth_cloth;
+    phase.filter += seconds.filter;
     phase.cloth_solid += seconds.cloth_solid;
     const std::string which = cloth_.size() > 1 ? printable(garment.name) + ": " : "";
     switch (sewing.status()) {

@@ -44,6 +44,7 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
         now += step_ticks;
         ++report.steps;
         steps_s_.push_back(h);
+        report.met += report.last.filter.impacts > 0 ? 1 : 0;
         report.corrected += report.last.filter.corrected;
         report.truncated += report.last.filter.truncated;
         report.pierced += report.last.filter.body_left;
@@ -57,6 +58,7 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
         break;
       }
       ++report.rejected;
+      report.refused += report.last.status == StepStatus::passed_through ? 1 : 0;
       if (halvings_ >= options_.most_halvings) {
         report.ok = false;
         report.diagnosis = diagnose(state, report.last);

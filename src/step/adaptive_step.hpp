@@ -37,6 +37,8 @@ struct FrameReport {
   int passes = 0;
   int corrected = 0,
       truncated = 0;      // particles moved by the safe filter, and of them those in zones cut short; summed over steps
+  int met = 0;            // steps in which the safe filter met impacts
+  int refused = 0;        // of those rejected, by the safe filter
   int pierced = 0;        // impacts with the body that could not be prevented, summed over steps
   int pinched = 0;        // particles held between parts of the body, most of all steps
   StepReport last;        // of the last attempt: when !ok, why

@@ -374,7 +374,7 @@ ImplicitEuler::StretchChange ImplicitEuler::largest_stretch_change(const ClothSt
 
 void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLimits& limits, ClothState& candidate,
                                StepReport& report) {
-  const Timed timed(seconds_.cloth_cloth);
+  const Timed timed(seconds_.filter);
   inverse_mass_.resize(state.x.size());
   for (std::size_t i = 0; i < state.x.size(); ++i)
     inverse_mass_[i] = constraints_.is_free(static_cast<Index>(i)) ? 1 / model_->mass_kg[i] : 0;
@@ -418,7 +418,7 @@ void ImplicitEuler::accept(const ClothState& candidate) {
 
 PhaseSeconds ImplicitEuler::seconds() const {
   PhaseSeconds total = seconds_;
-  total.cloth_cloth += rows_.cloth_seconds;
+  total.cloth_cloth += rows_.cloth_seconds + seconds_.filter;
   total.cloth_solid += rows_.body_seconds;
   return total;
 }

@@ -11,7 +11,8 @@ namespace toile {
 // Time per phase, for reports; s.
 struct PhaseSeconds {
   double eval = 0, cg = 0, cloth_cloth = 0, cloth_solid = 0;
-  double body = 0;  // where the body is, its tree and its normals
+  double filter = 0;  // of cloth_cloth: the safe filter at the end of the step
+  double body = 0;    // where the body is, its tree and its normals
 };
 
 enum class StepStatus { accepted, solver_failed, stretched, beyond_limit, passed_through, too_fast, not_finite };
