@@ -105,6 +105,14 @@ double largest_coordinate(const Points& x) {
       {x[0].cwiseAbs().maxCoeff(), x[1].cwiseAbs().maxCoeff(), x[2].cwiseAbs().maxCoeff(), x[3].cwiseAbs().maxCoeff()});
 }
 
+// Whether x and y = x + u are both farther apart along w than xi.  Then so is all between: every w . (a - b) is linear in t.
+template <class Features>
+bool apart_along(const Vec3& w, const Points& x, const Points& y, double separation_m, double rounding_m) {
+  const double length = w.norm();
+  return length > least_direction &&
+         std::min(Features::support(x, w), Features::support(y, w)) > (separation_m + rounding_m) * length;
+}
+
 // `l_m` bounds the change of the distance over the whole motion.
 template <class Features>
 double first_impact(const Points& x, const Points& u, double l_m, double separation_m) {
@@ -113,6 +121,12 @@ double first_impact(const Points& x, const Points& u, double l_m, double separat
   const double room = d - separation_m;
   if (!(room > 0)) return 0;
   if ((1 - advance_reserve) * room > l_m) return no_impact;
+  if (room < separation_m) {  // advances would be short ones: do they part, or slide along each other?
+    Points end;
+    for (std::size_t k = 0; k < 4; ++k) end[k] = x[k] + u[k];
+    for (const Vec3& w : {Features::closest(x).w, Features::closest(end).w})
+      if (apart_along<Features>(w, x, end, separation_m, rounding_m)) return no_impact;
+  }
   const double stop_m = std::min(0.1 * room, 0.2 * separation_m);
   double t = 0;
   Points moved;

@@ -8,6 +8,9 @@
 // Conservative by construction: no root is sought, and a motion that is called free keeps d > xi.  The small absolute
 // part of g lets a landing come close; with the relative part alone a pair 20 mm apart is an impact at 2 mm.
 //
+// Where d_0 < 2 xi, and advances would be short from the start, a direction is tried along which the features are farther apart than xi at
+// both ends: they are so all the way, because a difference of two corners along it is linear in t.
+//
 // Rounding.  Closest points err on the wrong side: any two points are as far apart as the features, or farther; in a
 // needle or between nearly parallel edges they are found badly.  So no d is believed that is not proven: for every w
 //

@@ -12,6 +12,9 @@ namespace {
 
 constexpr double separation_share = 0.1;  // of r
 constexpr double gap_share = 0.5;         // of d_0
+constexpr double floor_m = 1e-6;          // files of float32 tell sides that far apart within 8 m of the origin
+constexpr double floor_share = 0.999;     // of d_0, where that is not above it
+constexpr double no_floor_m = 1e-7;       // nothing that begins so near is a gap of ours
 constexpr double no_gap_m = 1e-12;        // pairs that coincide have no side to be kept on
 
 constexpr std::size_t few = 20'000;
@@ -39,6 +42,12 @@ double set_closest(const std::array<Vec3, 4>& x, Impact& impact) {
   const double gap = between.norm();
   if (gap > 0) impact.normal = between / gap;
   return gap;
+}
+
+// Half of the gap may go in a step, down to the floor.
+double least_gap_m(double gap_m) {
+  const double half = gap_share * gap_m;
+  return gap_m < no_floor_m ? half : std::max(half, std::min(floor_m, floor_share * gap_m));
 }
 
 class ImpactQuery {
@@ -116,7 +125,7 @@ class ImpactQuery {
 bool decide_impact(const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, Impact& impact) {
   impact.start_gap_m = set_closest(x, impact);
   if (impact.start_gap_m <= no_gap_m) return false;
-  impact.separation_m = std::min(separation_share * impact.contact_m, gap_share * impact.start_gap_m);
+  impact.separation_m = std::min(separation_share * impact.contact_m, least_gap_m(impact.start_gap_m));
   impact.time = impact.kind == ContactKind::vertex_face ? vertex_face_impact(x, u, impact.separation_m)
                                                         : edge_edge_impact(x, u, impact.separation_m);
   if (impact.time > 1) return false;

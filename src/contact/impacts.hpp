@@ -1,7 +1,11 @@
 // contact/impacts.hpp: which features of the cloth would pass through each other on a straight motion.       (L0 and L3)
 //
 //   x(t) = start + t (end - start),  0 <= t <= 1
-//   xi   = min(0.1 r, 0.5 d_0)         separation that a pair keeps: r its contact distance, d_0 its distance at the start
+//   xi   = min(0.1 r, max(0.5 d_0, min(1 um, 0.999 d_0)))
+//                                      separation that a pair keeps: r its contact distance, d_0 its distance at the start
+//
+// What is pressed harder than contact can bear loses half of its gap in every step.  Without a floor it comes down to the rounding of
+// the files, 10 nm, and there it is on the other side.
 //
 // Every vertex-face and edge-edge pair that does not touch (share a merged particle) and whose swept boxes meet is
 // decided by additive CCD (contact/ccd.hpp); most are settled by one distance, because their relative motion is

@@ -14,6 +14,9 @@ constexpr double rest_share = 0.45;  // of the shortest rest edge: pairs that ar
 constexpr double load_share = 0.1;   // of r: how far the load of the last step may press the spring
 constexpr double most_growth =
     10;  // a hit in a short step is a huge load for a moment, and would leave a stiffness that no solver likes
+// But nothing can be pressed flat: nearer than that to each other, layers get stiffer from step to step, until they bear what presses them.
+constexpr double flat = 0.02;  // of r
+constexpr double hardens_by = 2, most_hardening = 1000;
 // A bristle lets go when its contact has been open for so many steps, or by so much of r.
 constexpr int most_idle_steps = 2;
 constexpr double idle_gap = 1.5;
@@ -183,7 +186,10 @@ void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, const
     const bool known = memory != memory_.end() && memory->key == pair.key;
     const bool lived = known && memory->idle_steps == 0;
     if (lived) {
-      const double load = std::min(memory->lambda_N / (load_share * pair.r_m), most_growth * spring.stiffness_N_per_m);
+      double most = most_growth * spring.stiffness_N_per_m;
+      if (!pair.key.body && pair.gap_m < flat * pair.r_m)
+        most = std::max(most, std::min(hardens_by * memory->stiffness, most_hardening * spring.stiffness_N_per_m));
+      const double load = std::min(memory->lambda_N / (load_share * pair.r_m), most);
       spring.stiffness_N_per_m = std::max({spring.stiffness_N_per_m, memory->stiffness, load});
     }
     spring.damping_N_s_per_m = options_.damping_s * spring.stiffness_N_per_m;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int most_rounds = 4, sweeps = 3;
 constexpr double target_share = 0.25;  // of r
+constexpr double regain_share = 0.02;  // of r: the least that a pair is given back, wherever it began
 constexpr double cut_share = 0.9;      // of the earliest impact
 constexpr int shrinking_growths = 3;   // after these a zone's relative motion is stopped
 constexpr int most_growths = 50;
@@ -68,7 +69,9 @@ void SafeFilter::push_apart(std::span<const double> inverse_mass, std::span<cons
     for (const std::size_t i : order_) {
       const Impact& impact = impact_at(i);
       const std::span<const double> inverse = i < of_cloth ? inverse_mass : before_body;
-      const double target = std::min(target_share * impact.contact_m, impact.start_gap_m);  // more than xi in any case
+      // More than xi in any case.
+      const double target =
+          std::min(target_share * impact.contact_m, std::max(regain_share * impact.contact_m, impact.start_gap_m));
       double gap = 0, mobility = 0;
       for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t p = at(impact.particle[k]);

@@ -2,7 +2,7 @@
 //
 //   1  impacts on the straight way from the state to the candidate (contact/impacts.hpp, contact/body_impacts.hpp)
 //   2  at most 4 rounds of 3 sweeps, earliest impact first: inelastic impulses without friction that bring the pair's
-//      gap at the end to min(r/4, d_0);  particles that are held (pins, body) have infinite mass, the body has too,
+//      gap at the end to min(r/4, max(d_0, r/50));  particles that are held (pins, body) have infinite mass, the body has too,
 //      and against it only pins do: what it touches may always be moved away from it
 //      every round looks for impacts anew
 //   3  impacts left: the step is refused and halved by its caller; so is one with more impacts than are worth correcting

@@ -110,6 +110,25 @@ TEST(Ccd, APairThatIsTooNearAtTheStartMeetsAtOnce) {
   EXPECT_EQ(vertex_face_impact(x, u, 2e-4), 0);
 }
 
+TEST(Ccd, WhatHasHardlyRoomMayPartAndSlideAndNotCome) {
+  const double xi = 1e-6, gap = 1.001e-6;
+  const Four face{Vec3(0.2, gap, -0.2), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, -1)};
+  const Four edges{Vec3(0.5, gap, -0.5), Vec3(0.5, gap, 0.5), Vec3(0, 0, 0), Vec3(1, 0, 0)};
+  const auto moved = [](const Vec3& by, std::size_t count) {
+    Four u{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    for (std::size_t k = 0; k < count; ++k) u[k] = by;
+    return u;
+  };
+  for (const Vec3& by : {Vec3(0, 0.1, 0), Vec3(0.3, 0, 0.1), Vec3(-0.2, 1e-5, 0.05)}) {
+    EXPECT_EQ(vertex_face_impact(face, moved(by, 1), xi), no_impact) << by.transpose();
+    EXPECT_EQ(edge_edge_impact(edges, moved(by, 2), xi), no_impact) << by.transpose();
+  }
+  // A turn that begins by parting, and comes back on the other side.
+  EXPECT_LE(vertex_face_impact(face, moved(Vec3(0.1, -1e-5, 0), 1), xi), 1);
+  EXPECT_LE(edge_edge_impact(edges, moved(Vec3(0.1, -1e-5, 0), 2), xi), 1);
+  EXPECT_LE(edge_edge_impact(edges, {Vec3(0, 0.5, 0), Vec3(0, -0.6, 0), Vec3::Zero(), Vec3::Zero()}, xi), 1);
+}
+
 TEST(Ccd, ParallelEdgesThatSlideThroughEachOtherMeet) {
   const Four x{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0.01, 0), Vec3(1, 0.01, 0)};
   const Four u{Vec3::Zero(), Vec3::Zero(), Vec3(0, -0.02, 0), Vec3(0, -0.02, 0)};

@@ -182,6 +182,21 @@ TEST(Impacts, LayersNearerThanTheSeparationAreGuardedByHalfTheirGap) {
   for (const Impact& impact : impacts) EXPECT_NEAR(impact.separation_m, 0.5 * impact.start_gap_m, 1e-15);
 }
 
+TEST(Impacts, HalfOfAGapMayGoDownToAMicrometre) {
+  const auto separation = [](double gap_m) {
+    const std::array<Vec3, 4> x = {Vec3(0.2, gap_m, 0.2), Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(1, 0, 0)};
+    std::array<Vec3, 4> u = {Vec3(0, -2 * gap_m, 0), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    Impact impact{ContactKind::vertex_face, {0, 1, 2, 3}, {}, Vec3::Zero(), no_impact, 0, 2.5e-3, 0};
+    EXPECT_TRUE(decide_impact(x, u, impact));
+    return impact.separation_m;
+  };
+  EXPECT_NEAR(separation(1e-4), 5e-5, 1e-15);
+  EXPECT_NEAR(separation(1.5e-6), 1e-6, 1e-15);
+  EXPECT_NEAR(separation(1e-6), 0.999e-6, 1e-15);
+  EXPECT_NEAR(separation(2e-7), 0.999 * 2e-7, 1e-15);
+  EXPECT_NEAR(separation(5e-8), 2.5e-8, 1e-15) << "nearer than anything that we keep apart";
+}
+
 TEST(Impacts, FlatLayersThatEndNearerThanTheSeparationMeetThoughTheirWaysDoNot) {
   Query query(two_layers(4e-3));
   Vec3s end = query.mesh.x;

@@ -375,5 +375,25 @@ TEST(ContactRows, ARowOfTheBodyKnowsHowFarTheBodyMoves) {
   }
 }
 
+TEST(ContactRows, WhatIsPressedNearlyFlatHardensUntilItBearsTheLoad) {
+  Rows rows(stack(0.12, 0.02, 2e-3, 2), frictionless());
+  const double h = 1.0 / 60, r = rows.model.thickness_m[0];
+  const auto first = stiffness_of(rows.step(h, h));
+  const auto grown_after = [&](double gap_m, int steps) {  // the most of all rows
+    rows.raise_upper(gap_m - rows.state.x.back().y());
+    std::map<std::array<Index, 4>, double> last;
+    for (int n = 0; n < steps; ++n) last = stiffness_of(rows.step(h, h));
+    double most = 0;
+    for (const auto& [particles, k] : last)
+      if (const auto found = first.find(particles); found != first.end()) most = std::max(most, k / found->second);
+    return most;
+  };
+  EXPECT_NEAR(grown_after(0.05 * r, 6), 10, 1e-6);
+  EXPECT_NEAR(grown_after(0.01 * r, 1), 20, 1e-6) << "it doubles";
+  EXPECT_NEAR(grown_after(0.01 * r, 1), 40, 1e-6);
+  EXPECT_NEAR(grown_after(0.03 * r, 2), 40, 1e-6) << "what is not flat keeps what it has";
+  EXPECT_NEAR(grown_after(0.01 * r, 8), 1000, 1e-6) << "at most";
+}
+
 }  // namespace
 }  // namespace toile

@@ -144,7 +144,7 @@ TEST(SafeFilter, AZoneThatIsCutKeepsItsMeanMotion) {
   EXPECT_LT((filter.mean_motion(end) - before).norm(), 2e-3);
 }
 
-TEST(SafeFilter, WhatWasNearIsNotPushedFartherApart) {
+TEST(SafeFilter, WhatWasNearIsNotPushedFartherApartThanAFiftiethOfTheThickness) {
   // The tip of a triangle, nearer than r/4 to a held one, is moved through it.
   Sheet sheet;
   sheet.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
@@ -156,11 +156,47 @@ TEST(SafeFilter, WhatWasNearIsNotPushedFartherApart) {
   end[3].y() = -1e-3;
   EXPECT_EQ(filter(end, false).left, 0);
   EXPECT_NEAR(end[3].y(), 3e-4, 1e-9);
+  // What is nearly flat gets a fiftieth of r back.
+  filter.x[3].y() = 1e-5;
+  end = filter.x;
+  end[3].y() = -1e-3;
+  EXPECT_EQ(filter(end, false).left, 0);
+  EXPECT_NEAR(end[3].y(), 2.5e-3 / 50, 1e-9);
   filter.x[3].y() = 4e-3;
   end = filter.x;
   end[3].y() = -1e-3;
   EXPECT_EQ(filter(end, false).left, 0);
   EXPECT_NEAR(end[3].y(), 0.25 * 2.5e-3, 1e-9);
+}
+
+TEST(SafeFilter, HoweverLongLayersArePressedAFileCanTellThemApart) {
+  // Two held triangles, pressed through each other again and again: nobody gives way, and half of the gap would go every time.
+  Sheet sheet;
+  sheet.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  sheet.mesh.particle_count = 6;
+  sheet.x = {{0, 0, 0.1}, {0.1, 0, -0.1}, {-0.1, 0, -0.1}, {0, 3e-4, 0}, {0.01, 0.05, 0}, {-0.01, 0.05, 0}};
+  for (Vec3& p : sheet.x) p += Vec3(1.7, 1.3, -2.1);
+  Filter filter(sheet);
+  std::fill(filter.inverse_mass.begin(), filter.inverse_mass.end(), 0);
+  const auto gap = [&] { return filter.x[3].y() - filter.x[0].y(); };
+  for (int n = 0; n < 60; ++n) {
+    Vec3s end = filter.x;
+    for (std::size_t i = 3; i < 6; ++i) end[i] += Vec3(1e-4, -1e-2, 0);
+    EXPECT_EQ(filter(end, true).left, 0);
+    filter.x = end;
+    ASSERT_GT(gap(), 0.9e-6) << n;
+    Vec3s written = end;
+    for (Vec3& p : written) p = p.cast<float>().cast<double>();
+    ASSERT_EQ(test::crossings_of(written, filter.mesh.triangles), 0) << n;
+  }
+  EXPECT_LT(gap(), 1.1e-6);
+  // They do not stick: what parts, parts in one step, and what slides, slides.
+  Vec3s end = filter.x;
+  for (std::size_t i = 3; i < 6; ++i) end[i] += Vec3(0.03, 0, 0);
+  EXPECT_EQ(filter(end, true).truncated, 0);
+  end = filter.x;
+  for (std::size_t i = 3; i < 6; ++i) end[i] += Vec3(0, 0.01, 0);
+  EXPECT_EQ(filter(end, true).truncated, 0);
 }
 
 TEST(SafeFilter, AZoneWithHeldParticlesFollowsThem) {
