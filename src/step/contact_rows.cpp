@@ -5,13 +5,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace toile {
 namespace {
 
-constexpr double rest_share = 0.45;  // of the shortest rest edge: pairs that are neighbours at rest do not repel
-constexpr double load_share = 0.1;   // of r: how far the load of the last step may press the spring
+constexpr double load_share = 0.1;  // of r: how far the load of the last step may press the spring
 constexpr double most_growth =
     10;  // a hit in a short step is a huge load for a moment, and would leave a stiffness that no solver likes
 // But nothing can be pressed flat: nearer than that to each other, layers get stiffer from step to step, until they bear what presses them.
@@ -48,35 +46,8 @@ ContactRows::ContactRows(const ClothModel& model, const BodySurface* body, std::
       body_r_m_(options.body_share * body_offset_m),
       body_friction_(body_friction),
       options_(options),
-      reach_m_(model.thickness_m),
-      topology_(model.mass_kg.size(), model.mesh.triangles, model.topology, merged_particle) {
-  scale_.assign(reach_m_.size(), 1);
-  measure_reach();
-}
-
-void ContactRows::measure_reach() {
-  rest_version_ = model_->rest_version;
-  std::vector<double> shortest(reach_m_.size(), std::numeric_limits<double>::infinity());
-  const ClothMesh& mesh = model_->mesh;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec2 b(model_->membrane[t].b_u, model_->membrane[t].b_v);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double length = b.cwiseProduct(mesh.uv[t][(k + 1) % 3] - mesh.uv[t][k]).norm();
-      for (const Index corner : mesh.triangles[t]) shortest[at(corner)] = std::min(shortest[at(corner)], length);
-    }
-  }
-  for (std::size_t i = 0; i < reach_m_.size(); ++i)
-    reach_m_[i] = std::min(model_->thickness_m[i], rest_share * shortest[i]);
-  set_thickness_scale(std::vector<double>(scale_));
-}
-
-void ContactRows::set_thickness_scale(std::span<const double> scale) {
-  contact_m_.resize(reach_m_.size());
-  for (std::size_t i = 0; i < reach_m_.size(); ++i) {
-    scale_[i] = scale.empty() ? 1 : scale[i];
-    contact_m_[i] = scale_[i] * reach_m_[i];
-  }
-}
+      topology_(model.mass_kg.size(), model.mesh.triangles, model.topology, merged_particle),
+      distance_(model, topology_) {}
 
 template <class Particles>
 bool ContactRows::is_let_be(const Particles& particles) const {
@@ -95,12 +66,10 @@ Vec3 ContactRows::relative_velocity(const Pair& pair, const Vec3s& v, double h_s
 void ContactRows::detect(const ClothState& state, double h_s) {
   pairs_.clear();
   h_s_ = h_s;
-  if (rest_version_ != model_->rest_version) measure_reach();
+  distance_.update(*model_, topology_);
   if (tree_.triangle_count() == 0) tree_ = TriangleTree(state.x, model_->mesh.triangles);
   // How far ahead pairs are watched does not shrink with a thinned r: how fast they close has nothing to do with it.
-  double thickest = 0;
-  for (std::size_t i = 0; i < reach_m_.size(); ++i) thickest = std::max({thickest, reach_m_[i], contact_m_[i]});
-  const double r_max = std::max(options_.cloth_cloth ? thickest : 0, body_ ? body_r_m_ : 0);
+  const double r_max = std::max(options_.cloth_cloth ? distance_.largest_m() : 0, body_ ? body_r_m_ : 0);
   const double range = (1 + options_.look_ahead) * r_max;
 
   if (options_.cloth_cloth) {
@@ -110,15 +79,11 @@ void ContactRows::detect(const ClothState& state, double h_s) {
                         cloth_contacts_);
     for (const ClothContact& contact : cloth_contacts_) {
       if (is_let_be(contact.particle)) continue;
-      double r = std::numeric_limits<double>::infinity(), full = r, friction = 0;
-      for (std::size_t k = 0; k < 4; ++k) {
-        if (contact.particle[k] < 0) continue;
-        const std::size_t i = at(contact.particle[k]);
-        full = std::min(full, reach_m_[i]);
-        r = std::min(r, contact_m_[i]);
-        friction = std::max(friction, model_->friction[at(contact.particle[k])]);
-      }
+      const auto [full, r] = distance_.between(contact.kind, contact.particle);
       if (r <= 0) continue;  // contact is switched off here
+      double friction = 0;
+      for (const Index i : contact.particle)
+        if (i >= 0) friction = std::max(friction, model_->friction[at(i)]);
       const std::size_t other = contact.kind == ContactKind::edge_edge ? 2 : 1;
       friction = model_->friction_between(contact.particle[0], contact.particle[other], friction);
       Pair pair{{contact.kind,

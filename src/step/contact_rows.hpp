@@ -15,6 +15,7 @@
 #include "assembly/implicit_row.hpp"
 #include "contact/proximity.hpp"
 #include "step/bristle.hpp"
+#include "step/layer_distance.hpp"
 #include "step/step_formula.hpp"
 
 #include <span>
@@ -57,16 +58,16 @@ class ContactRows {
 
   // Scales the distance at which layers of cloth meet, per particle (empty: the fabrics' own everywhere).  Four layers in a corner of a seam
   // are a centimetre thick: sewing thins them there to let the corner close.  0 switches the contact of layers off.
-  void set_thickness_scale(std::span<const double> scale);
+  void set_thickness_scale(std::span<const double> scale) { distance_.set_scale(scale); }
 
   // [particle] 1: it gets no rows, neither with layers nor with the body, from the next detect on (step/flypaper.hpp); empty: all do.
   void let_be(std::span<const char> particles) { let_be_.assign(particles.begin(), particles.end()); }
 
-  // What the safe filter asks for: whose features touch, a hierarchy over the triangles (after detect), and the distance at which layers
-  // meet, per particle.
+  // What the safe filter asks for: whose features touch, a hierarchy over the triangles (after detect), and the distance that neighbours
+  // keep, per particle: what it keeps of a gap is far less than either.
   const ClothTopology& topology() const { return topology_; }
   const TriangleTree& tree() const { return tree_; }
-  std::span<const double> contact_m() const { return contact_m_; }
+  std::span<const double> contact_m() const { return distance_.of_neighbours_m(); }
 
   int active() const;
   std::size_t candidates() const { return pairs_.size(); }
@@ -115,7 +116,6 @@ class ContactRows {
   void carry_on(Pair& pair, std::size_t memory);
   void take_over_contacts();
   void aim_at_the_end(Pair& pair, const ClothState& state, std::span<const Vec3> dv, const StepFormula& step) const;
-  void measure_reach();
   template <class Particles>
   bool is_let_be(const Particles& particles) const;
   void find_acting_edges();
@@ -124,12 +124,9 @@ class ContactRows {
   const BodySurface* body_;
   double body_r_m_, body_friction_;
   ContactRowOptions options_;
-  std::vector<double> reach_m_;    // [particle] thickness, at most 0.45 of the shortest rest edge around it
-  std::vector<double> contact_m_;  // [particle] the same, scaled
-  std::vector<double> scale_;      // [particle]
-  std::vector<char> let_be_;       // [particle] or empty
-  int rest_version_ = 0;           // of the model, when reach_m_ was measured
+  std::vector<char> let_be_;  // [particle] or empty
   ClothTopology topology_;
+  LayerDistance distance_;
   TriangleTree tree_;
   ProximityWorkspace workspace_;
   std::vector<std::array<Index, 2>>

@@ -1,0 +1,126 @@
+#include "step/layer_distance.hpp"
+
+#include "core/parallel.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <utility>
+
+namespace toile {
+namespace {
+
+constexpr double rest_share = 0.45;      // of the shortest rest edge: pairs that are neighbours at rest do not repel
+constexpr double neighbour_share = 1.5;  // of the thickness: ways along edges are up to 15 % longer than straight ones
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// Where the first feature of a pair ends among its particles.
+std::size_t first_feature(ContactKind kind) { return kind == ContactKind::edge_edge ? 2 : 1; }
+
+}  // namespace
+
+LayerDistance::LayerDistance(const ClothModel& model, const ClothTopology& topology)
+    : thickness_m_(model.thickness_m), full_m_(model.thickness_m), scale_(model.thickness_m.size(), 1) {
+  measure(model, topology);
+}
+
+void LayerDistance::update(const ClothModel& model, const ClothTopology& topology) {
+  if (rest_version_ != model.rest_version) measure(model, topology);
+}
+
+void LayerDistance::measure(const ClothModel& model, const ClothTopology& topology) {
+  rest_version_ = model.rest_version;
+  std::vector<double> shortest(full_m_.size(), std::numeric_limits<double>::infinity());
+  std::vector<RestEdge> edges;
+  const ClothMesh& mesh = model.mesh;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec2 b(model.membrane[t].b_u, model.membrane[t].b_v);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double length = b.cwiseProduct(mesh.uv[t][(k + 1) % 3] - mesh.uv[t][k]).norm();
+      for (const Index corner : mesh.triangles[t]) shortest[at(corner)] = std::min(shortest[at(corner)], length);
+      edges.push_back({mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3], length});
+    }
+  }
+  for (std::size_t i = 0; i < full_m_.size(); ++i) full_m_[i] = std::min(thickness_m_[i], rest_share * shortest[i]);
+  find_neighbours(edges, topology);
+  set_scale(std::vector<double>(scale_));
+}
+
+void LayerDistance::find_neighbours(const std::vector<RestEdge>& edges, const ClothTopology& topology) {
+  const std::size_t n = full_m_.size();
+  neighbours_.assign(n, {});
+  const auto thinned = [&](std::size_t i) { return full_m_[i] < thickness_m_[i]; };
+  std::vector<char> any(n, 0);
+  for (std::size_t i = 0; i < n; ++i) any[i] = thinned(i) ? 1 : 0;
+  if (std::none_of(any.begin(), any.end(), [](char c) { return c != 0; })) return;
+
+  std::vector<std::vector<std::pair<Index, double>>> around(n);
+  double longest = 0;
+  for (const RestEdge& edge : edges) {
+    around[at(edge.a)].emplace_back(edge.b, edge.length_m);
+    around[at(edge.b)].emplace_back(edge.a, edge.length_m);
+    longest = std::max(longest, edge.length_m);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const Index to = topology.merged(static_cast<Index>(i));
+    if (at(to) == i) continue;
+    around[i].emplace_back(to, 0);
+    around[at(to)].emplace_back(static_cast<Index>(i), 0);
+  }
+  // The shortest ways from one particle, as far as they count (Dijkstra; a handful of particles each).
+  parallel_for(n, 16, [&](std::size_t i) {
+    if (!thinned(i)) return;
+    const double reach = neighbour_share * thickness_m_[i] + longest;
+    std::vector<std::pair<double, Index>> open{{0, static_cast<Index>(i)}};
+    std::vector<Index>& found = neighbours_[i];
+    while (!open.empty()) {
+      std::pop_heap(open.begin(), open.end(), std::greater<>());
+      const auto [way, particle] = open.back();
+      open.pop_back();
+      const auto place = std::lower_bound(found.begin(), found.end(), particle);
+      if (place != found.end() && *place == particle) continue;
+      found.insert(place, particle);
+      for (const auto& [next, length] : around[at(particle)]) {
+        if (way + length > reach) continue;
+        open.emplace_back(way + length, next);
+        std::push_heap(open.begin(), open.end(), std::greater<>());
+      }
+    }
+  });
+}
+
+void LayerDistance::set_scale(std::span<const double> scale) {
+  of_neighbours_m_.resize(full_m_.size());
+  largest_m_ = 0;
+  for (std::size_t i = 0; i < full_m_.size(); ++i) {
+    scale_[i] = scale.empty() ? 1 : scale[i];
+    of_neighbours_m_[i] = scale_[i] * full_m_[i];
+    largest_m_ = std::max({largest_m_, thickness_m_[i], scale_[i] * thickness_m_[i]});
+  }
+}
+
+bool LayerDistance::are_neighbours(Index a, Index b) const {
+  return std::binary_search(neighbours_[at(a)].begin(), neighbours_[at(a)].end(), b) ||
+         std::binary_search(neighbours_[at(b)].begin(), neighbours_[at(b)].end(), a);
+}
+
+LayerDistance::Between LayerDistance::between(ContactKind kind, const std::array<Index, 4>& particle) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Between near{infinity, infinity}, far{infinity, infinity};
+  for (const Index p : particle) {
+    if (p < 0) continue;
+    const std::size_t i = at(p);
+    near = {std::min(near.full_m, full_m_[i]), std::min(near.scaled_m, of_neighbours_m_[i])};
+    far = {std::min(far.full_m, thickness_m_[i]), std::min(far.scaled_m, scale_[i] * thickness_m_[i])};
+  }
+  if (near.full_m == far.full_m && near.scaled_m == far.scaled_m) return near;
+  const std::size_t middle = first_feature(kind);
+  for (std::size_t k = 0; k < middle; ++k) {
+    for (std::size_t l = middle; l < 4; ++l)
+      if (particle[l] >= 0 && are_neighbours(particle[k], particle[l])) return near;
+  }
+  return far;
+}
+
+}  // namespace toile
