@@ -69,7 +69,9 @@ class BodyImpactQuery {
         separation_m_(separation_share * guard.contact_m) {}
 
   void walk(TreeTask task, std::vector<Impact>& found) const {
+    const std::size_t most = most_impacts_of_a_task(start_.size());
     workspace_.tree.visit_cross(body_.tree(), task, [&](Index a, Index b) {
+      if (found.size() > most) return;
       const Mover &p = workspace_.cloth[at(a)], &q = workspace_.body[at(b)];
       const double moving = (p.displacement - q.displacement).norm() + p.differ + q.differ + separation_m_,
                    reach = p.radius + q.radius + moving;
@@ -159,13 +161,13 @@ bool passes_through(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, 
 
 }  // namespace
 
-void find_body_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+bool find_body_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
                        std::span<const Vec3> end, const BodyGuard& guard, BodyImpactWorkspace& workspace,
                        std::vector<Impact>& impacts) {
   TOILE_ASSERT(start.size() == cloth.particle_count() && end.size() == start.size() &&
                guard.exempt.size() == start.size());
   impacts.clear();
-  if (start.empty() || guard.body->triangles().empty()) return;
+  if (start.empty() || guard.body->triangles().empty()) return true;
   if (!workspace.tree.same_hierarchy(tree)) workspace.tree = tree;
   workspace.tree.refit(start, end, separation_share * guard.contact_m);
   move_triangles(cloth.triangles(), start, end, workspace.cloth);
@@ -177,8 +179,7 @@ void find_body_impacts(const ClothTopology& cloth, const TriangleTree& tree, std
     workspace.found[i].clear();
     query.walk(workspace.tasks[i], workspace.found[i]);
   });
-  for (std::size_t i = 0; i < workspace.tasks.size(); ++i)
-    impacts.insert(impacts.end(), workspace.found[i].begin(), workspace.found[i].end());
+  return gather_impacts(std::span(workspace.found).first(workspace.tasks.size()), start.size(), impacts);
 }
 
 bool mark_through_body(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x,

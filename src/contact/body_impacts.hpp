@@ -35,9 +35,10 @@ struct BodyImpactWorkspace {
 };
 
 // All impacts, in an order that depends on the input only.  Of `tree` only the hierarchy is used.
-void find_body_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
-                       std::span<const Vec3> end, const BodyGuard& guard, BodyImpactWorkspace& workspace,
-                       std::vector<Impact>& impacts);
+// Returns false when there are too many, as find_impacts does: then not all are there.
+[[nodiscard]] bool find_body_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+                                     std::span<const Vec3> end, const BodyGuard& guard, BodyImpactWorkspace& workspace,
+                                     std::vector<Impact>& impacts);
 
 // Marks the particles of cloth edges and triangles that pass through the body as it is now.  Returns whether there are any.
 // Decided in floating point: for what to guard, not for a judge.

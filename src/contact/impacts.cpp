@@ -17,12 +17,7 @@ constexpr double floor_share = 0.999;     // of d_0, where that is not above it
 constexpr double no_floor_m = 1e-7;       // nothing that begins so near is a gap of ours
 constexpr double no_gap_m = 1e-12;        // pairs that coincide have no side to be kept on
 
-constexpr std::size_t few = 20'000;
-
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-// A task that finds more by itself stops there: a hundred that each went on to most_impacts would fill the memory.
-std::size_t most_of_a_task(std::size_t particles) { return std::max(few, most_impacts(particles) / 8); }
 
 std::array<Vec3, 4> gather(const std::array<Index, 4>& particle, std::span<const Vec3> x) {
   return {x[at(particle[0])], x[at(particle[1])], x[at(particle[2])], x[at(particle[3])]};
@@ -57,7 +52,7 @@ class ImpactQuery {
       : cloth_(cloth), start_(start), contact_m_(contact_m), workspace_(workspace) {}
 
   void walk(TreeTask task, std::vector<Impact>& found) const {
-    const std::size_t most = most_of_a_task(start_.size());
+    const std::size_t most = most_impacts_of_a_task(start_.size());
     workspace_.tree.visit_self(task, [&](Index a, Index b) {
       if (found.size() > most) return;
       const unsigned owned_a = cloth_.owned(a), owned_b = cloth_.owned(b);
@@ -154,13 +149,16 @@ bool find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::spa
     workspace.found[i].clear();
     query.walk(workspace.tasks[i], workspace.found[i]);
   });
-  const std::size_t most = most_impacts(start.size()), of_a_task = most_of_a_task(start.size());
-  bool all = true;
-  for (std::size_t i = 0; i < workspace.tasks.size() && all; ++i) {
-    impacts.insert(impacts.end(), workspace.found[i].begin(), workspace.found[i].end());
-    all = workspace.found[i].size() <= of_a_task && impacts.size() <= most;
+  return gather_impacts(std::span(workspace.found).first(workspace.tasks.size()), start.size(), impacts);
+}
+
+bool gather_impacts(std::span<const std::vector<Impact>> found, std::size_t particles, std::vector<Impact>& impacts) {
+  const std::size_t most = most_impacts(particles), of_a_task = most_impacts_of_a_task(particles);
+  for (const std::vector<Impact>& of_task : found) {
+    impacts.insert(impacts.end(), of_task.begin(), of_task.end());
+    if (of_task.size() > of_a_task || impacts.size() > most) return false;
   }
-  return all;
+  return true;
 }
 
 double impact_time(const Impact& pair, std::span<const Vec3> start, std::span<const Vec3> end) {

@@ -16,6 +16,7 @@
 #pragma once
 #include "contact/proximity.hpp"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -39,8 +40,16 @@ struct ImpactWorkspace {
   std::vector<Vec3> displacement_m;
 };
 
-// Impacts beyond which a motion is not worth correcting: whatever made it threw cloth through cloth.
-inline std::size_t most_impacts(std::size_t particles) { return 20'000 + 4 * particles; }
+// Impacts beyond which a motion is not worth correcting: whatever made it threw cloth through cloth, or through the body.
+inline constexpr std::size_t few_impacts = 20'000;
+inline std::size_t most_impacts(std::size_t particles) { return few_impacts + 4 * particles; }
+// A task that finds more by itself stops there: a hundred that each went on to most_impacts would fill the memory.
+inline std::size_t most_impacts_of_a_task(std::size_t particles) {
+  return std::max(few_impacts, most_impacts(particles) / 8);
+}
+// What tasks have found, in their order.  Returns false, and stops, at more than these.
+[[nodiscard]] bool gather_impacts(std::span<const std::vector<Impact>> found, std::size_t particles,
+                                  std::vector<Impact>& impacts);
 
 // All impacts, in an order that depends on the input only.  `contact_m` is r per particle, a pair takes the least of
 // its four; 0 exempts.  Of `tree` only the hierarchy is used.

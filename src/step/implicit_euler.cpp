@@ -395,7 +395,7 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
   }
   report.filter = filter_(rows_.topology(), rows_.tree(), state.x, inverse_mass_, contact_m, limits.truncate,
                           candidate.x, guarded ? &guard : nullptr, before_body_);
-  if (report.filter.left > 0 || (report.filter.body_left > 0 && !limits.pierce)) {
+  if (report.filter.hopeless || report.filter.left > 0 || (report.filter.body_left > 0 && !limits.pierce)) {
     report.status = StepStatus::passed_through;
     return;
   }

@@ -33,7 +33,8 @@ FilterReport SafeFilter::operator()(const ClothTopology& cloth, const TriangleTr
   body_impacts_.clear();
   const auto look = [&] {
     if (!contact_m.empty()) report.hopeless |= !find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_);
-    if (guard && !report.hopeless) find_body_impacts(cloth, tree, start, end, *guard, body_workspace_, body_impacts_);
+    if (guard && !report.hopeless)
+      report.hopeless |= !find_body_impacts(cloth, tree, start, end, *guard, body_workspace_, body_impacts_);
   };
   look();
   report.impacts = static_cast<int>(impacts_.size() + body_impacts_.size());
@@ -46,7 +47,7 @@ FilterReport SafeFilter::operator()(const ClothTopology& cloth, const TriangleTr
   report.body_left = static_cast<int>(body_impacts_.size());
   if (!impacts_.empty() && truncate && !report.hopeless) {
     cut_short(cloth, tree, start, inverse_mass, contact_m, end, report);
-    if (guard) find_body_impacts(cloth, tree, start, end, *guard, body_workspace_, body_impacts_);
+    if (guard) report.hopeless |= !find_body_impacts(cloth, tree, start, end, *guard, body_workspace_, body_impacts_);
     report.body_left = static_cast<int>(body_impacts_.size());
   }
   report.corrected = static_cast<int>(std::count(moved_.begin(), moved_.end(), 1));

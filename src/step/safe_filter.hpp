@@ -30,7 +30,7 @@ struct FilterReport {
   int rounds = 0;         // of impulses
   int corrected = 0;      // particles that were moved
   int truncated = 0;      // particles in zones that were cut short
-  bool hopeless = false;  // more impacts of cloth with cloth than most_impacts: it gave up, `left` is what was counted
+  bool hopeless = false;  // more impacts than most_impacts: it gave up, `left` and `body_left` are what was counted
 };
 
 // Velocity of a particle that moves by `moved_m` in a step of h_s in which it was to be altered by y.  Only the part of y that was

@@ -41,8 +41,9 @@ std::string StepReport::explain() const {
           1e3 * h_s, worst_triangle, 100 * strain, 100 * strain_limit);
     case StepStatus::passed_through:
       if (filter.hopeless)
-        return fmt::sprintf("h = %.3g ms: more than %d pairs of cloth would pass through each other", 1e3 * h_s,
-                            filter.left);
+        return fmt::sprintf(
+            "h = %.3g ms: more than %d pairs of cloth, or cloth and body, would pass through each other", 1e3 * h_s,
+            filter.left + filter.body_left);
       return fmt::sprintf("h = %.3g ms: %d pairs of cloth, and %d of cloth and body, would pass through each other",
                           1e3 * h_s, filter.left, filter.body_left);
     case StepStatus::too_fast:

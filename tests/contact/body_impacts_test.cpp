@@ -31,7 +31,7 @@ struct Scene {
   }
   Names found(const Vec3s& end) {
     std::vector<Impact> impacts;
-    find_body_impacts(cloth, tree, sheet.x, end, {&body, r_m, exempt}, workspace, impacts);
+    EXPECT_TRUE(find_body_impacts(cloth, tree, sheet.x, end, {&body, r_m, exempt}, workspace, impacts));
     Names names;
     for (const Impact& impact : impacts) EXPECT_TRUE(names.emplace(impact.kind, impact.particle).second) << "twice";
     return names;
@@ -108,6 +108,20 @@ TEST(BodyImpacts, WhatIsThroughTheBodyIsMarked) {
     EXPECT_TRUE(marked[i] || off > 2e-3) << i;
     EXPECT_TRUE(!marked[i] || off < 0.016) << i;
   }
+}
+
+TEST(BodyImpacts, StopWhereThereAreMoreThanAreWorthCorrecting) {
+  // Every particle to a place of its own far beyond the ball: every triangle of the cloth is dragged through every one of the ball.
+  Scene scene(2e-3);
+  scene.body = test::sphere(Vec3(0.06, -0.05, -0.06), 0.05, 4);
+  Vec3s end = scene.sheet.x;
+  test::Random random(3);
+  for (Vec3& p : end) p = Vec3(0.06, -0.05, -0.06) + random.vector(10);
+  std::vector<Impact> impacts;
+  EXPECT_FALSE(find_body_impacts(scene.cloth, scene.tree, scene.sheet.x, end, {&scene.body, r_m, scene.exempt},
+                                 scene.workspace, impacts));
+  EXPECT_GT(impacts.size(), few_impacts);
+  EXPECT_LT(impacts.size(), 10 * few_impacts);
 }
 
 }  // namespace
