@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -173,6 +174,46 @@ TEST(Render, LetsNoLightThroughClothInFrontOfDarkness) {
   }
   // What remains is the light that is assumed after the last bounce: evenly dim, no bright cracks.
   EXPECT_LT(brightest, 3 * 110);
+}
+
+const std::vector<Vec3> box_corners = {{-0.3, 0.2, 0.3},  {0.3, 0.2, 0.3},  {0.3, 0.8, 0.3},  {-0.3, 0.8, 0.3},
+                                       {-0.3, 0.2, -0.3}, {0.3, 0.2, -0.3}, {0.3, 0.8, -0.3}, {-0.3, 0.8, -0.3}};
+const std::vector<Triangle> box_faces = {{0, 1, 2}, {0, 2, 3}, {5, 4, 7}, {5, 7, 6}, {4, 0, 3}, {4, 3, 7},
+                                         {1, 5, 6}, {1, 6, 2}, {3, 2, 6}, {3, 6, 7}, {4, 5, 1}, {4, 1, 0}};
+
+// A body that faces inwards is a room: what is in it is seen, and lit.
+TEST(Render, LooksIntoARoomAndLetsLightIn) {
+  std::vector<Triangle> inwards = box_faces;
+  for (Triangle& t : inwards) std::swap(t[1], t[2]);
+  const Sheet square = upright_square({0, 0.5, 0}, 0.2);
+  PreviewScene solid, room, alone;
+  for (PreviewScene* s : {&solid, &room, &alone}) s->cloths.push_back(cloth_of(square));
+  solid.body_triangles = box_faces;
+  room.body_triangles = inwards;
+  solid.body_positions = room.body_positions = box_corners;
+  const Vec3 centre = project(front, 96, 96, {0.011, 0.511, 0});
+  const int x = static_cast<int>(centre.x()), y = static_cast<int>(centre.y());
+  const auto at_centre = [&](const PreviewScene& scene) { return pixel(render(scene, front, small()), x, y); };
+  const auto in_box = at_centre(solid), in_room = at_centre(room), open = at_centre(alone);
+  EXPECT_GT(in_room[2], in_room[0] + 15) << "blue cloth";
+  EXPECT_LT(in_box[2], in_box[0] + 5) << "clay";
+  EXPECT_GT(brightness(in_room), 0.5 * brightness(open));
+}
+
+TEST(Render, ABoxHasFlatFaces) {
+  // Its front face, seen straight on, is one colour from the middle to the corner; smooth normals would darken it.
+  PreviewScene scene;
+  scene.body_triangles = box_faces;
+  scene.body_positions = box_corners;
+  const Image image = render(scene, front, small(96, 96, 64));
+  const auto bright = [&](const Vec3& p) {
+    const Vec3 at = project(front, 96, 96, p);
+    return brightness(pixel(image, static_cast<int>(at.x()), static_cast<int>(at.y())));
+  };
+  const double middle = bright({0, 0.5, 0.3});
+  for (const Vec3& corner :
+       {Vec3(-0.27, 0.76, 0.3), Vec3(0.27, 0.76, 0.3), Vec3(0.27, 0.6, 0.3), Vec3(-0.27, 0.6, 0.3)})
+    EXPECT_NEAR(bright(corner) / middle, 1, 0.06) << corner.transpose();
 }
 
 TEST(Render, DrawsCrossingsOverEverything) {
