@@ -16,7 +16,6 @@ class DisjointSets {
     parent_.resize(count);
     std::iota(parent_.begin(), parent_.end(), 0);
   }
-  std::size_t size() const { return parent_.size(); }
 
   Index find(Index i) {
     while (at(i) != i) i = at(i) = at(at(i));
