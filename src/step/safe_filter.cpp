@@ -9,6 +9,7 @@ namespace {
 constexpr int most_rounds = 4, sweeps = 3;
 constexpr double target_share = 0.25;  // of r
 constexpr double regain_share = 0.02;  // of r: the least that a pair is given back, wherever it began
+constexpr double largest_lever = 4;    // of what a pair is moved apart: no particle goes farther
 constexpr double cut_share = 0.9;      // of the earliest impact
 constexpr int shrinking_growths = 3;   // after these a zone's relative motion is stopped
 constexpr int most_growths = 50;
@@ -81,12 +82,18 @@ void SafeFilter::push_apart(std::span<const double> inverse_mass, std::span<cons
         if (!of_body) mobility += impact.weight[k] * impact.weight[k] * inverse[p];
       }
       if (gap >= target || mobility <= 0) continue;
+      std::array<double, 4> share{};
+      double lever = largest_lever;
       for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t p = at(impact.particle[k]);
-        if (p >= end.size()) continue;
-        const double share = impact.weight[k] * inverse[p] / mobility;
-        if (share == 0) continue;
-        end[p] += ((target - gap) * share) * impact.normal;
+        if (p < end.size()) share[k] = impact.weight[k] * inverse[p] / mobility;
+        lever = std::max(lever, std::abs(share[k]));
+      }
+      const double apart = (target - gap) * (largest_lever / lever);
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (share[k] == 0) continue;
+        const std::size_t p = at(impact.particle[k]);
+        end[p] += (apart * share[k]) * impact.normal;
         moved_[p] = 1;
       }
     }

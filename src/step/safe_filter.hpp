@@ -3,7 +3,8 @@
 //   1  impacts on the straight way from the state to the candidate (contact/impacts.hpp, contact/body_impacts.hpp)
 //   2  at most 4 rounds of 3 sweeps, earliest impact first: inelastic impulses without friction that bring the pair's
 //      gap at the end to min(r/4, max(d_0, r/50));  particles that are held (pins, body) have infinite mass, the body has too,
-//      and against it only pins do: what it touches may always be moved away from it
+//      and against it only pins do: what it touches may always be moved away from it.  Of an edge held at one end, and met near
+//      it, the other end would fly: none goes farther than four times what the pair is moved apart
 //      every round looks for impacts anew
 //   3  impacts left: the step is refused and halved by its caller; so is one with more impacts than are worth correcting
 //   4  where a step may not be shorter, zones are cut short: particles joined by impacts move by

@@ -97,6 +97,22 @@ TEST(SafeFilter, HeldParticlesAreWallsForImpulses) {
   EXPECT_EQ(filter.impacts(end), 0U);
 }
 
+// An edge that is held at one end, and met there, is opened by its other end only: by a lever of 200 here.
+TEST(SafeFilter, NoParticleIsThrownByALongLever) {
+  Sheet sheet;
+  sheet.x = {{0, 0, 0}, {0.2, 0, 0}, {0.1, 0.1, 0.1}, {1e-3, -0.1, -1e-3}, {1e-3, 0.1, -1e-3}, {1e-3, 0, -0.2}};
+  sheet.mesh.particle_count = 6;
+  sheet.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  Filter filter(sheet);
+  for (const std::size_t i : {0U, 3U, 4U, 5U}) filter.inverse_mass[i] = 0;
+  Vec3s end = sheet.x;
+  end[0].z() = -2e-3;
+  ASSERT_GT(filter.impacts(end), 0u);
+  filter(end, false);
+  EXPECT_LT((end[1] - sheet.x[1]).norm(), 0.08) << "1.6 mm are missing";
+  EXPECT_EQ(end[0], Vec3(0, 0, -2e-3));
+}
+
 TEST(SafeFilter, WhatHeldParticlesDoToEachOtherIsLeftForAShorterStepAndThenCutShort) {
   Filter filter(stack(0.06, 0.01, 4e-3, 2));
   filter.inverse_mass.assign(filter.x.size(), 0);
