@@ -15,7 +15,7 @@ namespace toile {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> names = {"stand", "sway", "walk", "twist", "dance"};
+constexpr std::array<std::string_view, 6> names = {"stand", "sway", "walk", "twist", "crouch", "dance"};
 constexpr double longest_lead_in_s = 10, two_pi = 6.283185307179586;
 // The smooth minimum over six points lies below the lowest one; so much less of the sole is in the floor.
 constexpr double soles_above_m = 0.004;
@@ -38,12 +38,15 @@ Motion Motion::named(std::string_view name, MannequinKind kind) {
   } else if (name == "twist") {
     m.motion_ = twist_posture;
     m.period_s_ = twist_period_s;
+  } else if (name == "crouch") {
+    m.motion_ = crouch_posture;
+    m.period_s_ = crouch_period_s;
   } else if (name == "dance") {
     m.motion_ = dance_posture;
     m.period_s_ = dance_period_s;
   } else {
     throw InputError("", "motion",
-                     "stand, sway, walk, twist or dance (did you mean " +
+                     "stand, sway, walk, twist, crouch or dance (did you mean " +
                          std::string(nearest_name(name, names.data(), names.size())) + "?)",
                      printable(name));
   }

@@ -1,4 +1,4 @@
-// body/motion.hpp: movements of the mannequins as functions of time: stand, sway, walk, twist, dance.
+// body/motion.hpp: movements of the mannequins as functions of time: stand, sway, walk, twist, crouch, dance.
 //
 // For t in [0, lead_in] the body comes out of the A-pose: posture(t) = s(t / lead_in) motion(t - lead_in) with
 // s(u) = u^3 (10 - 15 u + 6 u^2), so that at t = 0 it rests, and the join is C2.  After that the motion repeats with its
@@ -22,7 +22,7 @@
 
 namespace toile {
 
-// "stand", "sway", "walk", "twist", "dance".
+// "stand", "sway", "walk", "twist", "crouch", "dance".
 std::span<const std::string_view> motion_names();
 
 class Motion {

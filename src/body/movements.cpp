@@ -1,4 +1,4 @@
-// body/movements.cpp: standing, swaying, walking, twisting.
+// body/movements.cpp: standing, swaying, walking, twisting, crouching.
 //
 // The walk's hip, knee and ankle follow the curves of level walking at natural cadence [Winter, Biomechanics and Motor
 // Control of Human Movement, 4th ed. 2009, ch. 3; Perry & Burnfield, Gait Analysis, 2nd ed. 2010, chs. 4-6], five
@@ -126,6 +126,27 @@ Posture twist_posture(double t_s) {
     p(Channel::arm_out, s) = 29.0;
     p(Channel::arm_across, s) = 4.0 + 5.0 * sign * late;
     p(Channel::elbow, s) = 10.0 - 4.0 * sign * late;
+  }
+  return p;
+}
+
+// Down, a rest, up, a rest.  At its lowest flesh meets flesh wherever a body folds: forearm on upper arm, upper arm on
+// trunk, thigh on belly, calf on thigh; the skin passes through itself there.
+Posture crouch_posture(double t_s) {
+  constexpr double way_s = 1.2, low_s = 0.8;
+  const double t = t_s - crouch_period_s * std::floor(t_s / crouch_period_s);
+  const double share = least_jerk(t / way_s) - least_jerk((t - way_s - low_s) / way_s);
+  Posture p;
+  p(Channel::pelvis_y) = -0.016 - 0.54 * share;
+  p(Channel::pelvis_z) = -0.15 * share;
+  p(Channel::pelvis_tilt) = 25.0 * share;
+  p(Channel::spine_forward) = 20.0 * share;
+  p(Channel::neck_forward) = -15.0 * share;
+  for (const Side s : {Side::left, Side::right}) {
+    p(Channel::foot_turn, s) = 15.0 * share;  // knees apart
+    p(Channel::arm_out, s) = -34.0 * share;
+    p(Channel::arm_forward, s) = 80.0 * share;
+    p(Channel::elbow, s) = 145.0 * share;
   }
   return p;
 }

@@ -239,7 +239,7 @@ TEST_P(PosedBody, KeepsGirthsAndVolumeThroughAllMotions) {
       volumes.add(volume(m, x) / volume(m, m.positions));
       for (std::size_t k = 0; k < std::size(tapes); ++k) {
         // A thigh lifted to the side or front enters the level section around the hips.
-        if (tapes[k].joint == std::string_view("hips") && name == "dance") continue;
+        if (tapes[k].joint == std::string_view("hips") && (name == "dance" || name == "crouch")) continue;
         worst[k].add(girth(m, x, pose, tapes[k]) / girths[k]);
         linear[k].add(girth(m, old, pose, tapes[k]) / girths[k]);
       }
