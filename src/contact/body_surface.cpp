@@ -182,4 +182,24 @@ BodyPoint BodySurface::nearest_facing(const Vec3& p, const Vec3& direction, doub
   return result;
 }
 
+// Of points q within the reach R, those with (q - p) . n > |q - p|/2 lie in the ball around p + R n with radius R.
+BodyPoint BodySurface::nearest_opposite(const Vec3& p, const Vec3& normal, double reach_m) const {
+  const auto x = [&](Index i) -> const Vec3& { return start_[static_cast<std::size_t>(i)]; };
+  BodyPoint result;
+  double best2 = reach_m * reach_m;
+  tree_now_.nearest(p + reach_m * normal, best2, [&](Index t, double bound2) {
+    const Vec3& n = face_normal(t);
+    if (n.dot(normal) >= -facing_cosine) return bound2;
+    const Triangle& c = triangle(t);
+    const VertexTriangle candidate = closest_vertex_triangle(p, x(c[0]), x(c[1]), x(c[2]));
+    if (!(candidate.distance2 < best2)) return bound2;
+    const Vec3 way = position(t, candidate.barycentric) - p;
+    if (way.dot(normal) <= facing_cosine * way.norm()) return bound2;
+    best2 = candidate.distance2;
+    result = {t, candidate.barycentric, n, n.dot(p - x(c[0]))};
+    return bound2;
+  });
+  return result;
+}
+
 }  // namespace toile

@@ -53,6 +53,10 @@ class BodySurface {
   // face's, and the gap the height over its plane: negative behind it.
   BodyPoint nearest_facing(const Vec3& p, const Vec3& direction, double reach_m) const;
 
+  // What is over p, seen along `normal` (unit): the nearest of the faces that look against it (n . normal < -1/2) at points within
+  // 60 degrees of it.  As in nearest_facing the normal is the face's.
+  BodyPoint nearest_opposite(const Vec3& p, const Vec3& normal, double reach_m) const;
+
   // The material point (triangle, barycentric) now and at the end of the step; its mean velocity over a step of h
   // seconds is (next_position - position) / h.
   Vec3 position(Index triangle, const Vec3& barycentric) const { return point(start_, triangle, barycentric); }

@@ -108,7 +108,7 @@ Scene parse_scene(std::string_view text, const std::string& file) {
     if (const Json* pairs = contact->find("friction_between"))
       for (const Json& pair : pairs->array()) scene.friction_between.push_back(read_pair_friction(pair));
     scene.self_contact = contact->boolean_or("self_contact", true);
-    scene.flypaper = contact->boolean_or("flypaper", false);
+    scene.flypaper = contact->boolean_or("flypaper", true);
     scene.strict_start = contact->boolean_or("strict_start", false);
   }
   if (const Json* start = root.find("start")) scene.start = resolve(file, *start);

@@ -180,7 +180,7 @@ struct Scene {
   std::optional<double> contact_thickness_m, contact_friction;  // of all fabrics, when given
   std::vector<PairFriction> friction_between;
   bool self_contact = true;
-  bool flypaper = false;  // step/flypaper.hpp
+  bool flypaper = true;  // step/flypaper.hpp
   bool strict_start = false;
 
   std::string start;       // directory of a run whose last frame is where this one begins; empty: from the panels

@@ -150,7 +150,7 @@ void add_to_hash(const Scene& scene, Hash& hash) {
     add(hash, pair.friction);
   }
   add(hash, scene.self_contact ? 1.0 : 0.0);
-  if (scene.flypaper) add(hash, 2.0);  // scenes without it keep the hash that they had
+  if (!scene.flypaper) add(hash, 2.0);
 }
 
 }  // namespace toile

@@ -51,8 +51,14 @@ ContactRows::ContactRows(const ClothModel& model, const BodySurface* body, std::
 
 template <class Particles>
 bool ContactRows::is_let_be(const Particles& particles) const {
-  return !let_be_.empty() &&
-         std::any_of(particles.begin(), particles.end(), [&](Index i) { return i >= 0 && let_be_[at(i)] != 0; });
+  if (pinched_.empty()) return false;
+  bool all = true;
+  for (const Index i : particles) {
+    if (i < 0) continue;
+    if (pinched_[at(i)] == Pinched::without_room) return true;
+    all = all && pinched_[at(i)] != Pinched::no;
+  }
+  return all;
 }
 
 Vec3 ContactRows::relative_velocity(const Pair& pair, const Vec3s& v, double h_s) const {

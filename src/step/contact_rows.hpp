@@ -15,6 +15,7 @@
 #include "assembly/implicit_row.hpp"
 #include "contact/proximity.hpp"
 #include "step/bristle.hpp"
+#include "step/flypaper.hpp"
 #include "step/layer_distance.hpp"
 #include "step/step_formula.hpp"
 
@@ -60,8 +61,9 @@ class ContactRows {
   // are a centimetre thick: sewing thins them there to let the corner close.  0 switches the contact of layers off.
   void set_thickness_scale(std::span<const double> scale) { distance_.set_scale(scale); }
 
-  // [particle] 1: it gets no rows, neither with layers nor with the body, from the next detect on (step/flypaper.hpp); empty: all do.
-  void let_be(std::span<const char> particles) { let_be_.assign(particles.begin(), particles.end()); }
+  // [particle] From the next detect on what is pinched without room gets no rows, neither with layers nor with the body, nor do pairs of
+  // which all is held.  Empty: all do.
+  void let_be(std::span<const Pinched> particles) { pinched_.assign(particles.begin(), particles.end()); }
 
   // What the safe filter asks for: whose features touch, a hierarchy over the triangles (after detect), and the distance that neighbours
   // keep, per particle: what it keeps of a gap is far less than either.
@@ -124,7 +126,7 @@ class ContactRows {
   const BodySurface* body_;
   double body_r_m_, body_friction_;
   ContactRowOptions options_;
-  std::vector<char> let_be_;  // [particle] or empty
+  std::vector<Pinched> pinched_;  // [particle] or empty
   ClothTopology topology_;
   LayerDistance distance_;
   TriangleTree tree_;

@@ -8,11 +8,11 @@
 namespace toile {
 namespace {
 
-constexpr double opposite = -0.5;   // n_1 . n_2
-constexpr double begins_below = 2;  // r
-constexpr double ends_above = 2.2;  // r
-constexpr double parts_above = 1;   // r
-constexpr double closes_by = 1e-3;  // r per step: less is rounding, or a narrow place that turns
+constexpr double begins_below = 2;                    // r
+constexpr double ends_above = 2.2;                    // r
+constexpr double parts_above = 1;                     // r
+constexpr double room_above = 0.5, room_again = 0.6;  // r
+constexpr double closes_by = 1e-3;                    // r per step: less is rounding, or a narrow place that turns
 constexpr std::size_t grain = 256;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -20,13 +20,18 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 Flypaper::Flypaper(const BodySurface* body, std::size_t particles, double offset_m)
-    : body_(body), offset_m_(offset_m), pinched_(particles, 0) {}
+    : body_(body), offset_m_(offset_m), pinched_(particles, Pinched::no) {}
 
-// How much nearer the two surfaces come to each other in the step.
+// How much nearer the two surfaces come to each other in the step.  Of a place that moves as one, nothing.
 double Flypaper::closing(const Pinch& pinch) const {
-  double sum = 0;
-  for (const BodyPoint& side : pinch.side) sum += side.normal.dot(body_->travel(side.triangle, side.barycentric));
-  return sum;
+  const auto& [one, two] = pinch.side;
+  const Vec3 relative = body_->travel(one.triangle, one.barycentric) - body_->travel(two.triangle, two.barycentric);
+  return 0.5 * (one.normal - two.normal).dot(relative);
+}
+
+bool Flypaper::has_room(const Pinch& pinch) const {
+  const double least = std::min(pinch.apart(), pinch.apart() - closing(pinch));
+  return pinch.outside() && least >= (pinch.room ? room_above : room_again) * offset_m_;
 }
 
 bool Flypaper::goes_on(Pinch& pinch, const Vec3& x) const {
@@ -35,23 +40,27 @@ bool Flypaper::goes_on(Pinch& pinch, const Vec3& x) const {
     side = body_->nearest_facing(x, side.normal, reach);
     if (side.triangle < 0) return false;
   }
-  const double apart = pinch.side[0].gap_m + pinch.side[1].gap_m;
-  if (apart > ends_above * offset_m_) return false;
-  const bool outside = pinch.side[0].gap_m > 0 && pinch.side[1].gap_m > 0;
-  return !(outside && apart > parts_above * offset_m_ && closing(pinch) < -closes_by * offset_m_);
+  if (pinch.apart() > ends_above * offset_m_ || pinch.side[0].normal.dot(pinch.side[1].normal) > 0) return false;
+  if (pinch.outside() && pinch.apart() > parts_above * offset_m_ && closing(pinch) < -closes_by * offset_m_)
+    return false;
+  pinch.room = has_room(pinch);
+  return true;
 }
 
 bool Flypaper::begins(Pinch& pinch, const Vec3& x) const {
   const BodyPoint near = pinch.side[0];
-  const double reach = begins_below * offset_m_ + 2 * farthest_travel_m_ - near.gap_m;
+  const double travel = body_->travel(near.triangle, near.barycentric).norm();
+  const double reach = begins_below * offset_m_ + travel + farthest_travel_m_ - near.gap_m;
   if (near.gap_m < 0 || reach <= 0) return false;
-  pinch.side[1] = body_->nearest_facing(x, -near.normal, reach);
+  pinch.side[1] = body_->nearest_opposite(x, near.normal, reach);
   const BodyPoint& other = pinch.side[1];
-  if (other.triangle < 0 || near.normal.dot(other.normal) >= opposite) return false;
   // Within it; or beside it, not over it: the way to it leads along it.
-  if (other.gap_m < 0.5 * (x - body_->position(other.triangle, other.barycentric)).norm()) return false;
-  const double closes = closing(pinch), apart = near.gap_m + other.gap_m;
-  return closes > closes_by * offset_m_ && apart - closes < begins_below * offset_m_;
+  if (other.triangle < 0 || other.gap_m < 0.5 * (x - body_->position(other.triangle, other.barycentric)).norm())
+    return false;
+  const double closes = closing(pinch);
+  if (closes <= closes_by * offset_m_ || pinch.apart() - closes >= begins_below * offset_m_) return false;
+  pinch.room = has_room(pinch);
+  return true;
 }
 
 void Flypaper::detect(const ClothState& state, std::span<const BodyPoint> nearest) {
@@ -61,25 +70,31 @@ void Flypaper::detect(const ClothState& state, std::span<const BodyPoint> neares
     travel2 = std::max(travel2, body_->vertex_travel(static_cast<Index>(v)).squaredNorm());
   farthest_travel_m_ = std::sqrt(travel2);
   was_.assign(pinched_.begin(), pinched_.end());  // what has just been let go of stays free for this step
-  for (Pinch& pinch : pinches_) pinched_[at(pinch.particle)] = goes_on(pinch, state.x[at(pinch.particle)]) ? 1 : 0;
-  const auto ended = [&](const Pinch& pinch) { return pinched_[at(pinch.particle)] == 0; };
-  pinches_.erase(std::remove_if(pinches_.begin(), pinches_.end(), ended), pinches_.end());
-  if (!(travel2 > 0)) return;  // nothing closes
   candidates_.clear();
-  for (std::size_t i = 0; i < nearest.size(); ++i) {
-    if (nearest[i].triangle < 0 || was_[i] != 0) continue;
-    candidates_.push_back({static_cast<Index>(i), {nearest[i], {}}});
+  for (Pinch& pinch : pinches_)
+    if (goes_on(pinch, state.x[at(pinch.particle)])) candidates_.push_back(pinch);
+  pinches_.swap(candidates_);
+  if (travel2 > 0) {  // else nothing closes
+    candidates_.clear();
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+      if (nearest[i].triangle < 0 || was_[i] != Pinched::no) continue;
+      candidates_.push_back({static_cast<Index>(i), {nearest[i], {}}});
+    }
+    begun_.assign(candidates_.size(), 0);
+    parallel_for(candidates_.size(), grain, [&](std::size_t k) {
+      begun_[k] = begins(candidates_[k], state.x[at(candidates_[k].particle)]) ? 1 : 0;
+    });
+    for (std::size_t k = 0; k < candidates_.size(); ++k)
+      if (begun_[k] != 0) pinches_.push_back(candidates_[k]);
+    std::sort(pinches_.begin(), pinches_.end(), [](const Pinch& a, const Pinch& b) { return a.particle < b.particle; });
   }
-  begun_.assign(candidates_.size(), 0);
-  parallel_for(candidates_.size(), grain, [&](std::size_t k) {
-    begun_[k] = begins(candidates_[k], state.x[at(candidates_[k].particle)]) ? 1 : 0;
-  });
-  for (std::size_t k = 0; k < candidates_.size(); ++k) {
-    if (begun_[k] == 0) continue;
-    pinched_[at(candidates_[k].particle)] = 1;
-    pinches_.push_back(candidates_[k]);
+  any_without_room_ = false;
+  std::fill(pinched_.begin(), pinched_.end(), Pinched::no);
+  for (const Pinch& pinch : pinches_) {
+    pinched_[at(pinch.particle)] = pinch.room ? Pinched::with_room : Pinched::without_room;
+    any_without_room_ |= !pinch.room;
   }
-  std::sort(pinches_.begin(), pinches_.end(), [](const Pinch& a, const Pinch& b) { return a.particle < b.particle; });
+  steps_without_room_ += any_without_room_ ? 1 : 0;
 }
 
 void Flypaper::apply(const ClothState& state, const StepFormula& step, ParticleConstraints& constraints) const {
@@ -87,8 +102,9 @@ void Flypaper::apply(const ClothState& state, const StepFormula& step, ParticleC
     if (!constraints.is_free(pinch.particle)) continue;
     const std::size_t i = at(pinch.particle);
     const auto& [one, two] = pinch.side;
+    const double s = pinch.room ? one.gap_m / pinch.apart() : 0.5;
     const Vec3 way =
-        0.5 * (body_->travel(one.triangle, one.barycentric) + body_->travel(two.triangle, two.barycentric));
+        (1 - s) * body_->travel(one.triangle, one.barycentric) + s * body_->travel(two.triangle, two.barycentric);
     constraints.hold(pinch.particle, (way - step.drift(pinch.particle)) / step.weight_s - state.v[i]);
   }
 }

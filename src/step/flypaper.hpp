@@ -1,16 +1,20 @@
 // step/flypaper.hpp: cloth between two parts of the body that come nearer to each other than two offsets.   (L1) [BWK03 5]
 //
-//   The offset cannot be kept from both.  What is pinched is held (S = 0) and goes where the two surfaces go on the average:
-//     x' = x + (u_1 + u_2)/2,   u  travel of the body's nearest point on either side
-//   Layers keep their places to each other so, and need no contact; nothing pulls them to the middle, where they would coincide.
-//   Neither layers nor the body act on it, and the safe filter lets it be: the two may pass through each other around it.
+//   The offset cannot be kept from both.  What is pinched is held (S = 0) and goes with the two surfaces:
+//     with room      r/2 or more between them, and outside of both: it keeps its place among them,
+//                      x' = x + (1-s) u_1 + s u_2,   s = g_1/(g_1 + g_2)      g  gap,  u  travel of the nearest point of each
+//                    so it meets neither, layers keep their order, and come out as far apart as they went in.  All stays guarded.
+//     without room   x' = x + (u_1 + u_2)/2
+//                    so that layers stay as far apart as they are: with s they would coincide where the surfaces meet.  Neither
+//                    layers nor the body act on it, and the safe filter lets it be: the two may pass through each other around it.
 //
-//   begins  outside of both, between faces that look at each other (n_1 . n_2 < -1/2) and close on each other, less than 2 r apart now or
-//           at the end of the step.  The back of a finger is no second surface: from its front, the particle is within it.
+//   begins  outside of both, between faces that look at each other (n_1 . n_2 < -1/2, either within 60 degrees over the other) and close
+//           on each other, less than 2 r apart now or at the end of the step.  The back of a finger is no second surface: from its
+//           front, the particle is within it.
 //   goes on with the nearest faces that look the way that the last ones looked, found anew in every step: the particle may be within both
-//   ends    2.2 r apart; or outside of both, while they part and are r apart; or when one of them is not found any more
+//   ends    2.2 r apart; or outside of both, while they part and are r apart; or when one of them is not found any more; or when
+//           they look the same way: a crease that has opened
 //
-// Around it faces are not guarded: where two parts only come near each other and do not overlap, it lets edges pass (docs/theory/step.md).
 // A crease that does not close pinches nothing, however narrow it is.
 #pragma once
 #include "assembly/cloth_model.hpp"
@@ -19,10 +23,13 @@
 #include "step/step_formula.hpp"
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace toile {
+
+enum class Pinched : std::uint8_t { no, with_room, without_room };
 
 class Flypaper {
  public:
@@ -36,21 +43,31 @@ class Flypaper {
 
   bool any() const { return !pinches_.empty(); }
   std::size_t count() const { return pinches_.size(); }
-  std::span<const char> pinched() const { return pinched_; }  // [particle]
+  std::span<const Pinched> pinched() const { return pinched_; }  // [particle]
+  // Steps so far in which something was without room: more of them than before, and cloth may have passed through cloth.
+  long steps_without_room() const { return steps_without_room_; }
+  bool any_without_room() const { return any_without_room_; }
 
  private:
   struct Pinch {
     Index particle;
     std::array<BodyPoint, 2> side;
+    bool room = true;
+    double apart() const { return side[0].gap_m + side[1].gap_m; }
+    bool outside() const { return side[0].gap_m > 0 && side[1].gap_m > 0; }
   };
   bool goes_on(Pinch& pinch, const Vec3& x) const;
   bool begins(Pinch& pinch, const Vec3& x) const;
   double closing(const Pinch& pinch) const;
+  bool has_room(const Pinch& pinch) const;
 
   const BodySurface* body_;
   double offset_m_, farthest_travel_m_ = 0;
   std::vector<Pinch> pinches_, candidates_;  // ascending particles
-  std::vector<char> pinched_, was_, begun_;  // [particle], likewise before the last detect, [candidate]
+  std::vector<Pinched> pinched_, was_;       // [particle]; before the last detect
+  std::vector<char> begun_;                  // [candidate]
+  bool any_without_room_ = false;
+  long steps_without_room_ = 0;
 };
 
 }  // namespace toile

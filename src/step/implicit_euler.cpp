@@ -81,7 +81,7 @@ void ImplicitEuler::prepare(const ClothState& state, double t_s, double h_s, dou
     body_.detect(state, base_h_s);
     if (options_.flypaper) {
       flypaper_.detect(state, body_.points());
-      rows_.let_be(flypaper_.any() ? flypaper_.pinched() : std::span<const char>());
+      rows_.let_be(flypaper_.any() ? flypaper_.pinched() : std::span<const Pinched>());
     }
   }
   rows_.detect(state, base_h_s);
@@ -91,7 +91,7 @@ void ImplicitEuler::prepare(const ClothState& state, double t_s, double h_s, dou
 // What is through the body already is not kept there.  That it is can only come of a start, or of a step that let it in.
 void ImplicitEuler::look_through_body(const ClothState& state) {
   const Timed timed(seconds_.cloth_solid);
-  may_be_through_ |= flypaper_.any();
+  may_be_through_ |= flypaper_.any_without_room();
   if (may_be_through_) {
     may_be_through_ =
         mark_through_body(rows_.topology(), rows_.tree(), state.x, *world_->body, body_workspace_, through_body_);
@@ -99,7 +99,7 @@ void ImplicitEuler::look_through_body(const ClothState& state) {
     through_body_.assign(state.x.size(), 0);
   }
   for (std::size_t i = 0; i < state.x.size(); ++i) {
-    if (body_.inside(static_cast<Index>(i)) || flypaper_.pinched()[i] != 0) through_body_[i] = 1;
+    if (body_.inside(static_cast<Index>(i)) || flypaper_.pinched()[i] == Pinched::without_room) through_body_[i] = 1;
   }
 }
 
@@ -380,10 +380,10 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
     inverse_mass_[i] = constraints_.is_free(static_cast<Index>(i)) ? 1 / model_->mass_kg[i] : 0;
   std::span<const double> contact_m;
   if (options_.rows.cloth_cloth) contact_m = rows_.contact_m();
-  if (options_.rows.cloth_cloth && flypaper_.any()) {
+  if (options_.rows.cloth_cloth && flypaper_.any_without_room()) {
     contact_m_.assign(contact_m.begin(), contact_m.end());
     for (std::size_t i = 0; i < contact_m_.size(); ++i)
-      if (flypaper_.pinched()[i] != 0) contact_m_[i] = 0;
+      if (flypaper_.pinched()[i] == Pinched::without_room) contact_m_[i] = 0;
     contact_m = contact_m_;
   }
   BodyGuard guard{world_->body, options_.body.offset_m, through_body_};

@@ -35,7 +35,7 @@ TEST(Scene, APatternAndABodyAreAComplete) {
   EXPECT_EQ(scene.seconds, 5);
   EXPECT_TRUE(scene.until_still);
   EXPECT_TRUE(scene.self_contact);
-  EXPECT_FALSE(scene.flypaper);
+  EXPECT_TRUE(scene.flypaper);
   EXPECT_FALSE(scene.preconditioner.has_value());
   EXPECT_FALSE(scene.body.friction.has_value());
 }
@@ -56,7 +56,7 @@ TEST(Scene, ReadsEveryKeyInItsUnit) {
     "world": {"gravity_m_per_s2": [0, -1, 0], "wind_m_per_s": [0, 0, 0], "air_density_kg_per_m3": 1.2},
     "time": {"fps": 25, "seconds": 2, "step_max_ms": 10, "integrator": "backward_euler", "until_still": true},
     "solver": {"preconditioner": "diagonal", "tolerance": 0.01, "paper_scaling": true, "damping_jacobian": "paper"},
-    "contact": {"thickness_mm": 2, "friction": 0.2, "self_contact": false, "strict_start": true, "flypaper": true},
+    "contact": {"thickness_mm": 2, "friction": 0.2, "self_contact": false, "strict_start": true, "flypaper": false},
     "output": {"dir": "out/x", "preview": false}})",
                                   "s.json");
   const SceneCloth& cloth = scene.cloth.at(0);
@@ -81,7 +81,7 @@ TEST(Scene, ReadsEveryKeyInItsUnit) {
   EXPECT_EQ(scene.damping_jacobian, DampingJacobian::paper);
   EXPECT_DOUBLE_EQ(scene.contact_thickness_m.value(), 2e-3);
   EXPECT_FALSE(scene.self_contact);
-  EXPECT_TRUE(scene.flypaper);
+  EXPECT_FALSE(scene.flypaper);
   EXPECT_TRUE(scene.strict_start);
   EXPECT_EQ(scene.output_dir, "out/x");
   EXPECT_FALSE(scene.preview.value());

@@ -71,6 +71,60 @@ TEST(Flypaper, GoesWithTheMeanOfBothSurfacesWhileTheyAreWithinEachOther) {
   }
 }
 
+// With room between them it keeps its place among the two: a layer near one of them is met by neither, and comes out where it was.
+TEST(Flypaper, WithRoomItKeepsItsPlaceBetweenTheTwo) {
+  Jaws jaws(0.1);
+  const auto upper = [](double t_s) {
+    return (2.4 - 1.4 * std::min(t_s, 0.4 - t_s) / 0.2) * offset;
+  };  // to one offset and back
+  ClothRun run = between(
+      jaws, [](double) { return 0.0; }, upper);
+  bool all = false;
+  for (int frame = 1; frame <= 24; ++frame) {
+    run.frame(1.0 / 60);
+    all |= pinched(run) == run.state.x.size();
+    for (const Vec3& p : run.state.x) {
+      EXPECT_GT(p.y(), 0.2 * offset) << frame;
+      EXPECT_LT(p.y(), upper(frame / 60.0) - 0.2 * offset) << frame;
+    }
+    for (const Pinched how : run.stepper->integrator().flypaper().pinched()) EXPECT_NE(how, Pinched::without_room);
+  }
+  EXPECT_TRUE(all);
+  EXPECT_EQ(run.stepper->integrator().flypaper().steps_without_room(), 0);
+}
+
+// A crease of 50 degrees between two slabs, and a particle in it.  Going up, along the sum of its normals, both faces come towards the place
+// where the particle was, and neither comes nearer to the other.
+TEST(Flypaper, APlaceThatMovesAsOneClosesNowhere) {
+  const double angle = 65 * 3.14159265358979323846 / 180;
+  const BodySurface slab = test::tilted_slab(0.3, 0.1, 0);
+  std::vector<Triangle> triangles(slab.triangles().begin(), slab.triangles().end());
+  for (const auto& [a, b, c] : slab.triangles()) triangles.push_back({a + 8, b + 8, c + 8});
+  Vec3s x;
+  for (const double side : {1.0, -1.0}) {
+    for (const Vec3& p : slab.positions()) {
+      const double z = p.z() - 0.3 * side, c = std::cos(angle), s = side * std::sin(angle);
+      x.emplace_back(p.x(), c * p.y() - s * z, s * p.y() + c * z);
+    }
+  }
+  BodySurface crease(x, triangles);
+  const ClothState state{{Vec3(0, 0.9 * offset / std::cos(angle), 0)}, {Vec3::Zero()}};
+  const auto pinches = [&](const Vec3& one, const Vec3& two) {
+    Vec3s end = x;
+    for (std::size_t i = 0; i < end.size(); ++i) end[i] += i < 8 ? one : two;
+    crease.set_motion(x, end, 0);
+    Flypaper flypaper(&crease, 1, offset);
+    const std::vector<BodyPoint> nearest{crease.nearest(state.x[0], 0.1)};
+    flypaper.detect(state, nearest);
+    return flypaper.any();
+  };
+  const Vec3 up(0, 0.2 * offset, 0), across(0, 0, 0.2 * offset);
+  EXPECT_FALSE(pinches(up, up));
+  EXPECT_FALSE(pinches(across, across));
+  EXPECT_FALSE(pinches(-across, across));
+  EXPECT_TRUE(pinches(across, -across));
+}
+
 TEST(Flypaper, ThinThingsAreNotTwoSurfaces) {  // 2 mm, less than two offsets: a plate that lifts the sheet
   Jaws jaws(0.002);
   const auto lower = [](double t_s) { return 0.05 * t_s; };
@@ -121,6 +175,26 @@ TEST(Flypaper, LayersThatArePinchedTogetherPartAgain) {
   for (std::size_t i = 0; i < one; ++i) {
     EXPECT_GT(run.state.x[one + i].y(), run.state.x[i].y()) << "in their order";
     EXPECT_GT(run.state.x[2 * one + i].y(), run.state.x[one + i].y());
+  }
+}
+
+TEST(NearestOpposite, IsTheNearestOfTheFacesThatLookBackFromAbove) {
+  const BodySurface room =
+      test::sphere(Vec3::Zero(), 0.2, 3);  // seen from outside, and from within by faces that look out: none
+  Jaws jaws(0.1);
+  jaws.place(0, 0.03, jaws.x);
+  jaws.body.set_motion(jaws.x, jaws.x, 0);
+  test::Random random(8);
+  for (int n = 0; n < 100; ++n) {
+    const Vec3 p(random(-0.2, 0.2), random(0.0, 0.03), random(-0.2, 0.2));
+    const BodyPoint above = jaws.body.nearest_opposite(p, Vec3(0, 1, 0), 0.05);
+    ASSERT_GE(above.triangle, 0) << n;
+    EXPECT_NEAR(above.gap_m, 0.03 - p.y(), 1e-12) << "the upper one's bottom, from below";
+    EXPECT_NEAR(above.normal.y(), -1, 1e-12);
+    EXPECT_LT(jaws.body.nearest_opposite(p, Vec3(0, 1, 0), 0.9 * (0.03 - p.y())).triangle, 0) << "beyond its reach";
+    EXPECT_NEAR(jaws.body.nearest_opposite(p, Vec3(0, -1, 0), 0.05).gap_m, p.y(), 1e-12);
+    EXPECT_LT(jaws.body.nearest_opposite(p, Vec3(1, 0, 0), 0.05).triangle, 0) << "nothing looks back along the two";
+    EXPECT_LT(room.nearest_opposite(0.5 * p, Vec3(0, 1, 0), 1).triangle, 0) << "faces that look away";
   }
 }
 
