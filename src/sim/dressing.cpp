@@ -22,12 +22,13 @@ Dressing::Dressing(const Outfit& outfit, const GarmentMesh& garment, std::span<c
   options_.held_particles = outfit.mesh.particle_count;
   sewing_.emplace(panels_, outfit_.fabrics, body, step, options_);
 
-  Tangles tangles;
-  tangles.find(panels_.mesh.triangles, panels_.x);
+  const Topology topology = build_topology(panels_.mesh.particle_count, panels_.mesh.triangles);
+  Tangles tangles(topology, panels_.mesh.triangles);
+  tangles.find(panels_.x);
   tangled_ = tangles.any();
   if (!tangled_) return;
   std::vector<double> scale = sewing_->thickness_scale();
-  tangles.switch_off(panels_.x, scale);
+  tangles.switch_off(scale);
   sewing_->set_thickness_scale(std::move(scale));
 }
 

@@ -36,18 +36,18 @@ OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, BodySurface* body, cons
     worn_pins_.push_back(std::move(held));
   }
   world_.pins = worn_pins_;
-  if (!settling_.labels.empty()) {
-    world_.springs = [this](const ClothState& at, double, double, std::vector<LinearSpring>& springs) {
-      settling_.labels.append(at, label_strength_, springs);
-    };
-  }
+  world_.springs = [this](const ClothState& at, double, double, std::vector<LinearSpring>& springs) {
+    if (!settling_.labels.empty()) settling_.labels.append(at, label_strength_, springs);
+    tangles_->append_springs(springs);
+  };
   AdaptiveOptions adaptive;
   adaptive.stop = std::move(stop);
   adaptive.step_max_s = scene.step_max_s.value_or(scene.cloth.front().is_sewn() ? sewn_step_max_s : 1 / scene.fps);
   stepper_.emplace(model_, world_, step_, adaptive);
   set_rest_stretch(1);
   if (outfit.thickness_scale.empty()) outfit.thickness_scale.assign(outfit.state.x.size(), 1);
-  tangles_.find(outfit.mesh.triangles, outfit.state.x);
+  tangles_.emplace(model_.topology, outfit.mesh.triangles);
+  tangles_->find(outfit.state.x);
 }
 
 bool OutfitRun::settled() const { return !settling_.sewn || time_s() >= settling_s; }
@@ -119,10 +119,11 @@ FrameReport OutfitRun::frame() {
   happen();
   std::vector<double>& thickness = outfit_->thickness_scale;
   if (settled()) grow_thickness(thickness);
-  const bool pinched = stepper_->integrator().flypaper().any();
-  if (pinched) tangles_.look_again();
-  if (tangles_.any() || pinched) tangles_.find(outfit_->mesh.triangles, outfit_->state.x);
-  tangles_.switch_off(outfit_->state.x, thickness);  // also where sewing had left it so
+  const long without_room = stepper_->integrator().flypaper().steps_without_room();
+  const bool let_through = std::exchange(without_room_, without_room) != without_room;
+  if (let_through) tangles_->look_again();
+  if (tangles_->any() || let_through) tangles_->find(outfit_->state.x);
+  tangles_->switch_off(thickness);  // also where sewing had left it so
   stepper_->integrator().contact_rows().set_thickness_scale(thickness);
   const FrameReport report = stepper_->advance(outfit_->state, time_s(), 1 / scene_->fps);
   if (!report.interrupted && report.ok) ++frames_;

@@ -81,7 +81,8 @@ class OutfitRun {
   StepOptions step_;
   ClothModel model_;
   StepWorld world_;
-  Tangles tangles_;
+  std::optional<Tangles> tangles_;
+  long without_room_ = 0;  // steps in which the body let cloth pass (step/flypaper.hpp), by the last look
   double label_strength_ = 0, motion_start_s_ = 0, ramped_ = -1;
   BodyAt motion_;
   Events events_;

@@ -1,40 +1,85 @@
 #include "sim/tangles.hpp"
 
+#include "contact/intersection_contours.hpp"
 #include "verify/crossings.hpp"
-
-#include <algorithm>
 
 namespace toile {
 namespace {
 
-constexpr double radius_m = 0.03;
-constexpr double guarded_again = 0.1;  // from here the thickness grows
+constexpr double guarded_again = 0.1;    // from here the thickness grows
+constexpr int unguarded_rings = 2;       // around what crosses
+constexpr double largest_part = 0.1;     // of a surface that may be swept over: more of it is not what went through
+constexpr double drag_N_s_per_m = 5;     // per point of a contour
+constexpr double moves_in_s = 1.0 / 30;  // what it is to be moved: it goes no faster
+constexpr int patience = 20;             // looks without progress until contours are pushed another way
+constexpr int ways = 3;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-void Tangles::find(std::span<const Triangle> triangles, const Vec3s& x) {
+Tangles::Tangles(const Topology& topology, std::span<const Triangle> triangles)
+    : topology_(&topology), triangles_(triangles) {}
+
+void Tangles::find(const Vec3s& x) {
   if (over_) return;
-  places_.clear();
-  crossing_.assign(x.size(), 0);
-  for (const Crossing& crossing : find_cloth_crossings(triangles, x)) {
-    places_.push_back(crossing.position);
-    for (const Index i : crossing.edge) crossing_[at(i)] = 1;
-    for (const Index i : triangles[at(crossing.triangle)]) crossing_[at(i)] = 1;
+  springs_.clear();
+  unguarded_.assign(x.size(), 0);
+  std::vector<SurfaceCrossing> crossings;
+  for (const Crossing& c : find_cloth_crossings(triangles_, x)) crossings.push_back({c.edge, c.triangle, c.position});
+  over_ = crossings.empty();
+  any_ = !over_;
+  if (over_) {
+    waited_ = 0;
+    fewest_ = 0;
+    return;
   }
-  over_ = places_.empty();
+  if (!push_) {
+    push_.emplace(*topology_, triangles_, x);
+    for (const Edge& e : topology_->edges) edge_m_ += (x[at(e.a)] - x[at(e.b)]).norm();
+    edge_m_ /= static_cast<double>(topology_->edges.size());
+  }
+  ++waited_;
+  if (fewest_ == 0 || crossings.size() < fewest_) {
+    fewest_ = crossings.size();
+    waited_ = 0;
+  }
+  for (const SurfaceCrossing& crossing : crossings) mark_particles(crossing, triangles_, unguarded_);
+  for (const IntersectionContour& contour : trace_contours(*topology_, triangles_, crossings))
+    push(contour, crossings, x);
+  push_->regions().grow(unguarded_, unguarded_rings);
 }
 
-void Tangles::switch_off(const Vec3s& x, std::vector<double>& thickness_scale) const {
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const auto beside = [&](const Vec3& p) { return (x[i] - p).norm() < radius_m; };
-    if (any() && (crossing_[i] != 0 || std::any_of(places_.begin(), places_.end(), beside))) {
+void Tangles::push(const IntersectionContour& contour, std::span<const SurfaceCrossing> crossings, const Vec3s& x) {
+  const auto way = static_cast<ContourPush::Way>(waited_ / patience % ways);
+  (*push_)(contour, crossings, x, way, edge_m_, largest_part, unguarded_,
+           [&](const ContourPull& point, const Vec3& move_m) {
+             const double length_m = move_m.norm();
+             if (!(length_m > 0)) return;
+             LinearSpring drag;
+             for (std::size_t k = 0; k < 3; ++k) {
+               drag.particle[k] = point.particle[k];
+               drag.weight[k] = point.weight[k];
+             }
+             drag.direction = move_m / length_m;
+             drag.damping_N_s_per_m = drag_N_s_per_m;
+             drag.force_N = drag_N_s_per_m * length_m / moves_in_s;
+             springs_.push_back(drag);
+           });
+}
+
+void Tangles::switch_off(std::vector<double>& thickness_scale) const {
+  for (std::size_t i = 0; i < thickness_scale.size(); ++i) {
+    if (any_ && unguarded_[i] != 0) {
       thickness_scale[i] = 0;
     } else if (thickness_scale[i] == 0) {
       thickness_scale[i] = guarded_again;
     }
   }
+}
+
+void Tangles::append_springs(std::vector<LinearSpring>& springs) const {
+  springs.insert(springs.end(), springs_.begin(), springs_.end());
 }
 
 }  // namespace toile

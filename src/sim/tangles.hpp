@@ -1,12 +1,15 @@
-// sim/tangles.hpp: places where cloth passes through cloth already when a run begins, or when the body lets go of it.
+// sim/tangles.hpp: places where cloth passes through cloth when a run begins, or when the body lets go of it.           (L4)
 //
 // The safe filter keeps every pair on the side where it is, which would hold a crossing for good.  Around each
-// crossing contact is therefore switched off, so that bending can open it; once it is gone the particles are guarded
-// like all others, thinly at first.  (Sewing does not look again: what it leaves off, the first frame of the drape gives
-// back.)
+// contour contact is therefore switched off, and drag pushes it the way that takes least (sim/contour_push.hpp) until it is gone;
+// then the particles are guarded like all others, thinly at first.  (Sewing only switches off, and does not look again: what it
+// leaves so, the first frame of the drape gives back.)
 #pragma once
-#include "core/types.hpp"
+#include "assembly/implicit_row.hpp"
+#include "mesh/topology.hpp"
+#include "sim/contour_push.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,19 +17,32 @@ namespace toile {
 
 class Tangles {
  public:
+  // Both are kept by reference.
+  Tangles(const Topology& topology, std::span<const Triangle> triangles);
+
   // Looks for crossings at x.  After a look that found none it does nothing, until it is told to: the filter lets no new ones come.
-  void find(std::span<const Triangle> triangles, const Vec3s& x);
+  void find(const Vec3s& x);
   // What the body pinches is not guarded (step/flypaper.hpp).
   void look_again() { over_ = false; }
-  bool any() const { return !places_.empty(); }
+  bool any() const { return any_; }
   // Sets the scale of the particles around them to 0 (ContactRows::set_thickness_scale), and gives those that were 0 and
   // have no crossing beside them any more a tenth.
-  void switch_off(const Vec3s& x, std::vector<double>& thickness_scale) const;
+  void switch_off(std::vector<double>& thickness_scale) const;
+  // What pushes them apart from now to the next look.
+  void append_springs(std::vector<LinearSpring>& springs) const;
 
  private:
-  std::vector<Vec3> places_;
-  std::vector<char> crossing_;  // [particle] of an edge or a triangle that crosses: it may be long
-  bool over_ = false;
+  void push(const IntersectionContour& contour, std::span<const SurfaceCrossing> crossings, const Vec3s& x);
+
+  const Topology* topology_;
+  std::span<const Triangle> triangles_;
+  std::optional<ContourPush> push_;  // once there is something to push
+  double edge_m_ = 0;                // mean
+  std::vector<char> unguarded_;      // [particle]
+  std::vector<LinearSpring> springs_;
+  bool over_ = false, any_ = false;
+  std::size_t fewest_ = 0;  // crossings of all looks since there were none
+  int waited_ = 0;          // looks since then
 };
 
 }  // namespace toile

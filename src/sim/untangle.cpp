@@ -2,9 +2,9 @@
 // are kept.
 #include "sim/untangle.hpp"
 
-#include "contact/contour_motion.hpp"
 #include "core/parallel.hpp"
 #include "mesh/check.hpp"
+#include "sim/contour_push.hpp"
 #include "sim/model_as_it_is.hpp"
 #include "step/implicit_euler.hpp"
 #include "verify/crossings.hpp"
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double edge_m = 0.01;  // mean edge of the cloth as it is scaled here, about
 constexpr double step_s = 1.0 / 30;
-constexpr double push_m = 0.6 * edge_m;  // of a contour per trial
+constexpr double push_m = 0.6 * edge_m;  // out of the body, per trial
 constexpr double push_N_per_m = 150;     // a twentieth of a thread's stiffness: pulls along, tears nothing
 constexpr double body_N_per_m = 1000;
 constexpr double gap_m = 0.2 * edge_m;   // to the body
@@ -48,15 +48,6 @@ Fabric fabric() {
   f.thickness_m = 0.15 * edge_m;
   f.friction = 0;
   return f;
-}
-
-std::vector<double> particle_areas(std::span<const Triangle> triangles, std::span<const Vec3> x) {
-  std::vector<double> area(x.size(), 0);
-  for (const Triangle& t : triangles) {
-    const double third = (x[at(t[1])] - x[at(t[0])]).cross(x[at(t[2])] - x[at(t[0])]).norm() / 6;
-    for (const Index i : t) area[at(i)] += third;
-  }
-  return area;
 }
 
 std::vector<Triangle> joined(std::span<const Triangle> cloth, std::size_t particles, std::span<const Triangle> body) {
@@ -87,9 +78,8 @@ class Untangler {
         all_x_(x.size() + body_x.size()),
         topology_(build_topology(static_cast<Index>(all_x_.size()), all_)),
         model_(model_as_it_is(cloth, x, fabric())),
-        regions_(topology_, all_x_.size(), areas(x)),
+        push_(topology_, all_, start_of(x)),
         eased_(model_.bend.size(), 0) {
-    std::copy(body_x.begin(), body_x.end(), all_x_.begin() + static_cast<std::ptrdiff_t>(particles_));
     if (!body.empty()) surface_.emplace(body_x, std::vector<Triangle>(body.begin(), body.end()));
     world_.springs = [this](const ClothState&, double, double, std::vector<LinearSpring>& springs) {
       springs.insert(springs.end(), springs_.begin(), springs_.end());
@@ -126,7 +116,7 @@ class Untangler {
     double left = 0;
     for (const IntersectionContour& contour : seen.contours) left += push(contour, seen, way);
     left += push_out(x);
-    regions_.grow(unguarded_, unguarded_rings);
+    push_.regions().grow(unguarded_, unguarded_rings);
 
     step(x, 1, end);
     undo_new(x, end);
@@ -171,8 +161,8 @@ class Untangler {
   // otherwise fold back.
   void ease(const Look& seen, int rings) {
     std::vector<char> flat(all_x_.size(), 0);
-    for (const SurfaceCrossing& crossing : seen.crossings) mark(crossing, flat);
-    regions_.grow(flat, rings);
+    for (const SurfaceCrossing& crossing : seen.crossings) mark_particles(crossing, all_, flat);
+    push_.regions().grow(flat, rings);
     const double stiffer = eased_bend_N_m / fabric().bend_u_N_m;
     for (std::size_t h = 0; h < model_.bend.size(); ++h) {
       const auto& particle = model_.topology.hinges[h].particle;
@@ -223,18 +213,14 @@ class Untangler {
   void set_positions(const Vec3s& x) { std::copy(x.begin(), x.end(), all_x_.begin()); }
 
  private:
-  void mark(const SurfaceCrossing& crossing, std::vector<char>& particles) const {
-    for (const Index i : crossing.edge) particles[at(i)] = 1;
-    for (const Index i : all_[at(crossing.triangle)]) particles[at(i)] = 1;
-  }
-
   bool of_body(Index particle) const { return at(particle) >= particles_; }
   bool of_body_triangle(Index triangle) const { return at(triangle) >= cloth_.size(); }
 
-  std::vector<double> areas(const Vec3s& x) const {
-    Vec3s all = x;
-    all.insert(all.end(), body_x_.begin(), body_x_.end());
-    return particle_areas(all_, all);
+  // Fills all_x_.
+  std::span<const Vec3> start_of(const Vec3s& x) {
+    std::copy(body_x_.begin(), body_x_.end(), all_x_.begin() + static_cast<std::ptrdiff_t>(particles_));
+    set_positions(x);
+    return all_x_;
   }
 
   bool with_body(const IntersectionContour& contour, const Look& seen) const {
@@ -258,35 +244,14 @@ class Untangler {
   }
 
   double push(const IntersectionContour& contour, const Look& seen, int way) {
-    for (const ContourPoint& point : contour.points) mark(seen.crossings[at(point.crossing)], unguarded_);
+    for (const ContourPoint& point : contour.points)
+      mark_particles(seen.crossings[at(point.crossing)], all_, unguarded_);
     if (with_body(contour, seen)) {
       leave_body(contour, seen);
       return contour_length(contour, seen.crossings, all_x_) * edge_m;
     }
-    struct Choice {
-      CutRegion region;
-      Sweep sweep;
-      double cost = std::numeric_limits<double>::infinity();
-    };
-    std::array<Choice, 2> choices;
-    const double length = contour_length(contour, seen.crossings, all_x_);
-    for (int side = 0; side < 2; ++side) {
-      Choice& choice = choices[static_cast<std::size_t>(side)];
-      choice.region = regions_.cut_off(contour, seen.crossings, side);
-      if (!choice.region.separates || choice.region.particles.empty()) continue;
-      choice.sweep = sweep(contour, all_, topology_, seen.crossings, all_x_, side, choice.region.particles);
-      choice.cost = choice.region.area_m2 / std::max(choice.sweep.coherence * length, 1e-3 * edge_m);
-    }
-    std::size_t best = choices[1].cost < choices[0].cost ? 1 : 0;
-    if (way == 2 && std::isfinite(choices[1 - best].cost)) best = 1 - best;
-    if (std::isfinite(choices[best].cost)) {
-      for (const Index i : choices[best].region.particles) unguarded_[at(i)] = 1;
-      for (const ContourPull& p : choices[best].sweep.pulls) pull(p, push_m / 2 * p.vector);
-      if (way != 1) return choices[best].region.area_m2;
-    }
-    for (const ContourPull& p : length_gradient(contour, all_, seen.crossings, all_x_, 0.1))
-      pull(p, -push_m / std::max(1.0, p.vector.norm()) * p.vector);
-    return std::isfinite(choices[best].cost) ? choices[best].region.area_m2 : length * edge_m;
+    return push_(contour, seen.crossings, all_x_, static_cast<ContourPush::Way>(way), edge_m, 1, unguarded_,
+                 [&](const ContourPull& point, const Vec3& move_m) { pull(point, move_m); });
   }
 
   // Outwards: the cloth along the body's normal.
@@ -342,14 +307,14 @@ class Untangler {
         };
         if (with_body(contour, made) || std::any_of(contour.points.begin(), contour.points.end(), known)) continue;
         any = true;
-        for (const ContourPoint& point : contour.points) mark(made.crossings[at(point.crossing)], back);
+        for (const ContourPoint& point : contour.points) mark_particles(made.crossings[at(point.crossing)], all_, back);
       }
       if (!any) return;
       if (round == most_undone) {
         end = x;
         return;
       }
-      if (round > 0) regions_.grow(back, round - 1);
+      if (round > 0) push_.regions().grow(back, round - 1);
       const double share = round + 1 == most_undone ? 0 : 0.5;
       for (std::size_t i = 0; i < particles_; ++i)
         if (back[i]) end[i] = x[i] + share * (end[i] - x[i]);
@@ -363,7 +328,7 @@ class Untangler {
   Vec3s all_x_;
   Topology topology_;
   ClothModel model_;
-  SurfaceRegions regions_;
+  ContourPush push_;
   std::vector<char> eased_;  // [hinge]
   std::optional<BodySurface> surface_;
   StepWorld world_;
