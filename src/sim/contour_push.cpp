@@ -63,6 +63,16 @@ double ContourPush::operator()(const IntersectionContour& contour, std::span<con
   return sweeps ? choices[best].region.area_m2 : length * edge_m;
 }
 
+LinearSpring spring_along(const ContourPull& point, const Vec3& move_m) {
+  LinearSpring spring;
+  for (std::size_t k = 0; k < 3; ++k) {
+    spring.particle[k] = point.particle[k];
+    spring.weight[k] = point.weight[k];
+  }
+  spring.direction = move_m / move_m.norm();
+  return spring;
+}
+
 void mark_particles(const SurfaceCrossing& crossing, std::span<const Triangle> triangles, std::vector<char>& marked) {
   for (const Index i : crossing.edge) marked[at(i)] = 1;
   for (const Index i : triangles[at(crossing.triangle)]) marked[at(i)] = 1;

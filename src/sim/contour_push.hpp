@@ -5,6 +5,7 @@
 //
 // What pushes, springs in a trial or drag in a run, is its caller's.
 #pragma once
+#include "assembly/implicit_row.hpp"
 #include "contact/contour_motion.hpp"
 
 #include <functional>
@@ -20,8 +21,8 @@ class ContourPush {
 
   ContourPush(const Topology& topology, std::span<const Triangle> all, std::span<const Vec3> x);
 
-  // Calls pull(point, move) with moves of about 0.6 `edge_m`, the mean edge of the cloth, and marks the particles of the part that is swept over; one larger than
-  // `largest_part` of its surface is not.  Returns what is left to do, m^2.
+  // Calls pull(point, move) with moves of about 0.6 `edge_m`, the mean edge of the cloth, and marks the particles of the
+  // part that is swept over; one larger than `largest_part` of its surface is not.  Returns what is left to do, m^2.
   using Pull = std::function<void(const ContourPull&, const Vec3& move_m)>;
   double operator()(const IntersectionContour& contour, std::span<const SurfaceCrossing> crossings,
                     std::span<const Vec3> x, Way way, double edge_m, double largest_part, std::vector<char>& marked,
@@ -34,6 +35,9 @@ class ContourPush {
   std::span<const Triangle> all_;
   SurfaceRegions regions_;
 };
+
+// Between the point's particles, along a move of it that is not zero: what pulls is for the caller to fill in.
+LinearSpring spring_along(const ContourPull& point, const Vec3& move_m);
 
 // Marks the particles of a crossing's edge and triangle.
 void mark_particles(const SurfaceCrossing& crossing, std::span<const Triangle> triangles, std::vector<char>& marked);

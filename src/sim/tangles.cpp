@@ -56,12 +56,7 @@ void Tangles::push(const IntersectionContour& contour, std::span<const SurfaceCr
            [&](const ContourPull& point, const Vec3& move_m) {
              const double length_m = move_m.norm();
              if (!(length_m > 0)) return;
-             LinearSpring drag;
-             for (std::size_t k = 0; k < 3; ++k) {
-               drag.particle[k] = point.particle[k];
-               drag.weight[k] = point.weight[k];
-             }
-             drag.direction = move_m / length_m;
+             LinearSpring drag = spring_along(point, move_m);
              drag.damping_N_s_per_m = drag_N_s_per_m;
              drag.force_N = drag_N_s_per_m * length_m / moves_in_s;
              springs_.push_back(drag);

@@ -232,12 +232,7 @@ class Untangler {
   void pull(const ContourPull& pull, const Vec3& move_m, double stiffness_N_per_m = push_N_per_m) {
     const double length = move_m.norm();
     if (length <= 0 || of_body(pull.particle[0])) return;
-    LinearSpring spring;
-    for (std::size_t k = 0; k < 3; ++k) {
-      spring.particle[k] = pull.particle[k];
-      spring.weight[k] = pull.weight[k];
-    }
-    spring.direction = move_m / length;
+    LinearSpring spring = spring_along(pull, move_m);
     spring.stiffness_N_per_m = stiffness_N_per_m;
     spring.force_N = stiffness_N_per_m * length;
     springs_.push_back(spring);
