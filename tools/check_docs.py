@@ -11,6 +11,7 @@ Checked in documents (*.md in the root and in docs/):
   `name_m = 0.02`            a source in src/ gives that name that value
 Checked in sources, scripts and build files:
   docs/...#anchor            the file and the heading exist
+  reason codes, scene keys   docs/reason-codes.md and docs/scene.schema.json know them
 """
 import glob
 import itertools
