@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t normal_grain = 2048;
 constexpr double touching_m = 1e-9;  // nearer than this the direction to the body is rounding
 constexpr double flat_bend = 1e-3;
+constexpr double farthest_m = 1e6;
 constexpr double facing_cosine = 0.5;
 constexpr double cancelled_normal = 1e-6;  // a sum of unit normals shorter than this says nothing (a knife's edge)
 
@@ -200,6 +201,29 @@ BodyPoint BodySurface::nearest_opposite(const Vec3& p, const Vec3& normal, doubl
     return bound2;
   });
   return result;
+}
+
+// Signed crossings of the ray from p along z.  Which side of an edge it passes is asked in one way for both triangles of the edge, so
+// that it never slips through between them.
+int BodySurface::winding_number(const Vec3& p) const {
+  Box ray{p, p};
+  ray.high.z() = farthest_m;
+  std::vector<Index> met;
+  tree_now_.overlapping(ray, met);
+  const auto x = [&](Index i) -> const Vec3& { return start_[static_cast<std::size_t>(i)]; };
+  const auto is_left = [&](Index a, Index b) {  // of the edge from a to b, seen from above
+    const Vec3 from = x(std::min(a, b)) - p, to = x(std::max(a, b)) - p;
+    return (from.x() * to.y() - from.y() * to.x() > 0) == (a < b);
+  };
+  int winding = 0;
+  for (const Index t : met) {
+    const Triangle& c = triangle(t);
+    const bool left = is_left(c[0], c[1]);
+    if (is_left(c[1], c[2]) != left || is_left(c[2], c[0]) != left) continue;
+    const Vec3 normal = (x(c[1]) - x(c[0])).cross(x(c[2]) - x(c[0]));
+    if (((x(c[0]) - p).dot(normal) > 0) == (normal.z() > 0)) winding += left ? 1 : -1;
+  }
+  return winding;
 }
 
 }  // namespace toile

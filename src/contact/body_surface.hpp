@@ -57,6 +57,10 @@ class BodySurface {
   // 60 degrees of it.  As in nearest_facing the normal is the face's.
   BodyPoint nearest_opposite(const Vec3& p, const Vec3& normal, double reach_m) const;
 
+  // How many of the body's parts p is within (less one for every room that it is in): 0 in the open.  In floating point: for what to
+  // do about it, not for a judge (verify/winding.hpp).
+  int winding_number(const Vec3& p) const;
+
   // The material point (triangle, barycentric) now and at the end of the step; its mean velocity over a step of h
   // seconds is (next_position - position) / h.
   Vec3 position(Index triangle, const Vec3& barycentric) const { return point(start_, triangle, barycentric); }

@@ -224,6 +224,37 @@ Mesh read_body(const std::string& path) {
   return mesh;
 }
 
+TEST(BodySurface, CountsThePartsThatAPointIsWithin) {
+  // Two boxes that overlap, a room (a box that faces inwards) around nothing, and a torus through the first: points on a grid, so that
+  // rays meet edges and vertices too.
+  Mesh mesh = contact_test::box(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  const auto add = [&](const Mesh& other, const Vec3& by, bool turned) {
+    const auto first = static_cast<Index>(mesh.x.size());
+    for (const Vec3& p : other.x) mesh.x.push_back(p + by);
+    for (Triangle t : other.triangles) {
+      if (turned) std::swap(t[0], t[1]);
+      mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+  };
+  add(contact_test::box(Vec3(0, 0, 0), Vec3(1, 1, 1)), Vec3(0.5, 0.25, 0.125), false);
+  add(contact_test::box(Vec3(0, 0, 0), Vec3(1, 1, 1)), Vec3(3, 0, 0), true);
+  add(contact_test::torus(24, 12, 0.6, 0.2), Vec3(0.4, 0.4, 0.5), false);
+  const BodySurface body(mesh.x, mesh.triangles);
+  std::array<int, 5> seen{};
+  for (double x = -0.9375; x < 4.2; x += 0.125) {
+    for (double y = -0.9375; y < 1.5; y += 0.125) {
+      for (double z = -0.4375; z < 1.5; z += 0.125) {
+        const Vec3 p(x, y, z);
+        const int expected = static_cast<int>(std::lround(contact_test::winding_number(mesh, p)));
+        ASSERT_EQ(body.winding_number(p), expected) << p.transpose();
+        ++seen.at(static_cast<std::size_t>(expected + 1));
+      }
+    }
+  }
+  for (std::size_t k = 0; k < seen.size(); ++k) EXPECT_GT(seen[k], 10) << static_cast<int>(k) - 1;
+  EXPECT_EQ(body.winding_number(Vec3(0.0625, 0.0625, 0.25)), 1) << "the ray meets an edge between two triangles";
+}
+
 TEST(BodySurface, KnowsInsideFromOutsideOnARealBody) {
   const Mesh mesh = read_body(std::string(TOILE_SHARED_DATA) + "/bodies/garmentcode/mean_all.obj");
   if (mesh.triangles.empty()) GTEST_SKIP() << "no bodies/garmentcode/mean_all.obj in " TOILE_SHARED_DATA;
