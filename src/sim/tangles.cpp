@@ -3,13 +3,17 @@
 #include "contact/intersection_contours.hpp"
 #include "verify/crossings.hpp"
 
+#include <algorithm>
+
 namespace toile {
 namespace {
 
-constexpr double guarded_again = 0.1;    // from here the thickness grows
-constexpr int unguarded_rings = 2;       // around what crosses
-constexpr double largest_part = 0.1;     // of a surface that may be swept over: more of it is not what went through
-constexpr double drag_N_s_per_m = 5;     // per point of a contour
+constexpr double guarded_again = 0.1;                   // from here the thickness grows
+constexpr int unguarded_rings = 2;                      // around what crosses
+constexpr int looks_per_ring = 4, most_more_rings = 6;  // without progress
+constexpr double largest_part = 0.1;  // of a surface that may be swept over: more of it is not what went through
+constexpr double drag_N_s_per_m = 5;  // per point of a contour; as much again with every look without progress, up to
+constexpr int most_drag = 20;         // times as much: the last creases are held shut by their threads
 constexpr double moves_in_s = 1.0 / 30;  // what it is to be moved: it goes no faster
 constexpr int patience = 20;             // looks without progress until contours are pushed another way
 constexpr int ways = 3;
@@ -47,7 +51,7 @@ void Tangles::find(const Vec3s& x) {
   for (const SurfaceCrossing& crossing : crossings) mark_particles(crossing, triangles_, unguarded_);
   for (const IntersectionContour& contour : trace_contours(*topology_, triangles_, crossings))
     push(contour, crossings, x);
-  push_->regions().grow(unguarded_, unguarded_rings);
+  push_->regions().grow(unguarded_, unguarded_rings + std::min(waited_ / looks_per_ring, most_more_rings));
 }
 
 void Tangles::push(const IntersectionContour& contour, std::span<const SurfaceCrossing> crossings, const Vec3s& x) {
@@ -57,8 +61,8 @@ void Tangles::push(const IntersectionContour& contour, std::span<const SurfaceCr
              const double length_m = move_m.norm();
              if (!(length_m > 0)) return;
              LinearSpring drag = spring_along(point, move_m);
-             drag.damping_N_s_per_m = drag_N_s_per_m;
-             drag.force_N = drag_N_s_per_m * length_m / moves_in_s;
+             drag.damping_N_s_per_m = drag_N_s_per_m * std::min(1 + waited_, most_drag);
+             drag.force_N = drag.damping_N_s_per_m * length_m / moves_in_s;
              springs_.push_back(drag);
            });
 }

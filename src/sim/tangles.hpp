@@ -22,8 +22,11 @@ class Tangles {
 
   // Looks for crossings at x.  After a look that found none it does nothing, until it is told to: the filter lets no new ones come.
   void find(const Vec3s& x);
-  // What the body pinches is not guarded (step/flypaper.hpp).
-  void look_again() { over_ = false; }
+  // What the body pinches is not guarded (step/flypaper.hpp); while it does, no progress is expected.
+  void look_again() {
+    over_ = false;
+    fewest_ = 0;
+  }
   bool any() const { return any_; }
   // Sets the scale of the particles around them to 0 (ContactRows::set_thickness_scale), and gives those that were 0 and
   // have no crossing beside them any more a tenth.
@@ -41,7 +44,7 @@ class Tangles {
   std::vector<char> unguarded_;      // [particle]
   std::vector<LinearSpring> springs_;
   bool over_ = false, any_ = false;
-  std::size_t fewest_ = 0;  // crossings of all looks since there were none
+  std::size_t fewest_ = 0;  // crossings of all looks since there were none, or the body pinched
   int waited_ = 0;          // looks since then
 };
 
