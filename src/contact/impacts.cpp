@@ -48,8 +48,8 @@ double least_gap_m(double gap_m) {
 class ImpactQuery {
  public:
   ImpactQuery(const ClothTopology& cloth, std::span<const Vec3> start, std::span<const double> contact_m,
-              const ImpactWorkspace& workspace)
-      : cloth_(cloth), start_(start), contact_m_(contact_m), workspace_(workspace) {}
+              const ImpactWorkspace& workspace, std::span<const Pinched> pinched)
+      : cloth_(cloth), start_(start), contact_m_(contact_m), workspace_(workspace), pinched_(pinched) {}
 
   void walk(TreeTask task, std::vector<Impact>& found) const {
     const std::size_t most = most_impacts_of_a_task(start_.size());
@@ -104,7 +104,7 @@ class ImpactQuery {
   void decide(ContactKind kind, const std::array<Index, 4>& particle, std::vector<Impact>& found) const {
     Impact impact{kind, particle, {}, Vec3::Zero(), no_impact, 0, contact_m_[at(particle[0])], 0};
     for (const Index i : particle) impact.contact_m = std::min(impact.contact_m, contact_m_[at(i)]);
-    if (impact.contact_m <= 0) return;
+    if (impact.contact_m <= 0 || is_let_be(particle, pinched_)) return;
     if (decide_impact(gather(particle, start_), gather(particle, workspace_.displacement_m), impact))
       found.push_back(impact);
   }
@@ -113,6 +113,7 @@ class ImpactQuery {
   std::span<const Vec3> start_;
   std::span<const double> contact_m_;
   const ImpactWorkspace& workspace_;
+  std::span<const Pinched> pinched_;
 };
 
 }  // namespace
@@ -132,7 +133,7 @@ bool decide_impact(const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, I
 
 bool find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
                   std::span<const Vec3> end, std::span<const double> contact_m, ImpactWorkspace& workspace,
-                  std::vector<Impact>& impacts) {
+                  std::vector<Impact>& impacts, std::span<const Pinched> pinched) {
   TOILE_ASSERT(start.size() == cloth.particle_count() && end.size() == start.size() &&
                contact_m.size() == start.size());
   impacts.clear();
@@ -144,7 +145,7 @@ bool find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::spa
   for (std::size_t i = 0; i < start.size(); ++i) workspace.displacement_m[i] = end[i] - start[i];
   workspace.tree.self_tasks(workspace.tasks);
   if (workspace.found.size() < workspace.tasks.size()) workspace.found.resize(workspace.tasks.size());
-  const ImpactQuery query(cloth, start, contact_m, workspace);
+  const ImpactQuery query(cloth, start, contact_m, workspace, pinched);
   parallel_for(workspace.tasks.size(), 1, [&](std::size_t i) {
     workspace.found[i].clear();
     query.walk(workspace.tasks[i], workspace.found[i]);

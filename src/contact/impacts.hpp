@@ -14,6 +14,7 @@
 // Easily got wrong: a pair that already intersects has a distance like any other, and would be kept on its wrong side
 // for good.  The caller names the particles to be left alone by r = 0.
 #pragma once
+#include "contact/pinched.hpp"
 #include "contact/proximity.hpp"
 
 #include <algorithm>
@@ -52,11 +53,12 @@ inline std::size_t most_impacts_of_a_task(std::size_t particles) {
                                   std::vector<Impact>& impacts);
 
 // All impacts, in an order that depends on the input only.  `contact_m` is r per particle, a pair takes the least of
-// its four; 0 exempts.  Of `tree` only the hierarchy is used.
+// its four; 0 exempts, and so does being let be (contact/pinched.hpp; `pinched` per particle, or empty).  Of `tree` only the hierarchy is used.
 // Returns false when there are more than most_impacts, or far too many in one place: then not all are there.
 [[nodiscard]] bool find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
                                 std::span<const Vec3> end, std::span<const double> contact_m,
-                                ImpactWorkspace& workspace, std::vector<Impact>& impacts);
+                                ImpactWorkspace& workspace, std::vector<Impact>& impacts,
+                                std::span<const Pinched> pinched = {});
 
 // The impact of one pair whose corners x move by u, if it has one; particle, kind and contact_m are those of `impact`, the rest is
 // filled in.  A pair that coincides at the start has no side to be kept on, and none.

@@ -33,7 +33,10 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
       const long step_ticks = ticks_per_base >> halvings_;
       const double h = base_s / static_cast<double>(1L << halvings_);
       StepLimits limits{options_.stretch_limit, halvings_ >= options_.truncation_floor};
-      limits.pierce = halvings_ >= options_.piercing_floor;
+      using Pierce = StepLimits::Pierce;
+      limits.pierce = halvings_ >= options_.piercing_floor         ? Pierce::all
+                      : halvings_ >= options_.pinch_piercing_floor ? Pierce::pinched
+                                                                   : Pierce::nothing;
       if (halvings_ >= options_.stretch_floor) limits.stretch = std::numeric_limits<double>::infinity();
       report.last = integrator_.attempt(state, start_s, h, limits, candidate_);
       report.passes += report.last.passes;

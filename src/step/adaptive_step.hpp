@@ -23,9 +23,9 @@ struct AdaptiveOptions {
   int most_halvings = 10;       // frame / 1024: then the run has collapsed
   int stretch_floor = 11;       // from this many halvings on the stretch is no longer judged (sewing sets it lower)
   std::function<bool()> stop;   // asked before every step; true ends the frame early
-  // From this many halvings on, of what the safe filter cannot keep apart: cloth goes into the body, which may be pinching it;
-  // cloth with cloth is cut short (step/safe_filter.hpp).
-  int piercing_floor = 1, truncation_floor = 4;
+  // From this many halvings on, of what the safe filter cannot keep apart: cloth that the body pinches goes into it; cloth with
+  // cloth is cut short (step/safe_filter.hpp); and any cloth goes into the body, rather than that the run ends.
+  int pinch_piercing_floor = 1, truncation_floor = 4, piercing_floor = 5;
 };
 
 struct FrameReport {

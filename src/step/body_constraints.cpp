@@ -11,6 +11,7 @@ namespace {
 
 constexpr double static_over_kinetic = 1.02;  // hysteresis, so that stick and slip do not alternate at the cone
 constexpr double largest_alteration = 0.2;    // of the offset, per step
+constexpr double deepest = 0.5;               // offsets
 constexpr double dead_band = 0.02;            // of the offset
 constexpr double deep = 0.5;                  // of the offset
 constexpr double slowest_slip = 1e-3;         // v_0, m/s
@@ -32,6 +33,8 @@ BodyConstraints::BodyConstraints(const ClothModel& model, const BodySurface* bod
   near_.reserve(points_.size());
 }
 
+bool BodyConstraints::too_deep(const BodyPoint& point) const { return point.gap_m < -deepest * options_.offset_m; }
+
 void BodyConstraints::detect(const ClothState& state, double h_s) {
   near_.clear();
   if (!body_) return;
@@ -47,7 +50,7 @@ void BodyConstraints::detect(const ClothState& state, double h_s) {
   });
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const BodyPoint& point = points_[i];
-    if (point.triangle < 0) continue;
+    if (point.triangle < 0 || too_deep(point)) continue;
     near_.push_back({static_cast<Index>(i), point, Vec3::Zero(), point.normal});
   }
 }
@@ -69,7 +72,7 @@ void BodyConstraints::find_what_came_far(const ClothState& state, std::span<cons
     if (reach <= reach_m_[i]) continue;
     reach_m_[i] = reach;
     points_[i] = body_->nearest(state.x[i], reach);
-    if (points_[i].triangle < 0) continue;
+    if (points_[i].triangle < 0 || too_deep(points_[i])) continue;
     Near near{particle, points_[i], Vec3::Zero(), points_[i].normal};
     near.follow(*body_);
     near.lambda_n = lambda_n_[i];

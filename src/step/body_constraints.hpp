@@ -66,6 +66,8 @@ class BodyConstraints {
     const BodyPoint& point = points_[static_cast<std::size_t>(particle)];
     return point.triangle >= 0 && point.gap_m < 0;
   }
+  // Farther within the body than a particle can be lifted out of it: others must see to it (step/swallowed.hpp).
+  bool too_deep(const BodyPoint& point) const;
   std::span<const BodyPoint> points() const { return points_; }  // [particle] of the last detect; empty without a body
   bool any_near() const { return !near_.empty(); }
   int touching() const;

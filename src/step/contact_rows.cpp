@@ -49,18 +49,6 @@ ContactRows::ContactRows(const ClothModel& model, const BodySurface* body, std::
       topology_(model.mass_kg.size(), model.mesh.triangles, model.topology, merged_particle),
       distance_(model, topology_) {}
 
-template <class Particles>
-bool ContactRows::is_let_be(const Particles& particles) const {
-  if (pinched_.empty()) return false;
-  bool all = true;
-  for (const Index i : particles) {
-    if (i < 0) continue;
-    if (pinched_[at(i)] == Pinched::without_room) return true;
-    all = all && pinched_[at(i)] != Pinched::no;
-  }
-  return all;
-}
-
 Vec3 ContactRows::relative_velocity(const Pair& pair, const Vec3s& v, double h_s) const {
   Vec3 sum = -pair.body_travel_m / h_s;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -84,7 +72,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
     find_cloth_contacts(topology_, tree_, state.x, {range, 0, options_.region_tolerance, acting_edges_}, workspace_,
                         cloth_contacts_);
     for (const ClothContact& contact : cloth_contacts_) {
-      if (is_let_be(contact.particle)) continue;
+      if (!pinched_.empty() && all_pinched(contact.particle, pinched_)) continue;
       const auto [full, r] = distance_.between(contact.kind, contact.particle);
       if (r <= 0) continue;  // contact is switched off here
       double friction = 0;
@@ -114,7 +102,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
     find_body_contacts(topology_, tree_, state.x, *body_, {range, 4 * body_r_m_, options_.region_tolerance}, workspace_,
                        body_contacts_);
     for (const BodyContact& contact : body_contacts_) {
-      if (is_let_be(contact.particle)) continue;
+      if (!pinched_.empty() && all_pinched(contact.particle, pinched_)) continue;
       Pair pair{{contact.kind,
                  true,
                  {contact.particle[0], contact.particle[1], contact.particle[2], contact.body_vertex[0],

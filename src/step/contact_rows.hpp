@@ -61,8 +61,7 @@ class ContactRows {
   // are a centimetre thick: sewing thins them there to let the corner close.  0 switches the contact of layers off.
   void set_thickness_scale(std::span<const double> scale) { distance_.set_scale(scale); }
 
-  // [particle] From the next detect on what is pinched without room gets no rows, neither with layers nor with the body, nor do pairs of
-  // which all is held.  Empty: all do.
+  // [particle] From the next detect on pairs of which all is pinched get no rows, neither with layers nor with the body.  Empty: all do.
   void let_be(std::span<const Pinched> particles) { pinched_.assign(particles.begin(), particles.end()); }
 
   // What the safe filter asks for: whose features touch, a hierarchy over the triangles (after detect), and the distance that neighbours
@@ -118,8 +117,6 @@ class ContactRows {
   void carry_on(Pair& pair, std::size_t memory);
   void take_over_contacts();
   void aim_at_the_end(Pair& pair, const ClothState& state, std::span<const Vec3> dv, const StepFormula& step) const;
-  template <class Particles>
-  bool is_let_be(const Particles& particles) const;
   void find_acting_edges();
 
   const ClothModel* model_;

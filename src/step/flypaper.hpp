@@ -20,16 +20,14 @@
 #include "assembly/cloth_model.hpp"
 #include "constraint/particle_constraints.hpp"
 #include "contact/body_surface.hpp"
+#include "contact/pinched.hpp"
 #include "step/step_formula.hpp"
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace toile {
-
-enum class Pinched : std::uint8_t { no, with_room, without_room };
 
 class Flypaper {
  public:

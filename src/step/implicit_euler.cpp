@@ -26,6 +26,7 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       constraints_(model.particle_count()),
       body_(model, world.body, options.body),
       flypaper_(world.body, model.mass_kg.size(), options.body.offset_m),
+      swallowed_(model, world.body),
       rows_(model, world.body, world.merged_particle, options.body.offset_m, options.body.friction, options.rows) {
   const auto n = static_cast<std::size_t>(model.particle_count());
   for (Vec3s* vector : {&force_, &b_, &y_, &y_known_, &y_linearised_, &linearised_, &displacement_, &force_linearised_,
@@ -85,18 +86,22 @@ void ImplicitEuler::prepare(const ClothState& state, double t_s, double h_s, dou
     }
   }
   rows_.detect(state, base_h_s);
-  if (world_->body && options_.guard_body) look_through_body(state);
+  if (world_->body) look_through_body(state);
 }
 
-// What is through the body already is not kept there.  That it is can only come of a start, or of a step that let it in.
+// What is through the body already is not kept there, and what is deep within it is drawn out.  That anything is can only come of a
+// start, of a step that let it in, or of a body that is not guarded.
 void ImplicitEuler::look_through_body(const ClothState& state) {
   const Timed timed(seconds_.cloth_solid);
   may_be_through_ |= flypaper_.any_without_room();
   if (may_be_through_) {
-    may_be_through_ =
+    const bool crosses =
         mark_through_body(rows_.topology(), rows_.tree(), state.x, *world_->body, body_workspace_, through_body_);
+    swallowed_.detect(state.x, body_);
+    may_be_through_ = crosses || swallowed_.any() || !options_.guard_body;
   } else {
     through_body_.assign(state.x.size(), 0);
+    swallowed_.clear();
   }
   for (std::size_t i = 0; i < state.x.size(); ++i) {
     if (body_.inside(static_cast<Index>(i)) || flypaper_.pinched()[i] == Pinched::without_room) through_body_[i] = 1;
@@ -236,6 +241,7 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
       body_.apply(state, step, constraints_, y_, springs_);
       if (options_.position_alteration == PositionAlteration::in_solve) y_known_ = y_;
       rows_.append_springs(springs_);
+      swallowed_.append_springs(springs_);
       for (const Drag& drag : world_->drags) toile::append_springs(drag, state, t_s, step.h_s, springs_);
       if (world_->springs) world_->springs(state, t_s + step.h_s, step.h_s, springs_);
       const bool drifts = !step.drift_m.empty();
@@ -372,6 +378,18 @@ ImplicitEuler::StretchChange ImplicitEuler::largest_stretch_change(const ClothSt
   return largest;
 }
 
+// Of the impacts with the body that the last attempt could not prevent.
+bool ImplicitEuler::may_pierce(StepLimits::Pierce pierce) const {
+  if (pierce != StepLimits::Pierce::pinched) return pierce == StepLimits::Pierce::all;
+  const auto is_pinched = [&](Index i) {
+    const auto p = static_cast<std::size_t>(i);
+    return p < flypaper_.pinched().size() && flypaper_.pinched()[p] != Pinched::no;
+  };
+  return std::all_of(filter_.left_with_body().begin(), filter_.left_with_body().end(), [&](const Impact& impact) {
+    return std::any_of(impact.particle.begin(), impact.particle.end(), is_pinched);
+  });
+}
+
 void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLimits& limits, ClothState& candidate,
                                StepReport& report) {
   const Timed timed(seconds_.filter);
@@ -380,12 +398,6 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
     inverse_mass_[i] = constraints_.is_free(static_cast<Index>(i)) ? 1 / model_->mass_kg[i] : 0;
   std::span<const double> contact_m;
   if (options_.rows.cloth_cloth) contact_m = rows_.contact_m();
-  if (options_.rows.cloth_cloth && flypaper_.any_without_room()) {
-    contact_m_.assign(contact_m.begin(), contact_m.end());
-    for (std::size_t i = 0; i < contact_m_.size(); ++i)
-      if (flypaper_.pinched()[i] == Pinched::without_room) contact_m_[i] = 0;
-    contact_m = contact_m_;
-  }
   BodyGuard guard{world_->body, options_.body.offset_m, through_body_};
   const bool guarded = world_->body && options_.guard_body;
   if (guarded) {
@@ -394,8 +406,9 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
     for (const Pin& pin : world_->pins) before_body_[static_cast<std::size_t>(pin.particle)] = 0;
   }
   report.filter = filter_(rows_.topology(), rows_.tree(), state.x, inverse_mass_, contact_m, limits.truncate,
-                          candidate.x, guarded ? &guard : nullptr, before_body_);
-  if (report.filter.hopeless || report.filter.left > 0 || (report.filter.body_left > 0 && !limits.pierce)) {
+                          candidate.x, guarded ? &guard : nullptr, before_body_,
+                          flypaper_.any() ? flypaper_.pinched() : std::span<const Pinched>());
+  if (report.filter.hopeless || report.filter.left > 0 || (report.filter.body_left > 0 && !may_pierce(limits.pierce))) {
     report.status = StepStatus::passed_through;
     return;
   }
@@ -404,7 +417,10 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
   judge_strain(largest_stretch_change(candidate), report);
   if (!report) return;
   for (std::size_t i = 0; i < state.x.size(); ++i) {
-    if (filter_.moved()[i]) candidate.v[i] = velocity_of_motion(candidate.x[i] - state.x[i], y_[i], h_s);
+    if (!filter_.moved()[i]) continue;
+    const Vec3 correction = candidate.x[i] - (state.x[i] + moved_[i] + y_[i]);
+    const Vec3 uncounted = (1 - counted_share(correction, candidate.v[i], h_s, base_h_s_)) * correction;
+    candidate.v[i] = velocity_of_motion(candidate.x[i] - state.x[i] - uncounted, y_[i], h_s);
   }
   judge_speed(candidate, report);  // impulses out of one thing may lead far into another
 }

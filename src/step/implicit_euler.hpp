@@ -18,6 +18,7 @@
 #include "step/drag.hpp"
 #include "step/flypaper.hpp"
 #include "step/step_report.hpp"
+#include "step/swallowed.hpp"
 
 #include <functional>
 #include <vector>
@@ -55,7 +56,8 @@ struct StepOptions {
 struct StepLimits {
   double stretch = 0.05;  // largest accepted change of |w_u| or |w_v| away from rest; a squeeze counts sqrt(c)
   bool truncate = false;  // cut the motion short where cloth would pass through cloth, instead of refusing the step
-  bool pierce = false;  // let cloth go into the body where the filter cannot keep it out, instead of refusing the step
+  // Let cloth go into the body where the filter cannot keep it out, instead of refusing the step: only what the body pinches, or all.
+  enum class Pierce { nothing, pinched, all } pierce = Pierce::nothing;
 };
 
 // Everything that acts on the cloth besides its own elements.
@@ -119,6 +121,7 @@ class ImplicitEuler {
   void judge_speed(const ClothState& candidate, StepReport& report) const;
   void judge_strain(const StretchChange& largest, StepReport& report) const;
   void look_through_body(const ClothState& state);
+  bool may_pierce(StepLimits::Pierce pierce) const;
   void keep_apart(const ClothState& state, double h_s, const StepLimits& limits, ClothState& candidate,
                   StepReport& report);
 
@@ -133,9 +136,9 @@ class ImplicitEuler {
   ParticleConstraints constraints_;
   BodyConstraints body_;
   Flypaper flypaper_;
+  Swallowed swallowed_;
   ContactRows rows_;
   SafeFilter filter_;
-  std::vector<double> contact_m_;                   // [particle] r that the safe filter keeps
   std::vector<double> inverse_mass_, before_body_;  // [particle] 1/kg, 0 while it is held; held by a pin
   std::vector<char> through_body_;  // [particle] is within the body, or next to where cloth passes through it
   bool may_be_through_ = true, pierced_ = false;  // pierced_: by the last attempt

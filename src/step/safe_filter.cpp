@@ -16,6 +16,23 @@ constexpr int most_growths = 50;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+// Of the impact's particles, 1/kg: 0 for the body's, and unless `pinched` is empty for all but what is pinched with room.
+std::array<double, 4> inverse_masses(const Impact& impact, std::span<const double> inverse_mass,
+                                     std::span<const Pinched> pinched) {
+  std::array<double, 4> inverse{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t p = at(impact.particle[k]);
+    if (p < inverse_mass.size() && (pinched.empty() || pinched[p] == Pinched::with_room)) inverse[k] = inverse_mass[p];
+  }
+  return inverse;
+}
+
+double mobility_of(const Impact& impact, const std::array<double, 4>& inverse_mass) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) sum += impact.weight[k] * impact.weight[k] * inverse_mass[k];
+  return sum;
+}
+
 }  // namespace
 
 Vec3 velocity_of_motion(const Vec3& moved_m, const Vec3& y_m, double h_s) {
@@ -24,16 +41,24 @@ Vec3 velocity_of_motion(const Vec3& moved_m, const Vec3& y_m, double h_s) {
   return (moved_m - altered * y_m) / h_s;
 }
 
+double counted_share(const Vec3& correction_m, const Vec3& v_m_per_s, double h_s, double base_h_s) {
+  const double length = correction_m.norm();
+  if (h_s >= base_h_s || !(length > 0)) return 1;
+  const double against = std::max(-v_m_per_s.dot(correction_m) / length, 0.0);
+  return std::min(1.0, h_s * (against / length + 1 / base_h_s));
+}
+
 FilterReport SafeFilter::operator()(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
                                     std::span<const double> inverse_mass, std::span<const double> contact_m,
                                     bool truncate, std::span<Vec3> end, const BodyGuard* guard,
-                                    std::span<const double> before_body) {
+                                    std::span<const double> before_body, std::span<const Pinched> pinched) {
   FilterReport report;
   moved_.assign(start.size(), 0);
   impacts_.clear();
   body_impacts_.clear();
   const auto look = [&] {
-    if (!contact_m.empty()) report.hopeless |= !find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_);
+    if (!contact_m.empty())
+      report.hopeless |= !find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_, pinched);
     if (guard && !report.hopeless)
       report.hopeless |= !find_body_impacts(cloth, tree, start, end, *guard, body_workspace_, body_impacts_);
   };
@@ -41,13 +66,13 @@ FilterReport SafeFilter::operator()(const ClothTopology& cloth, const TriangleTr
   report.impacts = static_cast<int>(impacts_.size() + body_impacts_.size());
   while (!(impacts_.empty() && body_impacts_.empty()) && report.rounds < most_rounds && !report.hopeless) {
     ++report.rounds;
-    push_apart(inverse_mass, before_body, guard, end);
+    push_apart(inverse_mass, before_body, pinched, guard, end);
     look();
   }
   report.left = static_cast<int>(impacts_.size());
   report.body_left = static_cast<int>(body_impacts_.size());
   if (!impacts_.empty() && truncate && !report.hopeless) {
-    cut_short(cloth, tree, start, inverse_mass, contact_m, end, report);
+    cut_short(cloth, tree, start, inverse_mass, contact_m, pinched, end, report);
     if (guard) report.hopeless |= !find_body_impacts(cloth, tree, start, end, *guard, body_workspace_, body_impacts_);
     report.body_left = static_cast<int>(body_impacts_.size());
   }
@@ -56,7 +81,7 @@ FilterReport SafeFilter::operator()(const ClothTopology& cloth, const TriangleTr
 }
 
 void SafeFilter::push_apart(std::span<const double> inverse_mass, std::span<const double> before_body,
-                            const BodyGuard* guard, std::span<Vec3> end) {
+                            std::span<const Pinched> pinched, const BodyGuard* guard, std::span<Vec3> end) {
   const std::size_t of_cloth = impacts_.size();
   const auto impact_at = [&](std::size_t i) -> const Impact& {
     return i < of_cloth ? impacts_[i] : body_impacts_[i - of_cloth];
@@ -70,23 +95,28 @@ void SafeFilter::push_apart(std::span<const double> inverse_mass, std::span<cons
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (const std::size_t i : order_) {
       const Impact& impact = impact_at(i);
-      const std::span<const double> inverse = i < of_cloth ? inverse_mass : before_body;
       // More than xi in any case.
       const double target =
           std::min(target_share * impact.contact_m, std::max(regain_share * impact.contact_m, impact.start_gap_m));
-      double gap = 0, mobility = 0;
+      double gap = 0;
       for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t p = at(impact.particle[k]);
         const bool of_body = p >= end.size();
         gap += impact.weight[k] * impact.normal.dot(of_body ? guard->body->next_positions()[p - end.size()] : end[p]);
-        if (!of_body) mobility += impact.weight[k] * impact.weight[k] * inverse[p];
       }
-      if (gap >= target || mobility <= 0) continue;
+      if (gap >= target) continue;
+      std::array<double, 4> inverse = inverse_masses(impact, i < of_cloth ? inverse_mass : before_body, {});
+      double mobility = mobility_of(impact, inverse);
+      if (mobility <= 0 && i < of_cloth && !pinched.empty() && !before_body.empty()) {
+        inverse = inverse_masses(impact, before_body, pinched);
+        mobility = mobility_of(impact, inverse);
+      }
+      if (mobility <= 0) continue;
       std::array<double, 4> share{};
       double lever = largest_lever;
       for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t p = at(impact.particle[k]);
-        if (p < end.size()) share[k] = impact.weight[k] * inverse[p] / mobility;
+        if (p < end.size()) share[k] = impact.weight[k] * inverse[k] / mobility;
         lever = std::max(lever, std::abs(share[k]));
       }
       const double apart = (target - gap) * (largest_lever / lever);
@@ -101,8 +131,8 @@ void SafeFilter::push_apart(std::span<const double> inverse_mass, std::span<cons
 }
 
 void SafeFilter::cut_short(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
-                           std::span<const double> inverse_mass, std::span<const double> contact_m, std::span<Vec3> end,
-                           FilterReport& report) {
+                           std::span<const double> inverse_mass, std::span<const double> contact_m,
+                           std::span<const Pinched> pinched, std::span<Vec3> end, FilterReport& report) {
   const std::size_t n = start.size();
   whole_.assign(end.begin(), end.end());
   zones_.reset(n);
@@ -147,7 +177,7 @@ void SafeFilter::cut_short(const ClothTopology& cloth, const TriangleTree& tree,
       end[i] = start[i] + m + share[z] * (whole_[i] - start[i] - m);
       moved_[i] = 1;
     }
-    if (!find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_)) growth = most_growths;
+    if (!find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_, pinched)) growth = most_growths;
   }
   report.truncated = static_cast<int>(std::count(inside.begin(), inside.end(), 1));
   report.left = static_cast<int>(impacts_.size());

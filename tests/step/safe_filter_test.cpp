@@ -127,6 +127,50 @@ TEST(SafeFilter, WhatHeldParticlesDoToEachOtherIsLeftForAShorterStepAndThenCutSh
   EXPECT_EQ(filter.impacts(end), 0U);
 }
 
+// Two layers between two parts of the body: the upper one is carried 6 mm down through the lower one, or nearly onto it.
+TEST(SafeFilter, OfWhatIsPinchedTheFreeIsKeptOutAndWhatHasRoomGivesWay) {
+  Filter filter(stack(0.06, 0.01, 4e-3, 2));
+  const std::size_t all = filter.x.size(), half = all / 2;
+  const std::vector<double> masses(all, 1e3);
+  std::vector<Pinched> pinched(all, Pinched::without_room);
+  const auto run = [&](bool truncate, Vec3s& end) {
+    end = filter.x;
+    for (std::size_t i = half; i < all; ++i) end[i].y() -= 6e-3;
+    return filter.filter(filter.cloth, filter.tree, filter.x, filter.inverse_mass, filter.contact_m, truncate, end,
+                         nullptr, masses, pinched);
+  };
+  Vec3s end;
+  filter.inverse_mass.assign(all, 0);
+  EXPECT_EQ(run(false, end).impacts, 0) << "without room layers are let be";
+
+  for (std::size_t i = 0; i < half; ++i) {
+    pinched[i] = Pinched::no;
+    filter.inverse_mass[i] = 1e3;
+  }
+  EXPECT_GT(run(false, end).impacts, 0) << "what is free is kept out of them";
+  EXPECT_EQ(filter.impacts(end), 0U);
+  for (std::size_t i = half; i < all; ++i) EXPECT_EQ(end[i], filter.x[i] - Vec3(0, 6e-3, 0)) << "they are walls";
+
+  // Held by the body's surface below, and pinched with room above.
+  std::fill(filter.inverse_mass.begin(), filter.inverse_mass.end(), 0);
+  std::fill(pinched.begin() + static_cast<std::ptrdiff_t>(half), pinched.end(), Pinched::with_room);
+  EXPECT_EQ(run(false, end).left, 0);
+  EXPECT_EQ(filter.impacts(end), 0U);
+  for (std::size_t i = 0; i < half; ++i) EXPECT_EQ(end[i], filter.x[i]) << "only what has room moves";
+}
+
+TEST(SafeFilter, OfACorrectionInAShortStepOnlyWhatStopsAndWhatTheLongestStepWouldGiveIsVelocity) {
+  const double h = 1.0 / 60;
+  const Vec3 up(0, 1e-3, 0);
+  EXPECT_EQ(counted_share(up, Vec3(0, -3, 0), h, h), 1) << "in the longest step all of it";
+  EXPECT_EQ(counted_share(Vec3::Zero(), Vec3(0, -3, 0), h / 64, h), 1);
+  EXPECT_NEAR(counted_share(up, Vec3::Zero(), h / 64, h), 1.0 / 64, 1e-12) << "1 mm in 1/60 s, not in 0.26 ms";
+  EXPECT_NEAR(counted_share(up, Vec3(2, 0, 0), h / 64, h), 1.0 / 64, 1e-12) << "across it";
+  EXPECT_NEAR(counted_share(up, Vec3(0, -1, 0), h / 64, h), (1 + 1e-3 / h) / (1e-3 / (h / 64)), 1e-12)
+      << "1 m/s against it is stopped";
+  EXPECT_EQ(counted_share(up, Vec3(0, -8, 0), h / 64, h), 1) << "as far as the correction goes";
+}
+
 TEST(SafeFilter, CutZonesAreFreeAfterAnyMotion) {
   int refused = 0, cut = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
@@ -426,6 +470,26 @@ TEST(SafeFilterBody, AFastBallDoesNotPassThroughASheet) {
   open.run.step.rows.body_share = 0;
   EXPECT_EQ(guarded.through(12), 0);
   EXPECT_GT(open.through(12), 0) << "without the filter it would";
+}
+
+TEST(SafeFilterBody, ClothGoesIntoABodyThatPinchesNothingOnlyWhereAllMayPierce) {
+  // A sheet that is held everywhere, and a ball that is led through it.
+  Ball ball;
+  for (Index i = 0; i < ball.run.model.particle_count(); ++i) ball.run.pin(i);
+  ball.run.start();
+  ImplicitEuler& euler = ball.run.stepper->integrator();
+  const double h = 1.0 / 60;
+  euler.prepare(ball.run.state, 0, h, h);
+  ClothState candidate;
+  using Pierce = StepLimits::Pierce;
+  const auto attempt = [&](Pierce pierce) {
+    return euler.attempt(ball.run.state, 0, h, {1e9, true, pierce}, candidate);
+  };
+  EXPECT_EQ(attempt(Pierce::nothing).status, StepStatus::passed_through);
+  EXPECT_EQ(attempt(Pierce::pinched).status, StepStatus::passed_through);
+  const StepReport report = attempt(Pierce::all);
+  EXPECT_TRUE(report) << report.explain();
+  EXPECT_GT(report.filter.body_left, 0);
 }
 
 TEST(SafeFilterBody, WhatIsThroughAtTheStartMayLeave) {
