@@ -5,8 +5,8 @@
 //                      x' = x + (1-s) u_1 + s u_2,   s = g_1/(g_1 + g_2)      g  gap,  u  travel of the nearest point of each
 //                    so it meets neither, layers keep their order, and come out as far apart as they went in.  All stays guarded.
 //     without room   x' = x + (u_1 + u_2)/2
-//                    so that layers stay as far apart as they are: with s they would coincide where the surfaces meet.  Neither
-//                    layers nor the body act on it, and the safe filter lets it be: the two may pass through each other around it.
+//                    so that layers stay as far apart as they are: with s they would coincide where the surfaces meet.  Pairs of
+//                    which all is held, some of it so, are let be (contact/pinched.hpp); what is free is kept out of it.
 //
 //   begins  outside of both, between faces that look at each other (n_1 . n_2 < -1/2, either within 60 degrees over the other) and close
 //           on each other, less than 2 r apart now or at the end of the step.  The back of a finger is no second surface: from its
