@@ -140,6 +140,19 @@ void add_measurements(JsonText& text, const Report& report) {
   text.key("hover_p90");
   report.audit.has_body ? text.value(report.audit.gap.hover_p90_mm) : text.null();
   text.end_object();
+  text.key("layer_gap");
+  if (report.layer_gap.particles == 0) {
+    text.null();
+  } else {
+    const LayerGap& gap = report.layer_gap;
+    text.begin_object();
+    text.member("particles", gap.particles);
+    text.member("min_mm", 1e3 * gap.least_m);
+    text.member("p50_mm", 1e3 * gap.median_m);
+    text.member("min_of_asked", gap.least_share);
+    text.member("p50_of_asked", gap.median_share);
+    text.end_object();
+  }
   text.key("still");
   text.begin_object();
   text.member("speed_mm_per_s_p99", report.audit.still_mm_per_s_p99);

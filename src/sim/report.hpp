@@ -3,6 +3,7 @@
 // Keys are stable: add, never rename.  Times and memory differ between two runs of one command; everything else is the
 // same to the bit.
 #pragma once
+#include "step/layer_gap.hpp"
 #include "verify/verdict.hpp"
 
 #include <cstdint>
@@ -56,6 +57,7 @@ struct Report {
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, std::array<double, 2>>> rest_stretch;  // panel, b along the two axes of vt
   VerifyReport audit;
+  LayerGap layer_gap;  // last frame
   Verdict verdict;
   double peak_memory_mb = 0;
 };

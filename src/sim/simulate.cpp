@@ -392,6 +392,7 @@ class Run {
   void close(const OutfitRun& run) {
     report_.drape.simulated_s = report_.drape.frames * frame_s();
     set_seconds(report_.drape, run.seconds());
+    report_.layer_gap = measure_layer_gap(run.model(), outfit_.state.x);
   }
 
   Report finish() {

@@ -92,6 +92,7 @@ TEST(Run, WritesTheFilesOfTheContractAndVerifyAgrees) {
                           "shear_degrees",
                           "penetrations",
                           "gap_mm",
+                          "layer_gap",
                           "still",
                           "peak_memory_mb"})
     EXPECT_NE(report.find(key), nullptr) << key;

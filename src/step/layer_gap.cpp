@@ -1,0 +1,60 @@
+#include "step/layer_gap.hpp"
+
+#include "contact/proximity.hpp"
+#include "contact/triangle_tree.hpp"
+#include "step/layer_distance.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace toile {
+namespace {
+
+constexpr double reach = 2;  // in r: what is farther does not lie on the other layer
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+LayerGap measure_layer_gap(const ClothModel& model, std::span<const Vec3> x) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  LayerGap result{0, none, none, 0, 0};
+  const ClothTopology topology(x.size(), model.mesh.triangles, model.topology);
+  const TriangleTree tree(x, model.mesh.triangles);
+  const LayerDistance distance(model, topology);
+  ProximityWorkspace workspace;
+  std::vector<ClothContact> contacts;
+  ProximityOptions options;
+  options.range_m = reach * distance.largest_m();
+  find_cloth_contacts(topology, tree, x, options, workspace, contacts);
+  std::vector<double> nearest_m(x.size(), none), nearest_share(x.size(), none);
+  for (const ClothContact& contact : contacts) {
+    const double r = distance.between(contact.kind, contact.particle).full_m;
+    if (r <= 0 || contact.gap_m >= reach * r) continue;
+    const double share = contact.gap_m / r;
+    result.least_m = std::min(result.least_m, contact.gap_m);
+    result.least_share = std::min(result.least_share, share);
+    if (contact.kind == ContactKind::edge_edge) continue;
+    const std::size_t vertices = contact.kind == ContactKind::vertex_vertex ? 2 : 1;
+    for (std::size_t k = 0; k < vertices; ++k) {
+      const auto i = static_cast<std::size_t>(contact.particle[k]);
+      nearest_m[i] = std::min(nearest_m[i], contact.gap_m);
+      nearest_share[i] = std::min(nearest_share[i], share);
+    }
+  }
+  if (result.least_m == none) return {};
+  std::erase(nearest_m, none);
+  std::erase(nearest_share, none);
+  result.particles = static_cast<int>(nearest_m.size());
+  if (result.particles == 0) return result;
+  result.median_m = median(nearest_m);
+  result.median_share = median(nearest_share);
+  return result;
+}
+
+}  // namespace toile

@@ -1,0 +1,22 @@
+// step/layer_gap.hpp: how near layers of cloth lie to each other, beside the distance that they are asked to keep.
+//
+//   gap     = distance of two features of the cloth that do not touch (contact/proximity.hpp)
+//   asked   = r of the pair, unscaled (step/layer_distance.hpp)
+//   nearest = of a vertex, the least gap to a face, edge or vertex of another layer, where that is below 2 r
+#pragma once
+#include "assembly/cloth_model.hpp"
+
+#include <span>
+
+namespace toile {
+
+struct LayerGap {
+  int particles = 0;                      // that lie on another layer; 0: none does, and all else is 0
+  double least_m = 0, least_share = 0;    // of all pairs, edges with edges too; the share is gap / r
+  double median_m = 0, median_share = 0;  // of `nearest`
+};
+
+// Of cloth without open seams; `x` in m, per particle.
+LayerGap measure_layer_gap(const ClothModel& model, std::span<const Vec3> x);
+
+}  // namespace toile
