@@ -3,6 +3,7 @@
 #include "core/parallel.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace toile {
 namespace {
@@ -15,6 +16,17 @@ std::vector<std::int32_t> offsets(const Parts& keyed, std::size_t key_count) {
   for (const auto& part : keyed) ++begin[static_cast<std::size_t>(part.first) + 1];
   for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
   return begin;
+}
+
+// w_u and w_v of a triangle.
+std::pair<Vec3, Vec3> columns(const Vec3& alpha, const Vec3& beta, const Triangle& triangle, std::span<const Vec3> x) {
+  Vec3 w_u = Vec3::Zero(), w_v = Vec3::Zero();
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const Vec3& x_c = x[static_cast<std::size_t>(triangle[static_cast<std::size_t>(c)])];
+    w_u += alpha[c] * x_c;
+    w_v += beta[c] * x_c;
+  }
+  return {w_u, w_v};
 }
 
 }  // namespace
@@ -198,14 +210,20 @@ void Elements::assemble(double h_s, BlockMatrix<T>& A) {
 
 void Elements::stretch(std::span<const Vec3> x, std::span<Vec2> w) const {
   parallel_for(triangles_.size(), grain, [&](std::size_t t) {
-    Vec3 w_u = Vec3::Zero(), w_v = Vec3::Zero();
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      const Vec3& x_c = x[static_cast<std::size_t>(triangles_[t][static_cast<std::size_t>(c)])];
-      w_u += alpha_[t][c] * x_c;
-      w_v += beta_[t][c] * x_c;
-    }
+    const auto [w_u, w_v] = columns(alpha_[t], beta_[t], triangles_[t], x);
     w[t] = Vec2(w_u.norm(), w_v.norm());
   });
+}
+
+double Elements::energy_beyond_linear(const ClothModel& model, std::span<const Vec3> x) {
+  beyond_linear_.resize(triangles_.size());
+  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
+    const auto [w_u, w_v] = columns(alpha_[t], beta_[t], triangles_[t], x);
+    beyond_linear_[t] = toile::energy_beyond_linear(model.membrane[t], model.stiffness[t], membrane_[t], w_u, w_v);
+  });
+  double sum = 0;
+  for (const double energy_J : beyond_linear_) sum += std::max(0.0, energy_J);
+  return sum;
 }
 
 template void Elements::assemble(double, BlockMatrix<float>&);

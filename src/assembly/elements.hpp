@@ -33,6 +33,10 @@ class Elements {
   // |w_u| and |w_v| of every triangle at x.
   void stretch(std::span<const Vec3> x, std::span<Vec2> w) const;
 
+  // Energy of stretch and shear at x that the linearisation of the last evaluate() does not know of (material/membrane.hpp): the sum over
+  // the triangles that have more than they were thought to, J.
+  double energy_beyond_linear(const ClothModel& model, std::span<const Vec3> x);
+
   // Per-element access for diagnosis and tests.
   const MembraneResponse& membrane(Index triangle) const { return membrane_[static_cast<std::size_t>(triangle)]; }
   const BendResponse& bend(Index hinge) const { return bend_[static_cast<std::size_t>(hinge)]; }
@@ -64,6 +68,7 @@ class Elements {
   std::vector<FMatrix> combined_;                            // h D + h^2 K per triangle
   mutable std::vector<std::array<Vec3, 3>> triangle_force_;  // scratch of the gathers
   mutable std::vector<std::array<Vec3, 4>> hinge_force_;
+  std::vector<double> beyond_linear_;  // [triangle]
   void gather(std::span<Vec3> f, double sign) const;
 };
 

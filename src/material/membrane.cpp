@@ -9,14 +9,19 @@ namespace {
 // Below this |w| has no direction that double precision could name; it is 120 orders away from any cloth.
 constexpr double no_direction = 1e-140;
 
-// Stretch along one thread direction: adds to energy, P, Q and the diagonal blocks K and D.
+// Of one thread direction, and of the barrier before its strain limit.
+double stretch_energy(const Vec3& w, double b, double tension, double compression) {
+  const double excess = w.norm() - b;
+  return 0.5 * (excess < 0 ? compression : 1) * tension * excess * excess;
+}
+
+// Stretch along one thread direction: adds to P, Q and the diagonal blocks K and D.
 void add_stretch(const Vec3& w, const Vec3& w_dot, double b, double tension, double compression, double tau,
-                 bool damping_in_K, bool project, double& energy_J, Vec3& P, Vec3& Q, Mat3& K, Mat3& D) {
+                 bool damping_in_K, bool project, Vec3& P, Vec3& Q, Mat3& K, Mat3& D) {
   const double length = w.norm();
   const double excess = length - b;
   const double softness = excess < 0 ? compression : 1;
   const double stiffness = softness * tension;
-  energy_J += 0.5 * stiffness * excess * excess;
   if (!(length > no_direction)) return;  // no direction to push in: no force, no stiffness, no NaN
 
   const Vec3 along = w / length;
@@ -34,20 +39,30 @@ void add_stretch(const Vec3& w, const Vec3& w_dot, double b, double tension, dou
   D += (tension * tau) * outer;
 }
 
-// The barrier before the strain limit: energy, force and stiffness along the thread; across it, the force over the length.
-void add_limit(const Vec3& w, double b, double tension, double limit, double& energy_J, Vec3& P, Mat3& K) {
+// The barrier before the strain limit, of a thread of length |w|.
+struct Barrier {
+  double energy_J = 0, force = 0, stiffness = 0;
+};
+Barrier barrier(double length, double b, double tension, double limit) {
   constexpr double last = 0.95;  // y_1
-  const double length = w.norm(), from = limited_from(b), d = 0.5 * limit * from;
+  const double from = limited_from(b), d = 0.5 * limit * from;
   const double y = (length - from) / d - 1;
-  if (!(y > 0)) return;
+  if (!(limit > 0) || !(y > 0)) return {};
   const double inner = std::min(y, last), beyond = y - inner, left = 1 - inner;
   const double phi = inner * inner * inner / left, phi1 = inner * inner * (3 - 2 * inner) / (left * left),
                phi2 = 6 * inner / left + 2 * phi1 / left;
-  energy_J += tension * d * d * (phi + beyond * (phi1 + 0.5 * beyond * phi2));
-  const double force = tension * d * (phi1 + beyond * phi2);
+  return {tension * d * d * (phi + beyond * (phi1 + 0.5 * beyond * phi2)), tension * d * (phi1 + beyond * phi2),
+          tension * phi2};
+}
+
+// Adds force and stiffness along the thread; across it, the force over the length.
+void add_limit(const Vec3& w, double b, double tension, double limit, Vec3& P, Mat3& K) {
+  const double length = w.norm();
+  const auto [energy_J, force, stiffness] = barrier(length, b, tension, limit);
+  if (!(force > 0)) return;
   const Vec3 along = w / length;
   P += force * along;
-  K += (tension * phi2 - force / length) * along * along.transpose();
+  K += (stiffness - force / length) * along * along.transpose();
   K.diagonal().array() += force / length;
 }
 
@@ -104,6 +119,21 @@ void add_projected_shear_hessian(const Vec3& w_u, const Vec3& w_v, double I6, do
 
 }  // namespace
 
+double membrane_energy(const MembraneRest& rest, const MembraneStiffness& k, const Vec3& w_u, const Vec3& w_v) {
+  const double u = k.k_u * rest.scale2, v = k.k_v * rest.scale2, I6 = w_u.dot(w_v);
+  return stretch_energy(w_u, rest.b_u, u, k.compression) + stretch_energy(w_v, rest.b_v, v, k.compression) +
+         barrier(w_u.norm(), rest.b_u, u, k.strain_limit).energy_J +
+         barrier(w_v.norm(), rest.b_v, v, k.strain_limit).energy_J + 0.5 * k.k_shear * rest.scale2 * I6 * I6;
+}
+
+double energy_beyond_linear(const MembraneRest& rest, const MembraneStiffness& k, const MembraneResponse& at,
+                            const Vec3& w_u, const Vec3& w_v) {
+  const Vec3 u = w_u - at.w_u, v = w_v - at.w_v;
+  const double known = at.energy_J + u.dot(at.P_u) + v.dot(at.P_v) + 0.5 * u.dot(at.K.uu * u) + u.dot(at.K.uv * v) +
+                       0.5 * v.dot(at.K.vv * v);
+  return membrane_energy(rest, k, w_u, w_v) - known;
+}
+
 MembraneResponse membrane_response(const MembraneRest& rest, const MembraneStiffness& k, const std::array<Vec3, 3>& x,
                                    const std::array<Vec3, 3>& v, DampingJacobian damping_jacobian,
                                    Projection projection) {
@@ -123,21 +153,21 @@ MembraneResponse membrane_response(const MembraneRest& rest, const MembraneStiff
   r.K.uu.setZero(), r.K.uv.setZero(), r.K.vv.setZero();
   r.D.uu.setZero(), r.D.uv.setZero(), r.D.vv.setZero();
 
+  r.energy_J = membrane_energy(rest, k, r.w_u, r.w_v);
   const double s2 = rest.scale2;
-  add_stretch(r.w_u, w_u_dot, rest.b_u, k.k_u * s2, k.compression, k.tau_stretch, damping_in_K, project, r.energy_J,
-              r.P_u, r.Q_u, r.K.uu, r.D.uu);
-  add_stretch(r.w_v, w_v_dot, rest.b_v, k.k_v * s2, k.compression, k.tau_stretch, damping_in_K, project, r.energy_J,
-              r.P_v, r.Q_v, r.K.vv, r.D.vv);
+  add_stretch(r.w_u, w_u_dot, rest.b_u, k.k_u * s2, k.compression, k.tau_stretch, damping_in_K, project, r.P_u, r.Q_u,
+              r.K.uu, r.D.uu);
+  add_stretch(r.w_v, w_v_dot, rest.b_v, k.k_v * s2, k.compression, k.tau_stretch, damping_in_K, project, r.P_v, r.Q_v,
+              r.K.vv, r.D.vv);
 
   if (k.strain_limit > 0) {
-    add_limit(r.w_u, rest.b_u, k.k_u * s2, k.strain_limit, r.energy_J, r.P_u, r.K.uu);
-    add_limit(r.w_v, rest.b_v, k.k_v * s2, k.strain_limit, r.energy_J, r.P_v, r.K.vv);
+    add_limit(r.w_u, rest.b_u, k.k_u * s2, k.strain_limit, r.P_u, r.K.uu);
+    add_limit(r.w_v, rest.b_v, k.k_v * s2, k.strain_limit, r.P_v, r.K.vv);
   }
 
   const double stiffness = k.k_shear * s2;
   const double I6 = r.w_u.dot(r.w_v);
   const double rate = w_u_dot.dot(r.w_v) + r.w_u.dot(w_v_dot);  // dI6/dt
-  r.energy_J += 0.5 * stiffness * I6 * I6;
   r.P_u += (stiffness * I6) * r.w_v;
   r.P_v += (stiffness * I6) * r.w_u;
   const double brake = stiffness * k.tau_shear * rate;

@@ -11,6 +11,9 @@ namespace {
 constexpr double loose_passes = 10;  // times the residual at which the last pass stops
 // Passes before the end of a step is worth judging: the first guess of the contacts is poor.
 constexpr int contact_passes = 2;
+// What a solve may make in threads without knowing of it, of the kinetic energy; that of a step's free fall counts as well, or cloth that
+// hardly moves would never be still enough.
+constexpr double most_made = 0.1;
 
 }  // namespace
 
@@ -203,6 +206,15 @@ void ImplicitEuler::find_end(const ClothState& state, const StepFormula& step, C
   }
 }
 
+// Whether threads get energy at that end that the solve knew nothing of, as they do where cloth turns: it would brake the turn in the next step.
+bool ImplicitEuler::makes_energy(const ClothState& candidate, double h_s) {
+  const double fall2 = (h_s * model_->gravity_m_per_s2).squaredNorm();
+  double kinetic_J = 0;
+  for (std::size_t i = 0; i < candidate.v.size(); ++i)
+    kinetic_J += 0.5 * model_->mass_kg[i] * (candidate.v[i].squaredNorm() + fall2);
+  return elements_.energy_beyond_linear(*model_, candidate.x) > most_made * kinetic_J;
+}
+
 // About the end x^k that the last solve found, with the unknown dv still counted from v:
 //   f(x', v') = f(x^k, v) - K (x' - x^k) - D dv          at x' = x + drift + H (v + dv) + y
 void ImplicitEuler::relinearise(const ClothState& state, double t_s, const StepFormula& step,
@@ -296,7 +308,7 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
       const Timed timed(seconds_.eval);
       find_end(state, step, candidate);
       const StretchChange largest = largest_stretch_change(candidate);
-      if (largest.change > limits.stretch || largest.beyond >= 0) {
+      if (largest.change > limits.stretch || largest.beyond >= 0 || makes_energy(candidate, step.h_s)) {
         relinearise(state, t_s, step, candidate);
         ++report.relinearised;
         continue;

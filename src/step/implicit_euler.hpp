@@ -43,8 +43,8 @@ struct StepOptions {
   PositionAlteration position_alteration = PositionAlteration::in_solve;
   Integrator integrator = Integrator::backward_euler;
   int newton_iterations = 1;  // linear solves per step, each about the end that the last one found; the paper: 1
-  // More solves about where the last one ended, before a step is refused because a thread changes too much; the paper: none.  Scenes
-  // run with three (sim/scene.hpp).
+  // More solves about where the last one ended, while a thread changes by more than it may, or turning makes energy; the paper: none.
+  // Scenes run with three (sim/scene.hpp).
   int relinearisations = 0;
   int max_passes = 8;              // of the active set, per linear solve
   double max_speed_m_per_s = 100;  // beyond this the step is refused
@@ -109,6 +109,7 @@ class ImplicitEuler {
   void relinearise(const ClothState& state, double t_s, const StepFormula& step, const ClothState& candidate);
   bool solve_with_contacts(const ClothState& state, double t_s, const StepFormula& step, int iteration,
                            const StepLimits& limits, ClothState& candidate, StepReport& report);
+  bool makes_energy(const ClothState& candidate, double h_s);
   void find_end(const ClothState& state, const StepFormula& step, ClothState& candidate);
   struct StretchChange {
     double change = 0;

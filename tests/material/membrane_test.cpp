@@ -267,6 +267,40 @@ double energy_with_pattern_turned(const RestTriangle& t, const MembraneStiffness
 
 // k_u = k_v = 2 k_shear is the isotropic setting: k/2 (e_uu^2 + e_vv^2 + 2 e_uv^2) for small strains e, the squared
 // norm of the strain tensor.  A quarter turn changes nothing at any strain.
+TEST(Membrane, ALinearStepKnowsTheEnergyUpToThirdOrder) {
+  Random random(31);
+  for (int i = 0; i < configurations; ++i) {
+    const State s(random);
+    const MembraneResponse at = s.response(Projection::none);
+    const double least = std::min(at.w_u.norm(), at.w_v.norm());
+    // so short that no thread passes from slack to taut
+    const double way =
+        1e-2 * std::min(std::abs(at.w_u.norm() - s.t.membrane.b_u), std::abs(at.w_v.norm() - s.t.membrane.b_v));
+    const Vec3 u = random.vector(way), v = random.vector(way);
+    const double third = (s.k.k_u + s.k.k_v + s.k.k_shear) * s.t.membrane.scale2 * std::pow(u.norm() + v.norm(), 3);
+    const double beyond = energy_beyond_linear(s.t.membrane, s.k, at, at.w_u + u, at.w_v + v);
+    EXPECT_LT(std::abs(beyond),
+              2 * third * std::max(1 / (least * least), at.w_u.norm() + at.w_v.norm()) + 1e-13 * at.energy_J)
+        << i;
+    EXPECT_EQ(energy_beyond_linear(s.t.membrane, s.k, at, at.w_u, at.w_v), 0);
+  }
+}
+
+TEST(Membrane, ATurnAlongTangentsMakesEnergyThatTheStepDoesNotKnow) {
+  Random random(32);
+  State s(random);
+  s.t.membrane.b_u = s.t.membrane.b_v = 1;
+  s.x = deformed(s.t, Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3::Zero());
+  const MembraneResponse at = s.response();
+  const double angle = 0.2, longer = std::sqrt(1 + angle * angle) - 1;
+  const Vec3 w_u(1, 0, angle), w_v(0, 1, 0);
+  EXPECT_NEAR(energy_beyond_linear(s.t.membrane, s.k, at, w_u, w_v),
+              0.5 * s.k.k_u * s.t.membrane.scale2 * longer * longer, 1e-12 * s.k.k_u * s.t.membrane.scale2);
+  EXPECT_NEAR(energy_beyond_linear(s.t.membrane, s.k, at, Vec3(1.01, 0, 0), w_v), 0,
+              1e-12 * s.k.k_u * s.t.membrane.scale2)
+      << "along the thread the step is exact";
+}
+
 TEST(Membrane, AnIsotropicClothDoesNotFeelHowThePatternIsTurned) {
   Random random(32);
   const MembraneStiffness isotropic{.k_u = 1000, .k_v = 1000, .k_shear = 500};

@@ -91,9 +91,10 @@ double energy_J(const ClothModel& model, Elements& elements, const ClothState& s
 
 struct Rises {
   double largest, sum;  // from one frame to the next, and all of them: of what is lost in the end
+  int frame;            // of the largest
 };
 
-Rises rises_of_energy(int sheets, Under under, double step_max_s, double from_s) {
+Rises rises_of_energy(int sheets, Under under, double step_max_s) {
   const double seconds = under == Under::floor ? 1 : 1.5;
   const Scratch scratch;
   Scene scene = stack(scratch, sheets, under, seconds, 0);
@@ -108,36 +109,34 @@ Rises rises_of_energy(int sheets, Under under, double step_max_s, double from_s)
   Elements elements(run.model());
   const double first = energy_J(run.model(), elements, outfit.state);
   double last = first;
-  Rises rises{0, 0};
+  Rises rises{0, 0, 0};
   for (int frame = 1; frame <= static_cast<int>(seconds * scene.fps); ++frame) {
     EXPECT_TRUE(run.frame().ok);
     const double now = energy_J(run.model(), elements, outfit.state);
-    if (run.time_s() > from_s) {
-      rises.largest = std::max(rises.largest, now - last);
-      rises.sum += std::max(0.0, now - last);
-    }
+    if (now - last > rises.largest) rises.largest = now - last, rises.frame = frame;
+    rises.sum += std::max(0.0, now - last);
     last = now;
   }
   EXPECT_LT(last, first);
-  return {rises.largest / (first - last), rises.sum / (first - last)};
+  return {rises.largest / (first - last), rises.sum / (first - last), rises.frame};
 }
 
-void expect_loss_in_every_frame(double step_max_s, double from_s) {
+void expect_rises_below(double share, double step_max_s) {
   for (const Under under : {Under::floor, Under::sphere}) {
     for (const int sheets : {2, 5, 10}) {
-      const Rises rises = rises_of_energy(sheets, under, step_max_s, from_s);
-      std::printf("%d sheets: the energy rises by at most %.4f %% per frame, %.4f %% in all\n", sheets,
-                  100 * rises.largest, 100 * rises.sum);
-      EXPECT_LT(rises.largest, 1e-3) << sheets << (under == Under::floor ? " on the floor" : " on the sphere");
+      const Rises rises = rises_of_energy(sheets, under, step_max_s);
+      std::printf("%d sheets: the energy rises by at most %.4f %% in a frame (%d), %.4f %% in all\n", sheets,
+                  100 * rises.largest, rises.frame, 100 * rises.sum);
+      EXPECT_LT(rises.largest, share) << sheets << (under == Under::floor ? " on the floor" : " on the sphere");
     }
   }
 }
 
-TEST(Stack, LosesEnergyInEveryFrameInStepsOf8Milliseconds) { expect_loss_in_every_frame(8e-3, 0); }
+TEST(Stack, LosesEnergyInEveryFrameInStepsOf8Milliseconds) { expect_rises_below(1e-3, 8e-3); }
 
-// In longer steps cloth that lands turns about what holds it by 0.3 rad in one of them, along tangents, and stretches by half of the square
-// (docs/validation.md#energy): the frame in which that happens gains up to what is lost in all.
-TEST(Stack, LosesEnergyInEveryFrameOnceItHasLandedInStepsOf20Milliseconds) { expect_loss_in_every_frame(20e-3, 0.1); }
+// Ten sheets on the floor are pressed as they land, and recover by 3 % of what is lost.  With one linear solve per step two sheets on the
+// sphere gain 165 % in a frame (docs/validation.md#energy).
+TEST(Stack, GainsHardlyMoreThanPressedLayersGiveBackInStepsOf20Milliseconds) { expect_rises_below(0.04, 20e-3); }
 
 }  // namespace
 }  // namespace toile
