@@ -111,8 +111,9 @@ struct Crease {
   static Vec3s at(double wall_deg) {
     const double angle = wall_deg * 3.14159265358979323846 / 180;
     Vec3s x;
+    const BodySurface slab = test::tilted_slab(0.3, 0.1, 0);
     for (const double side : {1.0, -1.0}) {
-      for (const Vec3& p : test::tilted_slab(0.3, 0.1, 0).positions()) {
+      for (const Vec3& p : slab.positions()) {
         const double z = p.z() - 0.3 * side, c = std::cos(angle), s = side * std::sin(angle);
         x.emplace_back(p.x(), c * p.y() - s * z, s * p.y() + c * z);
       }
