@@ -141,16 +141,18 @@ void add_measurements(JsonText& text, const Report& report) {
   report.audit.has_body ? text.value(report.audit.gap.hover_p90_mm) : text.null();
   text.end_object();
   text.key("layer_gap");
-  if (report.layer_gap.particles == 0) {
+  if (report.layer_gap.pairs == 0) {
     text.null();
   } else {
     const LayerGap& gap = report.layer_gap;
     text.begin_object();
     text.member("particles", gap.particles);
     text.member("min_mm", 1e3 * gap.least_m);
-    text.member("p50_mm", 1e3 * gap.median_m);
+    text.key("p50_mm");
+    gap.particles > 0 ? text.value(1e3 * gap.median_m) : text.null();
     text.member("min_of_asked", gap.least_share);
-    text.member("p50_of_asked", gap.median_share);
+    text.key("p50_of_asked");
+    gap.particles > 0 ? text.value(gap.median_share) : text.null();
     text.end_object();
   }
   text.key("still");

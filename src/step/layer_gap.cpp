@@ -23,7 +23,7 @@ double median(std::vector<double>& values) {
 
 LayerGap measure_layer_gap(const ClothModel& model, std::span<const Vec3> x) {
   constexpr double none = std::numeric_limits<double>::infinity();
-  LayerGap result{0, none, none, 0, 0};
+  LayerGap result{0, 0, none, none, 0, 0};
   const ClothTopology topology(x.size(), model.mesh.triangles, model.topology);
   const TriangleTree tree(x, model.mesh.triangles);
   const LayerDistance distance(model, topology);
@@ -36,6 +36,7 @@ LayerGap measure_layer_gap(const ClothModel& model, std::span<const Vec3> x) {
   for (const ClothContact& contact : contacts) {
     const double r = distance.between(contact.kind, contact.particle).full_m;
     if (r <= 0 || contact.gap_m >= reach * r) continue;
+    ++result.pairs;
     const double share = contact.gap_m / r;
     result.least_m = std::min(result.least_m, contact.gap_m);
     result.least_share = std::min(result.least_share, share);
@@ -47,7 +48,7 @@ LayerGap measure_layer_gap(const ClothModel& model, std::span<const Vec3> x) {
       nearest_share[i] = std::min(nearest_share[i], share);
     }
   }
-  if (result.least_m == none) return {};
+  if (result.pairs == 0) return {};
   std::erase(nearest_m, none);
   std::erase(nearest_share, none);
   result.particles = static_cast<int>(nearest_m.size());

@@ -11,7 +11,8 @@
 namespace toile {
 
 struct LayerGap {
-  int particles = 0;                      // that lie on another layer; 0: none does, and all else is 0
+  int pairs = 0;                          // of features nearer than 2 r; 0: no layer lies on another, and all else is 0
+  int particles = 0;                      // that lie on another layer; 0: only edges do, and the median is 0
   double least_m = 0, least_share = 0;    // of all pairs, edges with edges too; the share is gap / r
   double median_m = 0, median_share = 0;  // of `nearest`
 };

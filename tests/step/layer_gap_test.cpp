@@ -15,6 +15,8 @@ using test::Sheet;
 
 constexpr double edge_m = 0.02;
 
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
 struct Layers {
   // Sheets of 12 cm, one over the other, each of its own thickness.
   Layers(double gap_m, const std::array<double, 2>& thickness_m) : sheet(test::stack(0.12, edge_m, gap_m, 2)) {
@@ -57,8 +59,30 @@ TEST(LayerGap, TheThinnerFabricSaysWhatIsAsked) {
 
 TEST(LayerGap, WhatIsTwiceAsFarDoesNotLieOnTheOther) {
   const LayerGap found = Layers(5.1e-3, {2.5e-3, 2.5e-3}).gap();
+  EXPECT_EQ(found.pairs, 0);
   EXPECT_EQ(found.particles, 0);
   EXPECT_EQ(found.least_m, 0);
+}
+
+// Two strips that cross: no vertex of either is near the other.
+TEST(LayerGap, WhereOnlyEdgesLieOnEdgesThereIsALeastAndNoMedian) {
+  Sheet strips;
+  for (const bool across : {false, true}) {
+    Sheet one;
+    one.mesh.particle_count = 4;
+    one.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    const std::array<Vec2, 4> uv = {Vec2(-0.1, -0.005), Vec2(0.1, -0.005), Vec2(0.1, 0.005), Vec2(-0.1, 0.005)};
+    for (const Triangle& t : one.mesh.triangles) one.mesh.uv.push_back({uv[at(t[0])], uv[at(t[1])], uv[at(t[2])]});
+    one.mesh.panel = {0, 0};
+    for (const Vec2& p : uv) one.x.push_back(across ? Vec3(p.y(), 3e-3, p.x()) : Vec3(p.x(), 0, p.y()));
+    test::add_sheet(strips, one, Vec3::Zero(), across ? "across" : "along");
+  }
+  const Fabric fabric;
+  const LayerGap found = measure_layer_gap(build_model(strips.mesh, {&fabric, 1}, {}), strips.x);
+  EXPECT_GT(found.pairs, 0);
+  EXPECT_EQ(found.particles, 0);
+  EXPECT_NEAR(found.least_m, 3e-3, 1e-12);
+  EXPECT_EQ(found.median_m, 0);
 }
 
 TEST(LayerGap, OfASingleSheetThereIsNone) {
