@@ -58,15 +58,22 @@ End attempt(ClothRun& run, double h_s, int relinearisations) {
   return end;
 }
 
+// A sheet that turns within its plane, about its middle.
+ClothRun spinning(double omega_per_s) {
+  ClothRun run(test::equilateral_sheet(0.2, 0.2, 0.02), test::linear_cotton(), weightless());
+  const Vec3 centre = centre_of_mass(run);
+  for (std::size_t i = 0; i < run.state.x.size(); ++i)
+    run.state.v[i] = Vec3(0, omega_per_s, 0).cross(run.state.x[i] - centre);
+  return run;
+}
+
 // A sheet that turns by omega h = 0.4 in a step: its straight ways lengthen every thread by sqrt(1 + 0.4^2) - 1 = 7.7 %.  The end of a
 // backward Euler step keeps the length, and turns by atan(0.4).
 TEST(Relinearise, ASheetThatTurnsByATwentyThirdOfATurnKeepsItsLength) {
   const double h = 1.0 / 60, omega = 0.4 / h;
   const auto spin = [&](int relinearisations) {
-    ClothRun run(test::equilateral_sheet(0.2, 0.2, 0.02), test::linear_cotton(), weightless());
+    ClothRun run = spinning(omega);
     const Vec3 centre = centre_of_mass(run);
-    for (std::size_t i = 0; i < run.state.x.size(); ++i)
-      run.state.v[i] = Vec3(0, omega, 0).cross(run.state.x[i] - centre);
     const double before = angular_momentum(run, run.state, centre).y();
     const End end = attempt(run, h, relinearisations);
     return std::pair(end, angular_momentum(run, end.state, centre).y() / before);
@@ -82,14 +89,11 @@ TEST(Relinearise, ASheetThatTurnsByATwentyThirdOfATurnKeepsItsLength) {
   EXPECT_NEAR(kept, 1 / std::sqrt(1.16), 0.01);  // omega' h = sin(atan(omega h)): what backward Euler keeps
 }
 
-// Half as fast, no thread changes by more than a step may; but 2 % of all threads is forty times the energy of the turn.
+// Half as fast, no thread changes by more than a step may; but 2 % of all threads is thirteen times the energy of the turn.
 TEST(Relinearise, ASheetThatTurnsMakesNoEnergyThatBrakesIt) {
   const double h = 1.0 / 60, omega = 0.2 / h;
   const auto spin = [&](int relinearisations) {
-    ClothRun run(test::equilateral_sheet(0.2, 0.2, 0.02), test::linear_cotton(), weightless());
-    const Vec3 centre = centre_of_mass(run);
-    for (std::size_t i = 0; i < run.state.x.size(); ++i)
-      run.state.v[i] = Vec3(0, omega, 0).cross(run.state.x[i] - centre);
+    ClothRun run = spinning(omega);
     double kinetic_J = 0;
     for (std::size_t i = 0; i < run.state.x.size(); ++i)
       kinetic_J += 0.5 * run.model.mass_kg[i] * run.state.v[i].squaredNorm();
@@ -102,7 +106,7 @@ TEST(Relinearise, ASheetThatTurnsMakesNoEnergyThatBrakesIt) {
   EXPECT_TRUE(once);
   EXPECT_EQ(once.relinearised, 0);
   EXPECT_NEAR(once.stretch_change, std::sqrt(1.04) - 1, 2e-3);
-  EXPECT_GT(made_once, 2);
+  EXPECT_GT(made_once, 10);
   const auto [again, made] = spin(3);
   EXPECT_TRUE(again);
   EXPECT_GE(again.relinearised, 1);
