@@ -5,7 +5,7 @@
 
 SCENE is a demo's name (cylinder, if none is given) or a scene's file.  Pairs are run as old new, new old, old new ...  For the whole
 frame and each of its phases: the median of the ratios new / old, and their least and largest; a ratio whose spread holds 1 says
-nothing.  Beside them what was computed, which does not depend on the machine: steps, iterations, contact rows, the state's hash.
+nothing.  Beside them what was computed, which does not depend on the machine: steps, iterations, stretch, the verdict, the state's hash.
 --busy N keeps N cores loaded by other processes meanwhile.  Times count what the report counts: the steps, neither meshing nor writing.
 Exit code 1 when a run writes no report; a run whose verdict is fail is compared like any other.
 """
@@ -23,8 +23,11 @@ PHASES = ("total", "eval", "cg", "cloth_cloth", "safe_filter", "cloth_solid", "b
 
 def run(toile, scene, threads, folder):
     words = ["run", scene] if pathlib.Path(scene).suffix == ".json" else ["demo", scene]
-    ended = subprocess.run([toile, *words, "--threads", str(threads), "--no-preview", "--quiet", "--out", str(folder)],
-                           capture_output=True, text=True)
+    try:
+        ended = subprocess.run([toile, *words, "--threads", str(threads), "--no-preview", "--quiet", "--out", str(folder)],
+                               capture_output=True, text=True)
+    except OSError as error:
+        sys.exit(f"compare: {toile}: expected a program, got: {error.strerror}")
     report = folder / "report.json"
     if not report.exists():
         sys.exit(f"compare: {toile} {' '.join(words)}: no report, exit code {ended.returncode}: {ended.stderr.strip()}")
@@ -74,8 +77,9 @@ def main():
     parser.add_argument("--busy", type=int, default=0, metavar="N")
     parser.add_argument("--json", metavar="FILE")
     of = parser.parse_args()
-    if of.pairs < 1:
-        parser.error(f"--pairs: expected 1 or more, got {of.pairs}")
+    for name, least in (("pairs", 1), ("busy", 0)):
+        if getattr(of, name) < least:
+            parser.error(f"--{name}: expected {least} or more, got {getattr(of, name)}")
     results = {"threads": of.threads, "busy": of.busy, "load_before": os.getloadavg()[0], "scenes": {}}
     others = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(of.busy)]
     try:

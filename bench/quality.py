@@ -11,7 +11,7 @@
 
 m_i are areas at rest, so for one fabric.  Cloth that folds by chance differs whatever solves it: the same two figures are taken between
 the reference and a third run, solved as well, whose gravity leans by 0.1 mrad.  What is no farther apart than that is not the solver's doing,
-and holds too.  Exit code 1 when a scene is farther apart than asked and than chance, 2 when a run writes no report.
+and holds too.  Exit code 1 when a scene is farther apart than asked and than chance, 2 when it cannot be measured.
 """
 import argparse
 import json
@@ -25,6 +25,11 @@ import tempfile
 MOST_MM, MOST_KINETIC_PERCENT = 5.0, 5.0
 EXACT = 1e-9
 LEAN = 1e-4  # rad
+
+
+def fail(words):
+    print(f"quality: {words}", file=sys.stderr)
+    sys.exit(2)
 
 
 def with_whole_paths(value, folder):
@@ -42,11 +47,13 @@ def run(toile, scene, folder, name, threads, more=()):
     text = folder / f"{name}.json"
     text.write_text(json.dumps(scene))
     out = folder / name
-    ended = subprocess.run([toile, "run", str(text), "--threads", str(threads), "--no-preview", "--quiet", "--out", str(out), *more],
-                           capture_output=True, text=True)
+    try:
+        ended = subprocess.run([toile, "run", str(text), "--threads", str(threads), "--no-preview", "--quiet", "--out", str(out), *more],
+                               capture_output=True, text=True)
+    except OSError as error:
+        fail(f"{toile}: expected a program, got: {error.strerror}")
     if not (out / "report.json").exists():
-        print(f"quality: {name}: no report, exit code {ended.returncode}: {ended.stderr.strip()}", file=sys.stderr)
-        sys.exit(2)
+        fail(f"{name}: no report, exit code {ended.returncode}: {ended.stderr.strip()}")
     return out, json.loads((out / "report.json").read_text())
 
 
@@ -55,9 +62,9 @@ def frames(path, wanted):
     data = path.read_bytes()
     magic, _, points, _, _, count = struct.unpack("<12siiffi", data[:32])
     if magic != b"POINTCACHE2\0" or len(data) < 32 + 12 * points * count:
-        sys.exit(f"quality: {path}: expected a whole point cache")
+        fail(f"{path}: expected a whole point cache")
     if max(wanted) >= count:
-        sys.exit(f"quality: {path}: expected {max(wanted) + 1} frames or more, got {count}")
+        fail(f"{path.parent.name}: expected {max(wanted) + 1} frames or more, got {count}: did the run end early?")
     return [struct.unpack_from(f"<{3 * points}f", data, 32 + 12 * points * k) for k in wanted]
 
 
@@ -89,9 +96,14 @@ def compare(mass, x, r, fps):
 
 
 def measure(toile, path, at_s, threads, folder):
-    scene = with_whole_paths(json.loads(path.read_text()), path.parent)
+    try:
+        scene = with_whole_paths(json.loads(path.read_text()), path.parent)
+    except (OSError, ValueError) as error:
+        fail(f"{path}: expected a scene, got: {error}")
     fps = scene.get("time", {}).get("fps", 30)
     at = round(at_s * fps)
+    if at < 1:
+        fail(f"--at: expected a frame or more ({1 / fps:.3g} s), got {at_s:g}")
     scene.setdefault("time", {})["until_still"] = False
     more = []
     seconds = ["--seconds", str((at + 2) / fps)]

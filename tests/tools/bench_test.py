@@ -119,6 +119,16 @@ class Quality(WithBuilds):
         self.assertEqual(ended.returncode, 2)
         self.assertIn("own: no report, exit code 1: no such scene", ended.stderr)
 
+    def test_says_what_it_cannot_measure(self):
+        toile = self.build("toile")
+        for words, said in (((toile, self.folder / "gone.json"), "gone.json: expected a scene, got: "),
+                            ((self.folder / "no", self.scene), "no: expected a program, got: "),
+                            ((toile, self.scene, "--at", 0.001), "--at: expected a frame or more (0.0333 s), got 0.001"),
+                            ((toile, self.scene, "--at", 3), "own: expected 92 frames or more, got 40")):
+            ended = self.run_tool("quality.py", *words)
+            self.assertEqual(ended.returncode, 2, ended.stderr)
+            self.assertIn(said, ended.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
