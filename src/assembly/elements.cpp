@@ -3,12 +3,14 @@
 #include "core/parallel.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace toile {
 namespace {
 
 constexpr std::size_t grain = 512;  // elements per block of work
+constexpr std::size_t batch_grain = grain / batch_size;
 
 template <class Parts>
 std::vector<std::int32_t> offsets(const Parts& keyed, std::size_t key_count) {
@@ -18,15 +20,10 @@ std::vector<std::int32_t> offsets(const Parts& keyed, std::size_t key_count) {
   return begin;
 }
 
-// w_u and w_v of a triangle.
-std::pair<Vec3, Vec3> columns(const Vec3& alpha, const Vec3& beta, const Triangle& triangle, std::span<const Vec3> x) {
-  Vec3 w_u = Vec3::Zero(), w_v = Vec3::Zero();
-  for (Eigen::Index c = 0; c < 3; ++c) {
-    const Vec3& x_c = x[static_cast<std::size_t>(triangle[static_cast<std::size_t>(c)])];
-    w_u += alpha[c] * x_c;
-    w_v += beta[c] * x_c;
-  }
-  return {w_u, w_v};
+// work(begin, end) for ranges of batches.
+template <class Work>
+void for_batches(std::size_t count, const Work& work) {
+  parallel_blocks(count, batch_grain, std::cref(work));  // by reference: no copy of the lambda on the heap
 }
 
 }  // namespace
@@ -34,26 +31,34 @@ std::pair<Vec3, Vec3> columns(const Vec3& alpha, const Vec3& beta, const Triangl
 Elements::Elements(const ClothModel& model)
     : triangles_(model.mesh.triangles),
       hinges_(model.topology.hinges),
-      membrane_(triangles_.size()),
+      rest_(batches_for(triangles_.size())),
+      state_(rest_.size()),
       bend_(hinges_.size()),
-      combined_(triangles_.size()),
-      triangle_force_(triangles_.size()),
-      hinge_force_(hinges_.size()) {
+      blocks_(rest_.size() * batch_size),
+      triangle_force_(blocks_.size()),
+      hinge_force_(hinges_.size()),
+      beyond_linear_(blocks_.size()) {
   std::vector<std::pair<Index, Index>> links;
   for (const Triangle& t : triangles_) {
     for (std::size_t k = 0; k < 3; ++k) links.emplace_back(t[k], t[(k + 1) % 3]);
   }
   for (const Hinge& hinge : hinges_) links.emplace_back(hinge.particle[2], hinge.particle[3]);
   pattern_ = std::make_shared<const BlockPattern>(model.particle_count(), std::move(links));
-  for (const MembraneRest& rest : model.membrane) {
-    alpha_.push_back(rest.alpha);
-    beta_.push_back(rest.beta);
-  }
+  pack_rest(model);
   for (const BendRest& rest : model.bend) {
     kappa_.push_back(rest.kappa_N_m);
     tau_.push_back(rest.tau_s);
   }
   add_incidence(model);
+}
+
+void Elements::pack_rest(const ClothModel& model) {
+  rest_version_ = model.rest_version;
+  form_.damping_jacobian = model.damping_jacobian;
+  for (std::size_t k = 0; k < rest_.size() * batch_size && !triangles_.empty(); ++k) {
+    const std::size_t t = std::min(k, triangles_.size() - 1);
+    rest_[k / batch_size].set(k % batch_size, model.membrane[t], model.stiffness[t], triangles_[t]);
+  }
 }
 
 void Elements::add_incidence(const ClothModel& model) {
@@ -67,7 +72,8 @@ void Elements::add_incidence(const ClothModel& model) {
       at_triangles.push_back({triangles_[t][a], {static_cast<Index>(t), a}});
       for (std::uint8_t b = 0; b < 3; ++b) {
         const Index i = triangles_[t][a], j = triangles_[t][b];
-        if (i < j) in_triangles.push_back({pattern_->slot(i, j), {static_cast<Index>(t), a, b}});
+        const std::uint8_t pair = (a + 1) % 3 == b ? a : b;
+        if (i < j) in_triangles.push_back({pattern_->slot(i, j), {static_cast<Index>(t), pair}});
       }
     }
   }
@@ -98,13 +104,9 @@ void Elements::add_incidence(const ClothModel& model) {
 
 void Elements::evaluate(const ClothModel& model, const ClothState& state) {
   const Vec3s &x = state.x, &v = state.v;
-  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
-    std::array<Vec3, 3> corner_x, corner_v;
-    for (std::size_t c = 0; c < 3; ++c) {
-      corner_x[c] = x[static_cast<std::size_t>(triangles_[t][c])];
-      corner_v[c] = v[static_cast<std::size_t>(triangles_[t][c])];
-    }
-    membrane_[t] = membrane_response(model.membrane[t], model.stiffness[t], corner_x, corner_v, model.damping_jacobian);
+  if (rest_version_ != model.rest_version) pack_rest(model);
+  for_batches(rest_.size(), [&](std::size_t begin, std::size_t end) {
+    evaluate_membranes(rest_.data(), begin, end, x.data(), v.data(), state_.data());
   });
   parallel_for(hinges_.size(), grain, [&](std::size_t h) {
     std::array<Vec3, 4> corner_x, corner_v;
@@ -118,7 +120,7 @@ void Elements::evaluate(const ClothModel& model, const ClothState& state) {
 
 double Elements::energy_J() const {
   double energy = 0;
-  for (const MembraneResponse& response : membrane_) energy += response.energy_J;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) energy += state_[t / batch_size].energy_J[t % batch_size];
   for (const BendResponse& response : bend_) energy += response.energy_J;
   return energy;
 }
@@ -144,11 +146,8 @@ void Elements::gather(std::span<Vec3> f, double sign) const {
 }
 
 void Elements::forces(std::span<Vec3> f) const {
-  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
-    const MembraneResponse& r = membrane_[t];
-    const Vec3 u = r.P_u + r.Q_u, v = r.P_v + r.Q_v;
-    for (Eigen::Index c = 0; c < 3; ++c)
-      triangle_force_[t][static_cast<std::size_t>(c)] = alpha_[t][c] * u + beta_[t][c] * v;
+  for_batches(rest_.size(), [&](std::size_t begin, std::size_t end) {
+    membrane_forces(batches(begin, end), triangle_force_.data());
   });
   parallel_for(hinges_.size(), grain, [&](std::size_t h) {
     const double moment = bend_[h].moment + bend_[h].damping;
@@ -159,17 +158,8 @@ void Elements::forces(std::span<Vec3> f) const {
 }
 
 void Elements::subtract_stiffness(std::span<const Vec3> displacement, std::span<Vec3> f) const {
-  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
-    Vec3 y_u = Vec3::Zero(), y_v = Vec3::Zero();
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      const Vec3& y = displacement[static_cast<std::size_t>(triangles_[t][static_cast<std::size_t>(c)])];
-      y_u += alpha_[t][c] * y;
-      y_v += beta_[t][c] * y;
-    }
-    const FMatrix& K = membrane_[t].K;
-    const Vec3 u = K.uu * y_u + K.uv * y_v, v = K.uv.transpose() * y_u + K.vv * y_v;
-    for (Eigen::Index c = 0; c < 3; ++c)
-      triangle_force_[t][static_cast<std::size_t>(c)] = alpha_[t][c] * u + beta_[t][c] * v;
+  for_batches(rest_.size(), [&](std::size_t begin, std::size_t end) {
+    membrane_stiffness_times(batches(begin, end), displacement.data(), triangle_force_.data());
   });
   parallel_for(hinges_.size(), grain, [&](std::size_t h) {
     double angle = 0;
@@ -184,19 +174,13 @@ void Elements::subtract_stiffness(std::span<const Vec3> displacement, std::span<
 template <class T>
 void Elements::assemble(double h_s, BlockMatrix<T>& A) {
   const double h2 = h_s * h_s;
-  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
-    const FMatrix &K = membrane_[t].K, &D = membrane_[t].D;
-    combined_[t] = {h2 * K.uu + h_s * D.uu, h2 * K.uv + h_s * D.uv, h2 * K.vv + h_s * D.vv};
-  });
+  for_batches(rest_.size(),
+              [&](std::size_t begin, std::size_t end) { membrane_blocks(batches(begin, end), h_s, blocks_.data()); });
   parallel_for(static_cast<std::size_t>(pattern_->block_count()), grain, [&](std::size_t s) {
     Mat3 block = Mat3::Zero();  // above the diagonal
     for (auto k = triangle_begin_[s]; k < triangle_begin_[s + 1]; ++k) {
-      const auto [triangle, a, b] = triangle_parts_[static_cast<std::size_t>(k)];
-      const auto t = static_cast<std::size_t>(triangle);
-      const FMatrix& H = combined_[t];
-      const double alpha_a = alpha_[t][a], alpha_b = alpha_[t][b], beta_a = beta_[t][a], beta_b = beta_[t][b];
-      block += alpha_a * alpha_b * H.uu + alpha_a * beta_b * H.uv + beta_a * alpha_b * H.uv.transpose() +
-               beta_a * beta_b * H.vv;
+      const auto [triangle, pair] = triangle_parts_[static_cast<std::size_t>(k)];
+      block += blocks_[static_cast<std::size_t>(triangle)][pair];
     }
     for (auto k = hinge_begin_[s]; k < hinge_begin_[s + 1]; ++k) {
       const auto [hinge, a, b] = hinge_parts_[static_cast<std::size_t>(k)];
@@ -209,21 +193,29 @@ void Elements::assemble(double h_s, BlockMatrix<T>& A) {
 }
 
 void Elements::stretch(std::span<const Vec3> x, std::span<Vec2> w) const {
-  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
-    const auto [w_u, w_v] = columns(alpha_[t], beta_[t], triangles_[t], x);
-    w[t] = Vec2(w_u.norm(), w_v.norm());
+  const std::size_t whole = triangles_.size() / batch_size;
+  for_batches(whole, [&](std::size_t begin, std::size_t end) {
+    membrane_stretch(rest_.data(), begin, end, x.data(), w.data());
   });
+  if (whole == rest_.size()) return;
+  std::array<Vec2, batch_size> last;
+  membrane_stretch(&rest_[whole], 0, 1, x.data(), last.data());
+  std::copy_n(last.begin(), triangles_.size() - whole * batch_size,
+              w.begin() + static_cast<std::ptrdiff_t>(whole * batch_size));
 }
 
-double Elements::energy_beyond_linear(const ClothModel& model, std::span<const Vec3> x) {
-  beyond_linear_.resize(triangles_.size());
-  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
-    const auto [w_u, w_v] = columns(alpha_[t], beta_[t], triangles_[t], x);
-    beyond_linear_[t] = toile::energy_beyond_linear(model.membrane[t], model.stiffness[t], membrane_[t], w_u, w_v);
+double Elements::energy_beyond_linear(std::span<const Vec3> x) {
+  for_batches(rest_.size(), [&](std::size_t begin, std::size_t end) {
+    membrane_energy_beyond(batches(begin, end), x.data(), beyond_linear_.data());
   });
   double sum = 0;
-  for (const double energy_J : beyond_linear_) sum += std::max(0.0, energy_J);
+  for (std::size_t t = 0; t < triangles_.size(); ++t) sum += std::max(0.0, beyond_linear_[t]);
   return sum;
+}
+
+MembraneResponse Elements::membrane(Index triangle) const {
+  const auto t = static_cast<std::size_t>(triangle);
+  return membrane_response_of(rest_[t / batch_size], state_[t / batch_size], t % batch_size, form_);
 }
 
 template void Elements::assemble(double, BlockMatrix<float>&);

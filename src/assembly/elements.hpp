@@ -8,6 +8,7 @@
 #pragma once
 #include "assembly/block_matrix.hpp"
 #include "assembly/cloth_model.hpp"
+#include "material/membrane_batch.hpp"
 
 namespace toile {
 
@@ -33,29 +34,38 @@ class Elements {
   // |w_u| and |w_v| of every triangle at x.
   void stretch(std::span<const Vec3> x, std::span<Vec2> w) const;
 
-  // Energy of stretch and shear at x that the linearisation of the last evaluate() does not know of (material/membrane.hpp): the sum over
-  // the triangles that have more than they were thought to, J.
-  double energy_beyond_linear(const ClothModel& model, std::span<const Vec3> x);
+  // What a linear step does not know of the energy of stretch and shear at its end F': E(F') - (E + P.d + d.K d / 2), d = F' - F, with
+  // the linearisation of the last evaluate(); the sum over the triangles that have more than they were thought to, J.  A piece that turns
+  // by the angle a along tangents has |w'| = sqrt(1 + a^2): k s^2 (|w'| - 1)^2 / 2 per thread, made out of nothing.
+  double energy_beyond_linear(std::span<const Vec3> x);
 
   // Per-element access for diagnosis and tests.
-  const MembraneResponse& membrane(Index triangle) const { return membrane_[static_cast<std::size_t>(triangle)]; }
+  MembraneResponse membrane(Index triangle) const;
   const BendResponse& bend(Index hinge) const { return bend_[static_cast<std::size_t>(hinge)]; }
 
  private:
   struct TrianglePart {
     Index triangle;
-    std::uint8_t a, b;
-  };  // corners: block (a, b) of the triangle
+    std::uint8_t pair;  // of corners: material/membrane_batch.hpp
+  };
   struct HingePart {
     Index hinge;
     std::uint8_t a, b;
   };
   void add_incidence(const ClothModel& model);
+  void pack_rest(const ClothModel& model);
+  MembraneBatches batches(std::size_t begin, std::size_t end) const {
+    return {rest_.data(), state_.data(), begin, end, form_};
+  }
 
   std::shared_ptr<const BlockPattern> pattern_;
   std::vector<Triangle> triangles_;
   std::vector<Hinge> hinges_;
-  std::vector<Vec3> alpha_, beta_;
+  // Triangles, eight per batch; arrays over triangles are as long as all batches.
+  int rest_version_ = -1;  // of the model, when it was packed
+  std::vector<MembraneRestBatch> rest_;
+  std::vector<MembraneStateBatch> state_;
+  MembraneForm form_;
   std::vector<double> kappa_, tau_;
   std::vector<Index> row_of_slot_;
   std::vector<std::int32_t> triangle_begin_, hinge_begin_;  // per slot
@@ -63,9 +73,8 @@ class Elements {
   std::vector<HingePart> hinge_parts_;
   std::vector<std::int32_t> particle_triangle_begin_, particle_hinge_begin_;  // per particle
   std::vector<std::pair<Index, std::uint8_t>> particle_triangles_, particle_hinges_;
-  std::vector<MembraneResponse> membrane_;
   std::vector<BendResponse> bend_;
-  std::vector<FMatrix> combined_;                            // h D + h^2 K per triangle
+  std::vector<MembraneBlocks> blocks_;                       // [triangle]
   mutable std::vector<std::array<Vec3, 3>> triangle_force_;  // scratch of the gathers
   mutable std::vector<std::array<Vec3, 4>> hinge_force_;
   std::vector<double> beyond_linear_;  // [triangle]

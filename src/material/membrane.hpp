@@ -62,15 +62,10 @@ enum class DampingJacobian { gauss_newton, paper };
 // How the energy's Hessian is made semidefinite; `none` is the true Hessian, for tests.
 enum class Projection { semidefinite, none };
 
-// E at F = [w_u w_v], J.
+// E at F = [w_u w_v], J, of one triangle.
 double membrane_energy(const MembraneRest& rest, const MembraneStiffness& k, const Vec3& w_u, const Vec3& w_v);
 
-// What a linear step does not know of the energy at its end F': E(F') - (E + P.d + d.K d / 2), d = F' - F, J.  A piece that turns by the
-// angle a along tangents has |w'| = sqrt(1 + a^2): k s^2 (|w'| - 1)^2 / 2 per thread, made out of nothing.
-double energy_beyond_linear(const MembraneRest& rest, const MembraneStiffness& k, const MembraneResponse& at,
-                            const Vec3& w_u, const Vec3& w_v);
-
-// x in m and v in m/s, per corner.  About 0.12 us; nothing is allocated.
+// Of one triangle, for diagnosis and tests; a cloth has its triangles in batches (membrane_batch.hpp).  x in m and v in m/s, per corner.
 MembraneResponse membrane_response(const MembraneRest& rest, const MembraneStiffness& k, const std::array<Vec3, 3>& x,
                                    const std::array<Vec3, 3>& v,
                                    DampingJacobian damping_jacobian = DampingJacobian::gauss_newton,

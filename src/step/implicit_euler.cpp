@@ -212,7 +212,7 @@ bool ImplicitEuler::makes_energy(const ClothState& candidate, double h_s) {
   double kinetic_J = 0;
   for (std::size_t i = 0; i < candidate.v.size(); ++i)
     kinetic_J += 0.5 * model_->mass_kg[i] * (candidate.v[i].squaredNorm() + fall2);
-  return elements_.energy_beyond_linear(*model_, candidate.x) > most_made * kinetic_J;
+  return elements_.energy_beyond_linear(candidate.x) > most_made * kinetic_J;
 }
 
 // About the end x^k that the last solve found, with the unknown dv still counted from v:

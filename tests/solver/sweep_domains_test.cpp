@@ -3,9 +3,9 @@
 
 #include "solver/coarse_space.hpp"
 #include "solver/crumpled_problem.hpp"
+#include "support/every_target.hpp"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cstring>
 
@@ -111,22 +111,6 @@ TEST(SweepDomains, ReadTheBlocksAgainWhenTheyHaveChanged) {
   EXPECT_EQ(std::memcmp(fresh.s.data(), p.s.data(), p.s.size() * sizeof p.s[0]), 0);
 }
 
-// Calls work() on each of the machine's instruction sets in turn, the plainest last.
-template <class Work>
-int on_every_target(const Work& work) {
-  int count = 0;
-  const auto supported = static_cast<std::uint64_t>(hwy::SupportedTargets());
-  for (std::uint64_t left = supported; left != 0; left &= left - 1, ++count) {
-    const auto target = static_cast<std::int64_t>(left & (~left + 1));
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    work(hwy::TargetName(target));
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  return count;
-}
-
 TEST(SweepDomains, GiveTheSameBitsOnEveryInstructionSet) {
   for (const bool large : {false, true}) {
     Swept<float> p(large);
@@ -141,7 +125,7 @@ TEST(SweepDomains, GiveTheSameBitsOnEveryInstructionSet) {
     const auto same = [](const Lanes<float>& a, const Lanes<float>& b) {
       return std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
     };
-    const int targets = on_every_target([&](const char* name) {
+    const int targets = test::on_every_target([&](const char* name) {
       p.s.assign(p.s.size(), Lane<float>{});
       p.As = p.s;
       p.sweep();

@@ -1,0 +1,65 @@
+// material/membrane_batch.hpp: stretch and shear of eight triangles at once; the formulas are those of material/membrane.hpp.
+//
+// Of the state only the deformation gradient and its rate are kept.  What follows from them is made where it is asked for: reading 3x3
+// matrices back takes longer than making them.
+//
+// Every function works on batches [begin, end); arrays over triangles have `batch_size` entries per batch, so the last one may need
+// padding.  Unused lanes of the last batch repeat its last triangle.
+#pragma once
+#include "material/batch.hpp"
+#include "material/membrane.hpp"
+
+namespace toile {
+
+struct alignas(64) MembraneRestBatch {
+  Batched alpha[3], beta[3];  // [corner]
+  Batched k_u, k_v, k_shear;  // times s^2, J
+  Batched b_u, b_v;
+  Batched tau_stretch, tau_shear, compression, strain_limit;
+  Batched forward[3];  // [pair c, c + 1] 1: the first particle of the pair has the lower number; 0: the second
+  Index corner[3][batch_size];
+  bool limited;  // a lane has a strain limit
+
+  void set(std::size_t lane, const MembraneRest& rest, const MembraneStiffness& k, const Triangle& corners);
+};
+
+struct alignas(64) MembraneStateBatch {
+  Batched w_u[3], w_v[3], w_u_dot[3], w_v_dot[3];
+  Batched energy_J;
+};
+
+// How the response is asked for; the same for all triangles.
+struct MembraneForm {
+  DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
+  Projection projection = Projection::semidefinite;
+};
+
+// h D + h^2 K of the pairs of corners (0, 1), (1, 2), (2, 0): the block of rows of the lower particle and columns of the higher one.
+using MembraneBlocks = std::array<Mat3, 3>;
+
+// The kernels' arguments: batches of one mesh.
+struct MembraneBatches {
+  const MembraneRestBatch* rest;
+  const MembraneStateBatch* state;
+  std::size_t begin, end;
+  MembraneForm form;
+};
+
+void evaluate_membranes(const MembraneRestBatch* rest, std::size_t begin, std::size_t end, const Vec3* x, const Vec3* v,
+                        MembraneStateBatch* state);
+// Elastic and damping force on each corner, with the opposite sign.
+void membrane_forces(const MembraneBatches& of, std::array<Vec3, 3>* force);
+// K displacement on each corner.
+void membrane_stiffness_times(const MembraneBatches& of, const Vec3* displacement, std::array<Vec3, 3>* force);
+void membrane_blocks(const MembraneBatches& of, double h_s, MembraneBlocks* blocks);
+// |w_u| and |w_v| at x.
+void membrane_stretch(const MembraneRestBatch* rest, std::size_t begin, std::size_t end, const Vec3* x, Vec2* w);
+// Energy at x beyond the second-order expansion about the evaluated state, J.
+void membrane_energy_beyond(const MembraneBatches& of, const Vec3* x, double* energy_J);
+// All of it of the first lane of one batch, for diagnosis and tests.
+MembraneResponse membrane_response_of(const MembraneRestBatch& rest, const MembraneStateBatch& state, std::size_t lane,
+                                      const MembraneForm& form);
+// E at (w_u, w_v) of the state, J.
+void membrane_energies(const MembraneRestBatch& rest, MembraneStateBatch& state);
+
+}  // namespace toile
