@@ -138,7 +138,7 @@ void set_quality(const std::string& quality, Scene& scene) {
     double resolution_m, step_max_s, tolerance;
   };
   static constexpr std::array<Quality, 3> qualities = {
-      {{"draft", 0.02, 1.0 / 30, 1e-2}, {"good", 0.01, 1.0 / 60, 1e-3}, {"final", 0.007, 1.0 / 120, 1e-4}}};
+      {{"draft", 0.02, 1.0 / 30, 3e-2}, {"good", 0.01, 1.0 / 60, 1e-2}, {"final", 0.007, 1.0 / 120, 1e-3}}};
   for (const Quality& q : qualities) {
     if (q.name != quality) continue;
     for (SceneCloth& cloth : scene.cloth) {

@@ -44,6 +44,13 @@ void read_time(const Json& value, Scene& scene) {
     scene.integrator = one_of(*integrator, integrators) == 0 ? Integrator::backward_euler : Integrator::bdf2;
 }
 
+// What keeps the motion with the coarse space brakes it without (docs/theory/solver.md#what-the-tolerance-keeps).
+double usual_tolerance(const Scene& scene) {
+  const bool coarse =
+      scene.preconditioner.value_or(Preconditioner::block_ssor_coarse) == Preconditioner::block_ssor_coarse;
+  return coarse && scene.procedure == PcgProcedure::prefiltered ? Scene{}.tolerance : 1e-3;
+}
+
 void read_solver(const Json& value, Scene& scene) {
   value.allow_only({"preconditioner", "tolerance", "procedure", "newton_iterations", "relinearisations",
                     "paper_scaling", "damping_jacobian"});
@@ -67,6 +74,7 @@ void read_solver(const Json& value, Scene& scene) {
                                                    to_string(all[3])};
     if (const std::size_t k = one_of(*name, names); k > 0) scene.preconditioner = all[k - 1];
   }
+  scene.tolerance = usual_tolerance(scene);
   read_number(value, "tolerance", scene.tolerance, 1, 1e-12, 0.5);
   scene.paper_scaling = value.boolean_or("paper_scaling", false);
   if (const Json* jacobian = value.find("damping_jacobian")) {

@@ -169,7 +169,7 @@ struct Scene {
   bool until_still = false;          // stop when at rest; then `seconds` is a limit, and moving at the end a failure
 
   std::optional<Preconditioner> preconditioner;  // absent: the best for the size
-  double tolerance = 1e-3;
+  double tolerance = 1e-2;                       // with the coarse space
   PcgProcedure procedure = PcgProcedure::prefiltered;
   Integrator integrator = Integrator::backward_euler;
   int newton_iterations = 1;

@@ -16,10 +16,11 @@ namespace {
 template <class T>
 constexpr double rounding_floor = sizeof(T) == sizeof(float) ? 1e-5 : 1e-13;
 
-// The stop rule (docs/theory/solver.md):  target = max( min( tol |b'|, max( 0.02 |g|, 0.2 tol |b'| ) ),  0.1 tol |g| )
+// The stop rule (docs/theory/solver.md):  target = max( min( tol |b'|, max( 0.02 |g|, 0.2 tol |b'| ) ),  min( 0.1 tol, 1e-4 ) |g| )
 constexpr double share_of_gravity = 0.02;  // what is left may not be felt beside the weight,
 constexpr double violent_share = 0.2;      // but where a body throws cloth about, not finer than this part of tol |b'|
-constexpr double resting_share = 0.1;      // of tol |g|: finer than this is work for nothing
+constexpr double resting_share = 0.1;      // of tol |g|: finer than this is work for nothing,
+constexpr double resting_most = 1e-4;      // of |g|: but what rests may not creep
 
 constexpr int usual_long_waits =
     4;  // of a solve on a quiet machine, besides one per iteration: residuals in double, made by one
@@ -291,7 +292,8 @@ double ModifiedPcg<T>::find_target(const LinearSystem<T>& system, std::span<cons
   const double scale = std::sqrt(scale2), gravity = std::sqrt(gravity2);
   const double relative = options.tolerance * scale;
   const double felt = std::max(share_of_gravity * gravity, violent_share * relative);
-  double target = std::max(std::min(relative, felt), resting_share * options.tolerance * gravity);
+  const double resting = std::min(resting_share * options.tolerance, resting_most) * gravity;
+  double target = std::max(std::min(relative, felt), resting);
   // Gravity that acts along held directions only, but for rounding (all of the cloth flat on the ground), says nothing.
   if (gravity <= 1e-9 * scale) target = options.tolerance * scale;
   return options.loosen * std::max(target, rounding_floor<T> * scale);

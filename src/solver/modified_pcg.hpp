@@ -5,7 +5,7 @@
 //   force = (I - S)(A dv - b) / h                                                                        [BW98 5.4]
 //
 // Stop, one rule for every preconditioner, norms in D^-1 (D: block diagonal of A'):
-//   |r| <= max( min(tol |b'|, 0.02 |reference|), 0.1 tol |reference| ),      reference = S h m g
+//   |r| <= max( min(tol |b'|, max(0.02 |reference|, 0.2 tol |b'|)), min(0.1 tol, 1e-4) |reference| ),      reference = S h m g
 // Relative to b' alone is wrong twice: a garment at rest would be the dearest frame, and where contact or seam forces dwarf gravity a
 // relative 1e-3 would ignore gravity.  Never below 1e-5 |b'|: in a hit at 10 m/s and a step of 0.1 ms that is more than h m g, and
 // single precision gets no further.      What the printed 1998 listing does instead: docs/deviations.md#pcg

@@ -8,7 +8,7 @@
 namespace toile {
 namespace {
 
-constexpr double loose_passes = 10;  // times the residual at which the last pass stops
+constexpr double loose_passes = 3;  // times the residual at which the last pass stops
 // Passes before the end of a step is worth judging: the first guess of the contacts is poor.
 constexpr int contact_passes = 2;
 // What a solve may make in threads without knowing of it, of the kinetic energy; that of a step's free fall counts as well, or cloth that

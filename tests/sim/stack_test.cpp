@@ -75,7 +75,7 @@ TEST(Stack, OfTwoFiveAndTenSheetsOnTheFloorComesToRest) {
 }
 
 TEST(Stack, OfTwoFiveAndTenSheetsOnASphereComesToRest) {
-  for (const int sheets : {2, 5, 10}) expect_rest(sheets, Under::sphere, 4);
+  for (const int sheets : {2, 5, 10}) expect_rest(sheets, Under::sphere, 8);
 }
 
 // Kinetic, elastic and of gravity; what contacts store is not in it.

@@ -208,9 +208,9 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "4ca625fa7f867de6");
-  EXPECT_EQ(folding(), "dc7382bdcf30e2cc");
-  EXPECT_EQ(drop(1), "5fdbd0f42571693c");
+  EXPECT_EQ(hanging(), "6735e130d04c7c1e");
+  EXPECT_EQ(folding(), "5790311eaef17446");
+  EXPECT_EQ(drop(1), "f27f35771527c757");
 }
 
 }  // namespace
