@@ -64,11 +64,12 @@ class CoarseSpace {
   std::vector<std::array<std::int32_t, 2>> slot_entry_;  // [slot (i, j)] entry of i for j's aggregate, of j for i's
   std::vector<Columns> AZ_;                              // [entry]
   // What A' Z was made of: between passes of the active set few particles change, and no block.
-  std::uint64_t version_ = 0;        // of A
-  std::vector<Mat3> S_;              // [particle]
-  std::vector<std::uint8_t> stale_;  // [particle] its row of A' Z
-  std::vector<double> E_;            // row-major; upper triangle, then its factor U with E = U^T U
-  std::vector<double> transpose_;    // U^T
+  std::uint64_t version_ = 0;           // of A
+  std::vector<Mat3> S_;                 // [particle]
+  std::vector<std::uint8_t> stale_;     // [particle] its row of A' Z
+  std::vector<double> E_without_rows_;  // Z^T A' Z, row-major; upper triangle
+  std::vector<double> E_;               // the same with the rows, then its factor U with E = U^T U
+  std::vector<double> transpose_;       // U^T
   std::vector<double> rhs_;
   std::vector<std::uint8_t> dead_;  // directions in which nothing may move
   std::vector<Lane<T>> y_;          // [coarse direction] E^-1 Z^T (r - At), each in all lanes
