@@ -2,6 +2,7 @@
 
 #include "core/parallel.hpp"
 #include "solver/paper_pcg.hpp"
+#include "solver/vector_kernels.hpp"
 
 #include <fmt/printf.h>
 
@@ -97,18 +98,13 @@ void ModifiedPcg<T>::for_own_particles(const Share& share, const Work& work) con
   });
 }
 
-// part(i, sum) for every particle; the sum over all domains, the same for every member.
+// The sum over all domains of part(begin, end) of their particles, the same for every member.
 template <class T>
 template <class Part>
-double ModifiedPcg<T>::sum_over_particles(Share& share, const Part& part) {
+double ModifiedPcg<T>::sum_over_domains(Share& share, const Part& part) {
   share.odd = !share.odd;  // the last sum's parts may still be read
   const std::size_t which = share.odd ? 1 : 0;
-  for_own_domains(share, [&](std::size_t d) {
-    DotSum<T> sum;
-    for (auto i = static_cast<std::size_t>(domains_.begin(d)); i < static_cast<std::size_t>(domains_.end(d)); ++i)
-      part(i, sum);
-    parts_[d][which] = sum.value();
-  });
+  for_own_domains(share, [&](std::size_t d) { parts_[d][which] = part(domains_.begin(d), domains_.end(d)); });
   team_->barrier();
   double sum = 0;
   for (std::size_t d = 0; d < domains_.count(); ++d) sum += parts_[d][which];
@@ -182,8 +178,8 @@ void ModifiedPcg<T>::correct_coarse_modes(const LinearSystem<T>& system, Share& 
 
 template <class T>
 double ModifiedPcg<T>::residual_norm2(const LinearSystem<T>& system, Share& share) {
-  return sum_over_particles(share, [&](std::size_t i, DotSum<T>& sum) {
-    sum.add(r_[i], system.filtered_inverse_block(static_cast<Index>(i)).times(r_[i]));
+  return sum_over_domains(share, [&](Index begin, Index end) {
+    return toile::residual_norm2(begin, end, &system.filtered_inverse_block(0), r_.data());
   });
 }
 
@@ -230,13 +226,12 @@ void ModifiedPcg<T>::iterate(const LinearSystem<T>& system, std::span<const Vec3
       return;
     }
     precondition(system, options.preconditioner, share);
-    const double delta_new = sum_over_particles(share, [&](std::size_t i, DotSum<T>& sum) { sum.add(r_[i], s_[i]); });
+    const double delta_new =
+        sum_over_domains(share, [&](Index begin, Index end) { return dot_lanes(begin, end, r_.data(), s_.data()); });
     const T beta = report.iterations == 0 ? T(0) : static_cast<T>(delta_new / delta);
     const bool first = report.iterations == 0;
-    const double curvature = sum_over_particles(share, [&](std::size_t i, DotSum<T>& sum) {
-      c_[i] = first ? s_[i] : s_[i] + c_[i] * beta;
-      q_[i] = first ? As_[i] : As_[i] + q_[i] * beta;
-      sum.add(c_[i], q_[i]);
+    const double curvature = sum_over_domains(share, [&](Index begin, Index end) {
+      return next_direction(begin, end, first, beta, s_.data(), As_.data(), c_.data(), q_.data());
     });
     delta = delta_new;
     report.curvature = curvature;
@@ -245,11 +240,9 @@ void ModifiedPcg<T>::iterate(const LinearSystem<T>& system, std::span<const Vec3
       return;
     }
     const T alpha = static_cast<T>(delta / curvature);
-    residual2 = sum_over_particles(share, [&](std::size_t i, DotSum<T>& sum) {
-      w_[i] += c_[i] * alpha;
-      const Lane<T> r = r_[i] - q_[i] * alpha;
-      r_[i] = r;
-      sum.add(r, system.filtered_inverse_block(static_cast<Index>(i)).times(r));
+    residual2 = sum_over_domains(share, [&](Index begin, Index end) {
+      return next_residual(begin, end, alpha, c_.data(), q_.data(), &system.filtered_inverse_block(0), w_.data(),
+                           r_.data());
     });
     ++report.iterations;
     if (report.iterations % 50 == 0) {  // rounding of the recurrence is thrown away

@@ -82,7 +82,7 @@ class ModifiedPcg {
   template <class Work>
   void for_own_particles(const Share& share, const Work& work) const;
   template <class Part>
-  double sum_over_particles(Share& share, const Part& part);
+  double sum_over_domains(Share& share, const Part& part);
 
   CoarseSpace<T> coarse_;
   SweepDomains<T> domains_;

@@ -53,7 +53,7 @@ int iterations_to(double error, PaperReading reading, int cap) {  // by bisectio
     const int middle = (low + high) / 2;
     Problem<double> p;
     Vec3s dv(p.b.size());
-    (void)paper_pcg(p.system, p.b, options_of(1e-14, middle), reading, dv);
+    (void)paper_pcg(p.system, p.b, options_of(1e-12, middle), reading, dv);
     if (error_against_dense(p, dv) < error)
       high = middle;
     else
