@@ -1,4 +1,4 @@
-#include "assembly/block_matrix.hpp"
+#include "assembly/block_kernels.hpp"
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <type_traits>
 
 namespace toile {
 namespace {
@@ -43,6 +44,29 @@ BlockPattern::BlockPattern(Index particle_count, std::vector<std::pair<Index, In
     for (Slot s = first_slot(i); s < end_slot(i); ++s)
       above_[static_cast<std::size_t>(next[static_cast<std::size_t>(column(s))]++)] = {i, s};
   }
+  find_pieces();
+}
+
+void BlockPattern::find_pieces() {
+  piece_.assign(static_cast<std::size_t>(rows()), -1);
+  std::vector<Index> reached;
+  const auto reach = [&](Index i) {
+    if (piece_[static_cast<std::size_t>(i)] >= 0) return;
+    piece_[static_cast<std::size_t>(i)] = static_cast<Index>(piece_size_.size()) - 1;
+    ++piece_size_.back();
+    reached.push_back(i);
+  };
+  for (Index start = 0; start < rows(); ++start) {
+    if (piece(start) >= 0) continue;
+    piece_size_.push_back(0);
+    reach(start);
+    while (!reached.empty()) {
+      const Index i = reached.back();
+      reached.pop_back();
+      for (const Above& above : this->above(i)) reach(above.row);
+      for (Slot s = first_slot(i); s < end_slot(i); ++s) reach(column(s));
+    }
+  }
 }
 
 Slot BlockPattern::slot(Index row, Index column) const {
@@ -58,21 +82,31 @@ BlockMatrix<T>::BlockMatrix(std::shared_ptr<const BlockPattern> pattern)
       below_(static_cast<std::size_t>(pattern_->block_count()), Block<T>::from(Mat3::Zero())),
       grounded_(static_cast<std::size_t>(pattern_->rows()), Mat3::Zero()),
       diagonal_(grounded_),
-      grounded_columns_(grounded_.size() * 3, to_lane<T>(Vec3::Zero())) {}
+      grounded_columns_(grounded_.size() * 3, to_lane<T>(Vec3::Zero())),
+      unbalanced_(static_cast<std::size_t>(pattern_->piece_sizes().size())) {}
 
 template <class T>
 void BlockMatrix<T>::update_diagonal() {
   version_ = next_version();
-  parallel_for(grounded_.size(), grain, [&](std::size_t i) {
-    for (Eigen::Index k = 0; k < 3; ++k)
-      grounded_columns_[3 * i + static_cast<std::size_t>(k)] = to_lane<T>(grounded_[i].col(k));
-    const auto row = static_cast<Index>(i);
-    Mat3 diagonal = grounded_[i];
-    for (const auto& above : pattern_->above(row)) diagonal -= below(above.slot).to_mat3();
-    for (Slot s = pattern_->first_slot(row); s < pattern_->end_slot(row); ++s)
-      diagonal -= below(s).to_mat3().transpose();
-    diagonal_[i] = diagonal;
-  });
+  const auto rows = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      for (Eigen::Index k = 0; k < 3; ++k)
+        grounded_columns_[3 * i + static_cast<std::size_t>(k)] = to_lane<T>(grounded_[i].col(k));
+    }
+    if constexpr (std::is_same_v<T, float>) {
+      sum_block_diagonals(block_rows(), static_cast<Index>(begin), static_cast<Index>(end), &diagonal_[begin]);
+    } else {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto row = static_cast<Index>(i);
+        Mat3 diagonal = grounded_[i];
+        for (const auto& above : pattern_->above(row)) diagonal -= below(above.slot).to_mat3();
+        for (Slot s = pattern_->first_slot(row); s < pattern_->end_slot(row); ++s)
+          diagonal -= below(s).to_mat3().transpose();
+        diagonal_[i] = diagonal;
+      }
+    }
+  };
+  parallel_blocks(grounded_.size(), grain, std::cref(rows));  // by reference: no copy of the lambda on the heap
 }
 
 template <class T>
@@ -108,24 +142,37 @@ void BlockMatrix<T>::multiply(std::span<const Vec3> x, std::span<Vec3> y) const 
 
 template <class T>
 void BlockMatrix<T>::multiply_rows(Index begin, Index end, std::span<const Vec3> x, std::span<Vec3> y) const {
-  for (Index i = begin; i < end; ++i) y[static_cast<std::size_t>(i)] = multiply_row(i, x);
+  if constexpr (std::is_same_v<T, float>) {
+    multiply_block_rows(block_rows(), begin, end, x.data(), y.data() + begin);
+  } else {
+    for (Index i = begin; i < end; ++i) y[static_cast<std::size_t>(i)] = multiply_row(i, x);
+  }
+}
+
+template <class T>
+void BlockMatrix<T>::balance(std::span<const Vec3> x, std::span<Vec3> y) const {
+  std::fill(unbalanced_.begin(), unbalanced_.end(), Vec3::Zero());
+  const auto of = [&](std::size_t i) { return static_cast<std::size_t>(pattern_->piece(static_cast<Index>(i))); };
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const Vec3 internal = y[i] - grounded_[i] * x[i];
+    unbalanced_[of(i)] += internal;
+  }
+  for (std::size_t p = 0; p < unbalanced_.size(); ++p) unbalanced_[p] /= pattern_->piece_sizes()[p];
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] -= unbalanced_[of(i)];
 }
 
 template <class T>
 Vec3 BlockMatrix<T>::multiply_row(Index i, std::span<const Vec3> x) const {
-  const Vec3 x_i = x[static_cast<std::size_t>(i)];
-  Vec3 sum = grounded(i) * x_i;
-  // Of the blocks every addition is written out: how a library groups three products would be in the bits of all results.
-  for (const auto& above : pattern_->above(i)) {
-    const Block<T>& L = below(above.slot);
-    const Vec3 d = x[static_cast<std::size_t>(above.row)] - x_i;
-    sum += (to_vec3(L.c0) * d[0] + to_vec3(L.c1) * d[1]) + to_vec3(L.c2) * d[2];
-  }
-  for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s) {
-    const Block<T>& L = below(s);
-    const Vec3 d = x[static_cast<std::size_t>(pattern_->column(s))] - x_i;
-    const Vec3 p = to_vec3(L.c0).cwiseProduct(d), q = to_vec3(L.c1).cwiseProduct(d), r = to_vec3(L.c2).cwiseProduct(d);
-    sum += Vec3((p[0] + p[1]) + p[2], (q[0] + q[1]) + q[2], r[0] + (r[1] + r[2]));
+  Vec3 sum;
+  if constexpr (std::is_same_v<T, float>) {
+    multiply_block_rows(block_rows(), i, i + 1, x.data(), &sum);
+  } else {
+    const Vec3& x_i = x[static_cast<std::size_t>(i)];
+    sum = grounded(i) * x_i;
+    for (const auto& above : pattern_->above(i))
+      sum += below(above.slot).to_mat3() * (x[static_cast<std::size_t>(above.row)] - x_i);
+    for (Slot s = pattern_->first_slot(i); s < pattern_->end_slot(i); ++s)
+      sum += below(s).to_mat3().transpose() * (x[static_cast<std::size_t>(pattern_->column(s))] - x_i);
   }
   return sum;
 }

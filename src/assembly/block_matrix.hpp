@@ -16,6 +16,7 @@
 #include "assembly/lane.hpp"
 
 #include <Eigen/Core>
+#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -46,12 +47,25 @@ class BlockPattern {
     const auto first = static_cast<std::size_t>(above_begin_[static_cast<std::size_t>(i)]);
     return {above_.data() + first, static_cast<std::size_t>(above_begin_[static_cast<std::size_t>(i) + 1]) - first};
   }
+  // Numbers of the pieces of cloth that no element connects, from 0.
+  Index piece(Index row) const { return piece_[static_cast<std::size_t>(row)]; }
+  std::span<const Index> piece_sizes() const { return piece_size_; }
 
  private:
+  void find_pieces();
+
   std::vector<Slot> row_begin_;
   std::vector<Index> column_;
   std::vector<std::int32_t> above_begin_;
   std::vector<Above> above_;
+  std::vector<Index> piece_, piece_size_;
+};
+
+// Of a matrix in single precision, for those who walk along its rows (assembly/block_kernels.hpp).
+struct BlockRows {
+  const BlockPattern* pattern;
+  const Block<float>* below;  // [slot]
+  const Mat3* grounded;       // [row]
 };
 
 template <class T>
@@ -65,6 +79,7 @@ class BlockMatrix {
   // A_ji = A_ij^T of a slot (i, j), i < j.
   Block<T>& below(Slot slot) { return below_[static_cast<std::size_t>(slot)]; }
   const Block<T>& below(Slot slot) const { return below_[static_cast<std::size_t>(slot)]; }
+  std::span<Block<T>> blocks() { return below_; }  // [slot]
   Mat3& grounded(Index row) { return grounded_[static_cast<std::size_t>(row)]; }
   const Mat3& grounded(Index row) const { return grounded_[static_cast<std::size_t>(row)]; }
   // G_i in the precision of the blocks, valid after update_diagonal().
@@ -86,17 +101,25 @@ class BlockMatrix {
   // Rows [begin, end) of it, for those who share the work, or one of them.
   void multiply_rows(Index begin, Index end, std::span<const Vec3> x, std::span<Vec3> y) const;
   Vec3 multiply_row(Index row, std::span<const Vec3> x) const;
+  // Of y = A x: particles of a piece of cloth pull at each other, so the sum of what is not G x is nothing.  Blocks that are rounded one by
+  // one leave a little; it is taken off, so that sum_i y_i = sum_i G_i x_i for every piece.
+  void balance(std::span<const Vec3> x, std::span<Vec3> y) const;
   // y += A x of an x that is zero but on one particle.
   void add_column(Index column, const Vec3& x, std::span<Vec3> y) const;
 
   Eigen::MatrixXd to_dense() const;  // for tests and small inspections only
 
  private:
+  BlockRows block_rows() const requires std::same_as<T, float> {
+    return {pattern_.get(), below_.data(), grounded_.data()};
+  }
+
   std::shared_ptr<const BlockPattern> pattern_;
   std::vector<Block<T>> below_;
   std::uint64_t version_ = 0;
   std::vector<Mat3> grounded_, diagonal_;
   std::vector<Lane<T>> grounded_columns_;  // three per row, in T, for multiply
+  mutable std::vector<Vec3> unbalanced_;   // [piece]
 };
 
 extern template class BlockMatrix<float>;

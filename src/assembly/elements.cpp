@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <type_traits>
 #include <utility>
 
 namespace toile {
@@ -34,10 +35,11 @@ Elements::Elements(const ClothModel& model)
       rest_(batches_for(triangles_.size())),
       state_(rest_.size()),
       bend_(hinges_.size()),
-      blocks_(rest_.size() * batch_size),
-      triangle_force_(blocks_.size()),
+      blocks_(rest_.size() * batch_size + 1),
+      bend_weight_(hinges_.size()),
+      triangle_force_(rest_.size() * batch_size),
       hinge_force_(hinges_.size()),
-      beyond_linear_(blocks_.size()) {
+      beyond_linear_(triangle_force_.size()) {
   std::vector<std::pair<Index, Index>> links;
   for (const Triangle& t : triangles_) {
     for (std::size_t k = 0; k < 3; ++k) links.emplace_back(t[k], t[(k + 1) % 3]);
@@ -63,8 +65,8 @@ void Elements::pack_rest(const ClothModel& model) {
 
 void Elements::add_incidence(const ClothModel& model) {
   // Who adds to which block, in element order: (key, part), sorted by key only (stable).
-  std::vector<std::pair<Slot, TrianglePart>> in_triangles;
-  std::vector<std::pair<Slot, HingePart>> in_hinges;
+  std::vector<std::pair<Slot, BlockParts::OfTriangle>> in_triangles;
+  std::vector<std::pair<Slot, BlockParts::OfHinge>> in_hinges;
   std::vector<std::pair<Index, std::pair<Index, std::uint8_t>>> at_triangles, at_hinges;
   const auto by_key = [](const auto& p, const auto& q) { return p.first < q.first; };
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -176,19 +178,29 @@ void Elements::assemble(double h_s, BlockMatrix<T>& A) {
   const double h2 = h_s * h_s;
   for_batches(rest_.size(),
               [&](std::size_t begin, std::size_t end) { membrane_blocks(batches(begin, end), h_s, blocks_.data()); });
-  parallel_for(static_cast<std::size_t>(pattern_->block_count()), grain, [&](std::size_t s) {
-    Mat3 block = Mat3::Zero();  // above the diagonal
-    for (auto k = triangle_begin_[s]; k < triangle_begin_[s + 1]; ++k) {
-      const auto [triangle, pair] = triangle_parts_[static_cast<std::size_t>(k)];
-      block += blocks_[static_cast<std::size_t>(triangle)][pair];
+  for (std::size_t h = 0; h < hinges_.size(); ++h) bend_weight_[h] = (h2 + h_s * tau_[h]) * kappa_[h];
+  const auto slots = [&](std::size_t begin, std::size_t end) {
+    if constexpr (std::is_same_v<T, float>) {
+      gather_blocks({triangle_begin_.data(), hinge_begin_.data(), triangle_parts_.data(), hinge_parts_.data()},
+                    static_cast<Slot>(begin), static_cast<Slot>(end), blocks_.data(), bend_.data(), bend_weight_.data(),
+                    A.blocks().data());
+    } else {  // for tests and references
+      for (std::size_t s = begin; s < end; ++s) {
+        Mat3 block = Mat3::Zero();  // above the diagonal
+        for (auto k = triangle_begin_[s]; k < triangle_begin_[s + 1]; ++k) {
+          const auto [triangle, pair] = triangle_parts_[static_cast<std::size_t>(k)];
+          block += blocks_[static_cast<std::size_t>(triangle)][pair];
+        }
+        for (auto k = hinge_begin_[s]; k < hinge_begin_[s + 1]; ++k) {
+          const auto [hinge, a, b] = hinge_parts_[static_cast<std::size_t>(k)];
+          const auto h = static_cast<std::size_t>(hinge);
+          block += (bend_weight_[h] * bend_[h].g[a]) * bend_[h].g[b].transpose();
+        }
+        A.below(static_cast<Slot>(s)) = Block<T>::from(block.transpose());
+      }
     }
-    for (auto k = hinge_begin_[s]; k < hinge_begin_[s + 1]; ++k) {
-      const auto [hinge, a, b] = hinge_parts_[static_cast<std::size_t>(k)];
-      const auto h = static_cast<std::size_t>(hinge);
-      block += ((h2 + h_s * tau_[h]) * kappa_[h] * bend_[h].g[a]) * bend_[h].g[b].transpose();
-    }
-    A.below(static_cast<Slot>(s)) = Block<T>::from(block.transpose());
-  });
+  };
+  parallel_blocks(static_cast<std::size_t>(pattern_->block_count()), grain, std::cref(slots));
   A.update_diagonal();
 }
 

@@ -6,7 +6,7 @@
 //                       any thread count, and a halved step needs no element evaluated again
 //   subtract_stiffness  K y element by element in double: what the right-hand side needs (momentum is kept to rounding)
 #pragma once
-#include "assembly/block_matrix.hpp"
+#include "assembly/block_kernels.hpp"
 #include "assembly/cloth_model.hpp"
 #include "material/membrane_batch.hpp"
 
@@ -44,14 +44,6 @@ class Elements {
   const BendResponse& bend(Index hinge) const { return bend_[static_cast<std::size_t>(hinge)]; }
 
  private:
-  struct TrianglePart {
-    Index triangle;
-    std::uint8_t pair;  // of corners: material/membrane_batch.hpp
-  };
-  struct HingePart {
-    Index hinge;
-    std::uint8_t a, b;
-  };
   void add_incidence(const ClothModel& model);
   void pack_rest(const ClothModel& model);
   MembraneBatches batches(std::size_t begin, std::size_t end) const {
@@ -69,12 +61,13 @@ class Elements {
   std::vector<double> kappa_, tau_;
   std::vector<Index> row_of_slot_;
   std::vector<std::int32_t> triangle_begin_, hinge_begin_;  // per slot
-  std::vector<TrianglePart> triangle_parts_;
-  std::vector<HingePart> hinge_parts_;
+  std::vector<BlockParts::OfTriangle> triangle_parts_;
+  std::vector<BlockParts::OfHinge> hinge_parts_;
   std::vector<std::int32_t> particle_triangle_begin_, particle_hinge_begin_;  // per particle
   std::vector<std::pair<Index, std::uint8_t>> particle_triangles_, particle_hinges_;
   std::vector<BendResponse> bend_;
-  std::vector<MembraneBlocks> blocks_;                       // [triangle]
+  std::vector<MembraneBlocks> blocks_;                       // [triangle], and one more that is never used
+  std::vector<double> bend_weight_;                          // [hinge] (h^2 + h tau) kappa
   mutable std::vector<std::array<Vec3, 3>> triangle_force_;  // scratch of the gathers
   mutable std::vector<std::array<Vec3, 4>> hinge_force_;
   std::vector<double> beyond_linear_;  // [triangle]

@@ -115,6 +115,7 @@ void LinearSystem<T>::filter(std::span<Lane<T>> y) const {
 template <class T>
 void LinearSystem<T>::multiply_unfiltered(std::span<const Vec3> x, std::span<Vec3> y) const {
   A_->multiply(x, y);
+  A_->balance(x, y);
   add_rows(x, y);
 }
 

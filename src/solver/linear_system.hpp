@@ -44,7 +44,7 @@ class LinearSystem {
                std::span<Lane<T>> y) const;
   void filter_held(std::size_t held, std::span<Lane<T>> y) const;
   void filter(std::span<Lane<T>> y) const;  // all of them
-  // y = (A + sum a g g^T) x, unfiltered, in double.
+  // y = (A + sum a g g^T) x, unfiltered, in double, and as much momentum as it must be.
   void multiply_unfiltered(std::span<const Vec3> x, std::span<Vec3> y) const;
   // y = (A + sum a g g^T) z of the constraints' z, which only held particles have.
   void multiply_prescribed(std::span<Vec3> y) const;

@@ -266,6 +266,41 @@ TEST(BlockMatrix, KeepsATranslationExactInFloat) {
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_EQ(y[i], cloth.model.mass_kg[i] * x[i]);
 }
 
+TEST(BlockMatrix, BalancedProductsOfEveryPieceOfClothAddUpToWhatIsGrounded) {
+  constexpr std::size_t first_piece = 4;  // rows 0 to 3, and 4 to 6
+  const auto pattern = std::make_shared<const BlockPattern>(
+      7, std::vector<std::pair<Index, Index>>{{0, 3}, {3, 1}, {1, 2}, {4, 6}, {6, 5}, {0, 1}});
+  EXPECT_EQ(std::vector<Index>(pattern->piece_sizes().begin(), pattern->piece_sizes().end()),
+            (std::vector<Index>{4, 3}));
+  for (Index i = 0; i < 7; ++i) EXPECT_EQ(pattern->piece(i), i < 4 ? 0 : 1) << i;
+  BlockMatrix<float> A(pattern);
+  test::Random random(3);
+  Vec3s x(7);
+  for (Index i = 0; i < 7; ++i) {
+    A.grounded(i) = random(1, 2) * Mat3::Identity();
+    x[static_cast<std::size_t>(i)] = random.vector(1);
+  }
+  for (Slot s = 0; s < pattern->block_count(); ++s) {
+    Mat3 L = random.vector(1e4) * random.vector(1).transpose();
+    A.below(s) = Block<float>::from(L + L.transpose());  // symmetric: what each gives, the other takes
+  }
+  A.below(0).c0[1] += 1;  // but for this
+  A.update_diagonal();
+  Vec3s y(7), before;
+  A.multiply(x, y);
+  before = y;
+  A.balance(x, y);
+  Vec3 sums[2] = {Vec3::Zero(), Vec3::Zero()}, grounded[2] = {Vec3::Zero(), Vec3::Zero()};
+  for (std::size_t i = 0; i < 7; ++i) {
+    sums[i / first_piece] += y[i];
+    grounded[i / first_piece] += A.grounded(static_cast<Index>(i)) * x[i];
+    EXPECT_LT((y[i] - before[i]).norm(), 1) << i;
+  }
+  for (int piece = 0; piece < 2; ++piece) EXPECT_LT((sums[piece] - grounded[piece]).norm(), 1e-10) << piece;
+  EXPECT_GT((y[0] - before[0]).norm(), 1e-3);
+  EXPECT_LT((y[4] - before[4]).norm(), 1e-10);
+}
+
 TEST(BlockMatrix, ProductEqualsTheDenseOne) {
   const Cloth cloth = crumpled_cloth(0.006, 17);
   Elements elements(cloth.model);

@@ -208,9 +208,9 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "6735e130d04c7c1e");
-  EXPECT_EQ(folding(), "5790311eaef17446");
-  EXPECT_EQ(drop(1), "f27f35771527c757");
+  EXPECT_EQ(hanging(), "26f081639edf429d");
+  EXPECT_EQ(folding(), "ff379cdb6d08c948");
+  EXPECT_EQ(drop(1), "ccef4443a701e1ba");
 }
 
 }  // namespace

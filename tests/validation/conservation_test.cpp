@@ -132,7 +132,7 @@ TEST(Conservation, AFreeSheetKeepsItsLinearMomentumAndLosesLessOfItsTurnInShorte
       const std::string h = "h = 1/" + std::to_string(per_second) + " s";
       figures.add(what, h, "angular momentum lost in 1 s", 0, change.angular);
       figures.add(what, h, "linear momentum changed in 1 s", 0, change.linear);
-      EXPECT_LT(change.linear, 5e-6);
+      EXPECT_LT(change.linear, 1e-11);
       EXPECT_LT(change.angular, last);
       last = change.angular;
     }

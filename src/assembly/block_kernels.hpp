@@ -1,0 +1,36 @@
+// assembly/block_kernels.hpp: what gathers over blocks in double, compiled for each instruction set.
+//
+// Products and sums are single operations on four numbers at a time, in one order: the same bits on every set.
+#pragma once
+#include "assembly/block_matrix.hpp"
+#include "material/bend.hpp"
+#include "material/membrane_batch.hpp"
+
+namespace toile {
+
+// Rows [begin, end) of A x, with x of all rows.
+void multiply_block_rows(const BlockRows& A, Index begin, Index end, const Vec3* x, Vec3* of_rows);
+// A_ii = G_i - sum_j L_ij of rows [begin, end).
+void sum_block_diagonals(const BlockRows& A, Index begin, Index end, Mat3* of_rows);
+
+// Elements that add to blocks, in the order in which they do (assembly/elements.hpp).
+struct BlockParts {
+  struct OfTriangle {
+    Index triangle;
+    std::uint8_t pair;  // of corners: material/membrane_batch.hpp
+  };
+  struct OfHinge {
+    Index hinge;
+    std::uint8_t a, b;  // rows and columns
+  };
+  const std::int32_t *triangle_begin, *hinge_begin;  // [slot], and the end of the last
+  const OfTriangle* triangles;
+  const OfHinge* hinges;
+};
+
+// The transposes of h D + h^2 K of slots [begin, end).  `weight` is (h^2 + h tau) kappa, per hinge.
+// One number after the last of `membranes` is read and not used.
+void gather_blocks(const BlockParts& parts, Slot begin, Slot end, const MembraneBlocks* membranes,
+                   const BendResponse* bends, const double* weight, Block<float>* below);
+
+}  // namespace toile
