@@ -153,7 +153,7 @@ class Untangler {
     limits.truncate = true;
     const StepReport report = step_->attempt(state, 0, step_s, limits, candidate_);
     end = report ? candidate_.x : x;
-    if (report) step_->accept(candidate_);
+    if (report) step_->accept(candidate_, step_s);
   }
 
  public:

@@ -42,7 +42,7 @@ FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s)
       report.passes += report.last.passes;
       report.cg_iterations += report.last.cg_iterations;
       if (report.last) {
-        integrator_.accept(candidate_);
+        integrator_.accept(candidate_, h);
         std::swap(state, candidate_);
         now += step_ticks;
         ++report.steps;

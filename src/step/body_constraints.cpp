@@ -16,6 +16,7 @@ constexpr double dead_band = 0.02;            // of the offset
 constexpr double deep = 0.5;                  // of the offset
 constexpr double slowest_slip = 1e-3;         // v_0, m/s
 constexpr double stick_below = 0.99;          // of v_0: below v_0 friction needs less than its cone
+constexpr double slides_on_s = 0.1;           // after it broke loose
 constexpr double pull_of_weight = 0.01;       // a pull below this part of the particle's weight is solver noise
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -29,7 +30,8 @@ BodyConstraints::BodyConstraints(const ClothModel& model, const BodySurface* bod
       points_(body ? model.mass_kg.size() : 0),
       reach_m_(points_.size()),
       touch_(model.mass_kg.size(), Touch::none),
-      lambda_n_(model.mass_kg.size(), 0) {
+      lambda_n_(model.mass_kg.size(), 0),
+      loose_s_(model.mass_kg.size(), 0) {
   near_.reserve(points_.size());
 }
 
@@ -198,12 +200,15 @@ bool BodyConstraints::changed() const {
   return touching != std::count_if(touch_.begin(), touch_.end(), [](Touch touch) { return touch != Touch::none; });
 }
 
-void BodyConstraints::accept() {
+void BodyConstraints::accept(double h_s) {
   std::fill(touch_.begin(), touch_.end(), Touch::none);
   std::fill(lambda_n_.begin(), lambda_n_.end(), 0.0);
+  for (double& loose_s : loose_s_) loose_s = std::max(loose_s - h_s, 0.0);
   for (const Near& near : near_) {
-    const bool stopped =
-        options_.friction > 0 && near.touch == Touch::slides && near.slip_m_per_s < stick_below * slowest_slip;
+    double& loose_s = loose_s_[at(near.particle)];
+    if (near.slipped) loose_s = slides_on_s;
+    const bool stopped = options_.friction > 0 && near.touch == Touch::slides && loose_s == 0 &&
+                         near.slip_m_per_s < stick_below * slowest_slip;
     touch_[at(near.particle)] = stopped ? Touch::sticks : near.touch;
     if (near.touch != Touch::none) lambda_n_[at(near.particle)] = near.lambda_n;
   }

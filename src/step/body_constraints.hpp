@@ -7,7 +7,9 @@
 //              coefficient mu lambda_n / max(|v_t|, v_0): Coulomb's force above v_0 = 1 mm/s, and below it the part |v_t| / v_0 of
 //              it, so that friction stops a particle and never turns it round
 //   sticks     S = 0,          z = v_body - v                    while |lambda_t| <= mu_s lambda_n
-//              entered from a slide that ended slower than v_0: friction then needed less than its cone
+//              entered from a slide that ended slower than v_0: friction then needed less than its cone.  What broke loose slides on
+//              for 0.1 s before, at up to v_0, hence 0.1 mm: cloth that creeps down a slope would stick and break loose in every step,
+//              one particle after the other, a solve for each few
 //   n          the contact's normal in the middle of the step.  With that of its start a round body that turns by theta under cloth that
 //              stays would draw the cloth in by R theta^2/2, with that of its end push it out by as much; midway neither.
 //   y          position alteration: min(r - gap, 0.2 r) n, zero while 0 <= r - gap < 0.02 r; negative lets a predicted contact land exactly
@@ -58,8 +60,8 @@ class BodyConstraints {
                 bool first_passes);
   // Whether particles touch that did not at the end of the last accepted step, or the other way round.
   bool changed() const;
-  // After an accepted step: remembers forces and modes for the next.
-  void accept();
+  // After an accepted step of h_s: remembers forces and modes for the next.
+  void accept(double h_s);
 
   // Of the last detect: the particle is within the body.
   bool inside(Index particle) const {
@@ -101,6 +103,7 @@ class BodyConstraints {
   std::vector<Near> near_;         // ascending particles, then those that `update` found
   std::vector<Touch> touch_;       // [particle] at the end of the last accepted step
   std::vector<double> lambda_n_;   // [particle] N, likewise
+  std::vector<double> loose_s_;    // [particle] for how long it slides on, however slowly
 };
 
 }  // namespace toile

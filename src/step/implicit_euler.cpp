@@ -437,9 +437,9 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
   judge_speed(candidate, report);  // impulses out of one thing may lead far into another
 }
 
-void ImplicitEuler::accept(const ClothState& candidate) {
+void ImplicitEuler::accept(const ClothState& candidate, double h_s) {
   if (options_.integrator == Integrator::bdf2 && (body_.changed() || rows_.changed())) history_.forget();
-  body_.accept();
+  body_.accept(h_s);
   rows_.accept(candidate);
   may_be_through_ |= pierced_;
 }

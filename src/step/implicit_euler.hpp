@@ -85,8 +85,8 @@ class ImplicitEuler {
   // Tries a step of h_s from the prepared state (at time t_s) and writes the candidate.  The state is not touched.
   [[nodiscard]] StepReport attempt(const ClothState& state, double t_s, double h_s, const StepLimits& limits,
                                    ClothState& candidate);
-  // The candidate of the last attempt becomes the state: contacts and forces are remembered.
-  void accept(const ClothState& candidate);
+  // The candidate of the last attempt, over h_s, becomes the state: contacts and forces are remembered.
+  void accept(const ClothState& candidate, double h_s);
 
   const Elements& elements() const { return elements_; }
   const BodyConstraints& body_constraints() const { return body_; }

@@ -209,8 +209,8 @@ TEST(Golden, StateHashesOfThreeScenes) {
     return state_hash(run.state);
   };
   EXPECT_EQ(hanging(), "26f081639edf429d");
-  EXPECT_EQ(folding(), "ff379cdb6d08c948");
-  EXPECT_EQ(drop(1), "ccef4443a701e1ba");
+  EXPECT_EQ(folding(), "59f85fb00bdcd021");
+  EXPECT_EQ(drop(1), "e4138863f3791907");
 }
 
 }  // namespace

@@ -173,6 +173,37 @@ TEST(Incline, ASheetThatStuckSlidesWhenTheSlopeGrows) {
   EXPECT_NEAR(mean(run.state.v).x() / (-slide * 0.5), 1, 0.1);
 }
 
+TEST(Incline, WhatBrokeLooseSlidesOnForATenthOfASecondBeforeItSticksAgain) {
+  BodySurface slab = test::tilted_slab(3, 0.2, 0);
+  ClothRun run = on_incline(0, 0.3, slab);
+  const auto frame_at = [&](double degrees) {  // gravity turns instead of the slab
+    const double angle = degrees * 3.14159265358979323846 / 180;
+    run.model.gravity_m_per_s2 = gravity * Vec3(-std::sin(angle), -std::cos(angle), 0);
+    run.frame(1.0 / 60);
+  };
+  const auto sticking = [&] {
+    const auto& body = run.stepper->integrator().body_constraints();
+    std::ptrdiff_t count = 0;
+    for (std::size_t i = 0; i < run.state.x.size(); ++i)
+      count += body.touch(static_cast<Index>(i)) == Touch::sticks ? 1 : 0;
+    return static_cast<std::size_t>(count);
+  };
+  for (int f = 0; f < 60; ++f) frame_at(10);
+  EXPECT_EQ(sticking(), run.state.x.size());
+  frame_at(25);
+  EXPECT_EQ(sticking(), 0u);
+  for (int f = 0; f < 4; ++f) {
+    frame_at(10);
+    EXPECT_EQ(sticking(), 0u) << f;
+  }
+  const Vec3 slow = mean(run.state.x);  // it creeps where it will stick
+  EXPECT_LT(run.fastest(), 1e-3);
+  for (int f = 0; f < 6; ++f) frame_at(10);
+  EXPECT_EQ(sticking(), run.state.x.size());
+  EXPECT_LT((mean(run.state.x) - slow).norm(), 1e-4);
+  EXPECT_LT(run.fastest(), 1e-5);
+}
+
 // The slab moves by `speed` during every step of 1/60 s.
 void run_on_moving_slab(ClothRun& run, BodySurface& slab, const Vec3& speed, int steps) {
   for (int k = 0; k < steps; ++k) {
