@@ -16,15 +16,16 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Air::Air(const ClothModel& model, const BlockPattern& pattern)
     : triangles_(model.mesh.triangles), force_(triangles_.size(), Vec3::Zero()), B_(triangles_.size(), Mat3::Zero()) {
-  slots_.reserve(triangles_.size());
-  for (const Triangle& t : triangles_) {
-    std::array<Slot, 3> slots{};
+  std::vector<std::pair<Index, Index>> sides, corners;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [i, j] = std::minmax(t[k], t[(k + 1) % 3]);
-      slots[k] = pattern.slot(i, j);
+      const auto [i, j] = std::minmax(triangles_[t][k], triangles_[t][(k + 1) % 3]);
+      sides.emplace_back(pattern.slot(i, j), static_cast<Index>(t));
+      corners.emplace_back(triangles_[t][k], static_cast<Index>(t));
     }
-    slots_.push_back(slots);
   }
+  at_slots_.sort(sides, static_cast<std::size_t>(pattern.block_count()));
+  at_particles_.sort(corners, static_cast<std::size_t>(pattern.rows()));
 }
 
 void Air::evaluate(const AirOptions& options, const Vec3& wind_m_per_s, const ClothState& state) {
@@ -66,14 +67,17 @@ void Air::add_damping(std::span<const Vec3> u, std::span<Vec3> f) const {
 
 template <class T>
 void Air::assemble(double h_s, BlockMatrix<T>& A) const {
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    const Mat3 ninth = (h_s / 9) * B_[t];
-    for (const Slot slot : slots_[t]) {
-      Block<T>& block = A.below(slot);  // B is symmetric
-      block = Block<T>::from(block.to_mat3() + ninth);
+  const double ninth = h_s / 9;
+  parallel_for(A.blocks().size(), grain, [&](std::size_t s) {
+    for (const Index side : at_slots_.bucket(s)) {
+      Block<T>& block = A.below(static_cast<Slot>(s));  // B is symmetric
+      block = Block<T>::from(block.to_mat3() + ninth * B_[at(side / 3)]);
     }
-    for (const Index corner : triangles_[t]) A.grounded(corner) += 3 * ninth;  // the sum of a row: block_matrix.hpp
-  }
+  });
+  parallel_for(static_cast<std::size_t>(A.rows()), grain, [&](std::size_t i) {
+    for (const Index corner : at_particles_.bucket(i))  // the sum of a row: block_matrix.hpp
+      A.grounded(static_cast<Index>(i)) += 3 * (ninth * B_[at(corner / 3)]);
+  });
   A.update_diagonal();
 }
 

@@ -12,6 +12,7 @@
 #pragma once
 #include "assembly/block_matrix.hpp"
 #include "assembly/cloth_model.hpp"
+#include "core/bucket_order.hpp"
 
 #include <span>
 #include <vector>
@@ -42,9 +43,9 @@ class Air {
 
  private:
   std::vector<Triangle> triangles_;
-  std::vector<std::array<Slot, 3>> slots_;  // [triangle] of its three edges
-  std::vector<Vec3> force_;                 // [triangle]
-  std::vector<Mat3> B_;                     // [triangle]
+  BucketOrder at_slots_, at_particles_;  // sides and corners, numbered three per triangle
+  std::vector<Vec3> force_;              // [triangle]
+  std::vector<Mat3> B_;                  // [triangle]
 };
 
 extern template void Air::assemble(double, BlockMatrix<float>&) const;

@@ -10,7 +10,7 @@
 //
 // Easily got wrong: a copy of a tree shares the original's hierarchy (cheap to hold) but has boxes of its own.
 #pragma once
-#include "contact/bucket_order.hpp"
+#include "core/bucket_order.hpp"
 #include "core/types.hpp"
 
 #include <algorithm>

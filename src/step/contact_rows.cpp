@@ -1,5 +1,6 @@
 #include "step/contact_rows.hpp"
 
+#include "core/parallel.hpp"
 #include "core/stopwatch.hpp"
 
 #include <Eigen/LU>
@@ -9,6 +10,7 @@
 namespace toile {
 namespace {
 
+constexpr std::size_t pair_grain = 64;
 constexpr double load_share = 0.1;  // of r: how far the load of the last step may press the spring
 constexpr double most_growth =
     10;  // a hit in a short step is a huge load for a moment, and would leave a stiffness that no solver likes
@@ -138,8 +140,9 @@ void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, const
                         std::span<const Mat3> diagonal) {
   auto memory = memory_.begin();
   kept_.assign(memory_.size(), 0);
+  parallel_for(pairs_.size(), pair_grain,
+               [&](std::size_t p) { place(pairs_[p], state, dv, step, base_h_s, diagonal); });
   for (Pair& pair : pairs_) {
-    place(pair, state, dv, step, base_h_s, diagonal);
     LinearSpring& spring = pair.spring;
     while (memory != memory_.end() && memory->key < pair.key) ++memory;
     const bool known = memory != memory_.end() && memory->key == pair.key;

@@ -1,5 +1,4 @@
-// contact/bucket_order.hpp: sorts keys (first, second) by counting the firsts; linear where few share a first.
-// Internal.
+// core/bucket_order.hpp: sorts keys (first, second) by counting the firsts; linear where few share a first.
 #pragma once
 #include "core/types.hpp"
 
