@@ -1,5 +1,6 @@
-#include "assembly/block_kernels.hpp"
+#include "assembly/block_matrix.hpp"
 
+#include "assembly/block_kernels.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 

@@ -258,38 +258,39 @@ void CoarseSpace<T>::multiply_basis(const LinearSystem<T>& system) {
   });
 }
 
+// The columns of Z^T A' Z that belong to an aggregate, unless they are what they were.
+template <class T>
+void CoarseSpace<T>::sum_columns(std::size_t aggregate) {
+  const std::vector<Index>& members = members_[aggregate];
+  const auto is_stale = [&](Index i) { return stale_[static_cast<std::size_t>(i)] != 0; };
+  if (std::none_of(members.begin(), members.end(), is_stale)) return;
+  const auto n = static_cast<std::size_t>(dimension());
+  for (std::size_t row = 0; row < (aggregate + 1) * 9; ++row)
+    std::fill_n(&E_without_rows_[row * n + aggregate * 9], 9, 0.0);
+  for (const Index member : members) {
+    const auto i = static_cast<std::size_t>(member);
+    const double q[3] = {basis_[i][0], basis_[i][1], basis_[i][2]};
+    for (auto e = static_cast<std::size_t>(entry_begin_[i]); e < static_cast<std::size_t>(entry_begin_[i + 1]); ++e) {
+      const auto other = static_cast<std::size_t>(entry_aggregate_[e]);
+      if (other > aggregate) continue;
+      for (std::size_t m = 0; m < 9; ++m) {
+        double* row = &E_without_rows_[(other * 9 + m) * n + aggregate * 9];
+        const Lane<T>& column = AZ_[e][m];
+        const double c[3] = {static_cast<double>(column[0]), static_cast<double>(column[1]),
+                             static_cast<double>(column[2])};
+        for (std::size_t k = 0; k < 3; ++k) {
+          for (std::size_t r = 0; r < 3; ++r) row[3 * k + r] += q[k] * c[r];
+        }
+      }
+    }
+  }
+}
+
 // The upper triangle of E = Z^T (A Z) + rows.
 template <class T>
 void CoarseSpace<T>::sum_coarse_matrix(const LinearSystem<T>& system) {
   const auto n = static_cast<std::size_t>(dimension());
-  parallel_for(members_.size(), 1,
-               [&](std::size_t aggregate) {  // each to its own columns, where they are not what they were
-                 const auto a = static_cast<Index>(aggregate);
-                 const std::vector<Index>& members = members_[aggregate];
-                 if (std::none_of(members.begin(), members.end(),
-                                  [&](Index i) { return stale_[static_cast<std::size_t>(i)] != 0; }))
-                   return;
-                 for (std::size_t row = 0; row < (aggregate + 1) * 9; ++row)
-                   std::fill_n(&E_without_rows_[row * n + aggregate * 9], 9, 0.0);
-                 for (const Index member : members_[aggregate]) {
-                   const auto i = static_cast<std::size_t>(member);
-                   const double q[3] = {basis_[i][0], basis_[i][1], basis_[i][2]};
-                   for (auto e = static_cast<std::size_t>(entry_begin_[i]);
-                        e < static_cast<std::size_t>(entry_begin_[i + 1]); ++e) {
-                     const Index b = entry_aggregate_[e];
-                     if (b > a) continue;
-                     for (std::size_t m = 0; m < 9; ++m) {
-                       double* row = &E_without_rows_[(static_cast<std::size_t>(b) * 9 + m) * n + aggregate * 9];
-                       const Lane<T>& column = AZ_[e][m];
-                       const double c[3] = {static_cast<double>(column[0]), static_cast<double>(column[1]),
-                                            static_cast<double>(column[2])};
-                       for (std::size_t k = 0; k < 3; ++k) {
-                         for (std::size_t r = 0; r < 3; ++r) row[3 * k + r] += q[k] * c[r];
-                       }
-                     }
-                   }
-                 }
-               });
+  parallel_for(members_.size(), 1, [&](std::size_t aggregate) { sum_columns(aggregate); });
   E_ = E_without_rows_;
   const ParticleConstraints& constraints = system.constraints();
   for (const ImplicitRow& row : system.rows()) {

@@ -48,6 +48,7 @@ class CoarseSpace {
   void find_stale_rows(const LinearSystem<T>& system);
   void multiply_basis(const LinearSystem<T>& system);  // A' Z without the rows, where it is not what it was
   void sum_coarse_matrix(const LinearSystem<T>& system);
+  void sum_columns(std::size_t aggregate);
   void cholesky();
   void solve_coarse();
 
