@@ -11,12 +11,10 @@
 namespace toile {
 namespace {
 
-// Of the whole cloth: some 200 coarse directions serve up to 10,000 particles; more cost more in their dense factor than they save.
-double wanted_aggregates(std::size_t particles) { return std::clamp(static_cast<double>(particles) / 240, 1.0, 24.0); }
+// Of the whole cloth.  Twice as many save a few more iterations, whose time their factor takes.
+double wanted_aggregates(std::size_t particles) { return std::clamp(static_cast<double>(particles) / 100, 1.0, 512.0); }
 
-constexpr std::size_t most_pieces = 24;     // of a panel; more stay together
-constexpr std::size_t pivots = 4;           // of the dense factor, that are taken from the rows below in one go
-constexpr std::size_t rows_per_block = 64;  // of the dense factor
+constexpr std::size_t most_pieces = 24;  // of a panel; more stay together
 constexpr std::size_t particles_per_block = 256;
 
 // Splits members[begin, end) into `parts` of equal size, always across the longer pattern direction.
@@ -123,11 +121,7 @@ CoarseSpace<T>::CoarseSpace(const ClothMesh& mesh) {
   for (std::size_t p = 0; p < particles; ++p)
     members_[static_cast<std::size_t>(aggregate_[p])].push_back(static_cast<Index>(p));
   const auto n = static_cast<std::size_t>(dimension());
-  E_.resize(n * n);
-  E_without_rows_.resize(n * n);
-  transpose_.resize(n * n);
   rhs_.resize(n);
-  dead_.resize(n);
   y_.resize(n);
   affine_.resize(n / 3);
 }
@@ -171,6 +165,30 @@ void CoarseSpace<T>::find_entries(const BlockPattern& pattern) {
   }
   AZ_.resize(entry_aggregate_.size());
   version_ = 0;
+  find_blocks();
+}
+
+// The blocks of E that A couples, those of an aggregate's columns together, and to which of them an entry belongs.
+template <class T>
+void CoarseSpace<T>::find_blocks() {
+  couples_of_A_.clear();
+  couple_begin_.assign(1, 0);
+  entry_couple_.assign(entry_aggregate_.size(), -1);
+  for (Index aggregate = 0; aggregate < aggregate_count_; ++aggregate) {
+    const auto first = static_cast<std::ptrdiff_t>(couples_of_A_.size());
+    for (const Index member : members_[static_cast<std::size_t>(aggregate)]) {
+      const auto i = static_cast<std::size_t>(member);
+      for (auto e = static_cast<std::size_t>(entry_begin_[i]); e < static_cast<std::size_t>(entry_begin_[i + 1]); ++e) {
+        if (entry_aggregate_[e] > aggregate) continue;
+        const std::pair<Index, Index> couple{entry_aggregate_[e], aggregate};
+        const auto found = std::find(couples_of_A_.begin() + first, couples_of_A_.end(), couple);
+        entry_couple_[e] = static_cast<std::int32_t>(found - couples_of_A_.begin());
+        if (found == couples_of_A_.end()) couples_of_A_.push_back(couple);
+      }
+    }
+    couple_begin_.push_back(static_cast<std::int32_t>(couples_of_A_.size()));
+  }
+  E_of_A_.resize(couples_of_A_.size());
 }
 
 namespace {
@@ -264,66 +282,86 @@ void CoarseSpace<T>::sum_columns(std::size_t aggregate) {
   const std::vector<Index>& members = members_[aggregate];
   const auto is_stale = [&](Index i) { return stale_[static_cast<std::size_t>(i)] != 0; };
   if (std::none_of(members.begin(), members.end(), is_stale)) return;
-  const auto n = static_cast<std::size_t>(dimension());
-  for (std::size_t row = 0; row < (aggregate + 1) * 9; ++row)
-    std::fill_n(&E_without_rows_[row * n + aggregate * 9], 9, 0.0);
+  std::fill(E_of_A_.begin() + couple_begin_[aggregate], E_of_A_.begin() + couple_begin_[aggregate + 1],
+            std::array<double, 81>{});
   for (const Index member : members) {
     const auto i = static_cast<std::size_t>(member);
     const double q[3] = {basis_[i][0], basis_[i][1], basis_[i][2]};
     for (auto e = static_cast<std::size_t>(entry_begin_[i]); e < static_cast<std::size_t>(entry_begin_[i + 1]); ++e) {
-      const auto other = static_cast<std::size_t>(entry_aggregate_[e]);
-      if (other > aggregate) continue;
+      if (entry_couple_[e] < 0) continue;
+      std::array<double, 81>& block = E_of_A_[static_cast<std::size_t>(entry_couple_[e])];
       for (std::size_t m = 0; m < 9; ++m) {
-        double* row = &E_without_rows_[(other * 9 + m) * n + aggregate * 9];
         const Lane<T>& column = AZ_[e][m];
         const double c[3] = {static_cast<double>(column[0]), static_cast<double>(column[1]),
                              static_cast<double>(column[2])};
         for (std::size_t k = 0; k < 3; ++k) {
-          for (std::size_t r = 0; r < 3; ++r) row[3 * k + r] += q[k] * c[r];
+          for (std::size_t r = 0; r < 3; ++r) block[9 * m + 3 * k + r] += q[k] * c[r];
         }
       }
     }
   }
 }
 
-// The upper triangle of E = Z^T (A Z) + rows.
+// The aggregates that a row couples, at most four.
 template <class T>
-void CoarseSpace<T>::sum_coarse_matrix(const LinearSystem<T>& system) {
-  const auto n = static_cast<std::size_t>(dimension());
-  parallel_for(members_.size(), 1, [&](std::size_t aggregate) { sum_columns(aggregate); });
-  E_ = E_without_rows_;
-  const ParticleConstraints& constraints = system.constraints();
-  for (const ImplicitRow& row : system.rows()) {
-    // Z^T g, nine numbers for each of at most four aggregates.
-    std::array<Index, 4> aggregates{};
-    std::array<std::array<double, 9>, 4> Zg{};
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (row.particle[k] < 0) continue;
-      const auto i = static_cast<std::size_t>(row.particle[k]);
-      std::size_t at = 0;
-      while (at < count && aggregates[at] != aggregate_[i]) ++at;
-      if (at == count) aggregates[count++] = aggregate_[i];
-      const Vec3 g =
-          row.weight[k] *
-          (constraints.is_free(row.particle[k]) ? row.direction : Vec3(constraints.S(row.particle[k]) * row.direction));
-      for (std::size_t l = 0; l < 3; ++l) {
-        for (std::size_t c = 0; c < 3; ++c)
-          Zg[at][3 * l + c] += basis_[i][static_cast<Eigen::Index>(l)] * g[static_cast<Eigen::Index>(c)];
-      }
+std::size_t CoarseSpace<T>::aggregates_of(const ImplicitRow& row, std::array<Index, 4>& aggregates) const {
+  std::size_t count = 0;
+  for (const Index particle : row.particle) {
+    if (particle < 0) continue;
+    const Index aggregate = aggregate_[static_cast<std::size_t>(particle)];
+    const auto end = aggregates.begin() + static_cast<std::ptrdiff_t>(count);
+    if (std::find(aggregates.begin(), end, aggregate) == end) aggregates[count++] = aggregate;
+  }
+  std::sort(aggregates.begin(), aggregates.begin() + static_cast<std::ptrdiff_t>(count));
+  return count;
+}
+
+// E += Z^T a g g^T Z
+template <class T>
+void CoarseSpace<T>::add_row(const ImplicitRow& row, const ParticleConstraints& constraints) {
+  std::array<Index, 4> aggregates{};
+  const std::size_t count = aggregates_of(row, aggregates);
+  std::array<std::array<double, 9>, 4> Zg{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (row.particle[k] < 0) continue;
+    const auto i = static_cast<std::size_t>(row.particle[k]);
+    const auto at =
+        static_cast<std::size_t>(std::find(aggregates.begin(), aggregates.end(), aggregate_[i]) - aggregates.begin());
+    const Vec3 g =
+        row.weight[k] *
+        (constraints.is_free(row.particle[k]) ? row.direction : Vec3(constraints.S(row.particle[k]) * row.direction));
+    for (std::size_t l = 0; l < 3; ++l) {
+      for (std::size_t c = 0; c < 3; ++c)
+        Zg[at][3 * l + c] += basis_[i][static_cast<Eigen::Index>(l)] * g[static_cast<Eigen::Index>(c)];
     }
-    for (std::size_t p = 0; p < count; ++p) {
-      for (std::size_t q = 0; q < count; ++q) {
-        if (aggregates[p] > aggregates[q]) continue;
-        for (std::size_t m = 0; m < 9; ++m) {
-          double* to =
-              &E_[(static_cast<std::size_t>(aggregates[p]) * 9 + m) * n + static_cast<std::size_t>(aggregates[q]) * 9];
-          const double factor = row.a * Zg[p][m];
-          for (std::size_t k = 0; k < 9; ++k) to[k] += factor * Zg[q][k];
-        }
+  }
+  for (std::size_t p = 0; p < count; ++p) {
+    for (std::size_t q = p; q < count; ++q) {
+      double* block = E_.block(aggregates[p], aggregates[q]);
+      for (std::size_t m = 0; m < 9; ++m) {
+        const double factor = row.a * Zg[p][m];
+        for (std::size_t k = 0; k < 9; ++k) block[9 * m + k] += factor * Zg[q][k];
       }
     }
   }
+}
+
+// E = Z^T (A Z) + rows.
+template <class T>
+void CoarseSpace<T>::sum_coarse_matrix(const LinearSystem<T>& system) {
+  parallel_for(members_.size(), 1, [&](std::size_t aggregate) { sum_columns(aggregate); });
+  couples_ = couples_of_A_;
+  for (const ImplicitRow& row : system.rows()) {
+    std::array<Index, 4> aggregates{};
+    const std::size_t count = aggregates_of(row, aggregates);
+    for (std::size_t p = 0; p < count; ++p) {
+      for (std::size_t q = p + 1; q < count; ++q) couples_.emplace_back(aggregates[p], aggregates[q]);
+    }
+  }
+  E_.begin(aggregate_count_, couples_);
+  for (std::size_t c = 0; c < couples_of_A_.size(); ++c)
+    std::copy(E_of_A_[c].begin(), E_of_A_[c].end(), E_.block(couples_of_A_[c].first, couples_of_A_[c].second));
+  for (const ImplicitRow& row : system.rows()) add_row(row, system.constraints());
 }
 
 template <class T>
@@ -333,54 +371,7 @@ void CoarseSpace<T>::factorise(const LinearSystem<T>& system) {
   find_stale_rows(system);
   multiply_basis(system);
   sum_coarse_matrix(system);
-  cholesky();
-}
-
-// E = U^T U in place, row by row; a pivot that is nothing beside its aggregate (all of it held) is struck out.
-template <class T>
-void CoarseSpace<T>::cholesky() {
-  const auto n = static_cast<std::size_t>(dimension());
-  double largest = 0;
-  for (std::size_t k = 0; k < n; ++k) largest = std::max(largest, E_[k * n + k]);
-  // Four rows are finished at a time, and then taken from all rows below: these are read and written a quarter as often.  What is
-  // subtracted from an element, and in which order, does not depend on that.
-  for (std::size_t first = 0; first < n; first += pivots) {
-    const std::size_t end = std::min(first + pivots, n);
-    for (std::size_t k = first; k < end; ++k) {
-      double* row_k = &E_[k * n];
-      const double pivot = row_k[k];
-      dead_[k] = !(pivot > 1e-9 * largest);
-      if (dead_[k]) {
-        std::fill(row_k + k, row_k + n, 0.0);
-        continue;
-      }
-      const double inverse = 1 / std::sqrt(pivot);
-      for (std::size_t j = k; j < n; ++j) row_k[j] *= inverse;
-      for (std::size_t i = k + 1; i < end; ++i) {
-        double* row_i = &E_[i * n];
-        for (std::size_t j = i; j < n; ++j) row_i[j] -= row_k[i] * row_k[j];
-      }
-    }
-    if (end - first < pivots) break;  // nothing is below
-    const double *r0 = &E_[first * n], *r1 = r0 + n, *r2 = r1 + n, *r3 = r2 + n;
-    parallel_for(n - end, rows_per_block, [&](std::size_t below) {
-      const std::size_t i = end + below;
-      const double f0 = r0[i], f1 = r1[i], f2 = r2[i], f3 = r3[i];
-      if (f0 == 0 && f1 == 0 && f2 == 0 && f3 == 0) return;
-      double* row_i = &E_[i * n];
-      for (std::size_t j = i; j < n; ++j) row_i[j] = (((row_i[j] - f0 * r0[j]) - f1 * r1[j]) - f2 * r2[j]) - f3 * r3[j];
-    });
-  }
-  // Both triangular solves walk along rows: sums in a fixed order that still fill vector registers.
-  for (std::size_t k = 0; k < n; ++k) {
-    for (std::size_t j = k; j < n; ++j) transpose_[j * n + k] = E_[k * n + j];
-  }
-}
-
-// rhs <- E^-1 rhs
-template <class T>
-void CoarseSpace<T>::solve_coarse() {
-  substitute_coarse({static_cast<std::size_t>(dimension()), E_.data(), transpose_.data(), dead_.data()}, rhs_.data());
+  E_.factorise();
 }
 
 template <class T>
@@ -410,7 +401,7 @@ void CoarseSpace<T>::solve(std::span<const std::vector<double>> parts) {
   for (const std::vector<double>& part : parts) {
     for (std::size_t k = 0; k < rhs_.size(); ++k) rhs_[k] += part[k];
   }
-  solve_coarse();
+  E_.solve(rhs_);
   for (std::size_t k = 0; k < rhs_.size(); ++k) {
     const T y = static_cast<T>(rhs_[k]);
     y_[k] = Lane<T>{y, y, y, 0};
@@ -451,7 +442,7 @@ void CoarseSpace<T>::correct(const LinearSystem<T>& system, std::span<const Vec3
     Eigen::Map<Mat3> y(&rhs_[static_cast<std::size_t>(aggregate_[p]) * 9]);
     y += r[p] * basis_[p].transpose();
   }
-  solve_coarse();
+  E_.solve(rhs_);
   for (std::size_t p = 0; p < r.size(); ++p) {
     const Eigen::Map<const Mat3> y(&rhs_[static_cast<std::size_t>(aggregate_[p]) * 9]);
     dv[p] += system.constraints().S(static_cast<Index>(p)) * (y * basis_[p]);

@@ -1,4 +1,4 @@
-// solver/coarse_space.hpp: a small dense system that moves whole patches of cloth at once.
+// solver/coarse_space.hpp: a small system that moves whole patches of cloth at once.
 //
 // The cloth is cut into aggregates of neighbouring particles.  On each, the correction may be any affine function of the
 // pattern coordinates, 9 numbers:   z_i = S_i (a + u' b + v' c),   u', v' relative to the aggregate and scaled to [-1, 1].
@@ -13,6 +13,7 @@
 // look viscous (docs/theory/solver.md#coarse-space has the measurement).        [Nicolaides 1987; Tang et al. 2009]
 #pragma once
 #include "mesh/cloth_mesh.hpp"
+#include "solver/block_cholesky.hpp"
 #include "solver/linear_system.hpp"
 
 #include <vector>
@@ -45,12 +46,13 @@ class CoarseSpace {
 
  private:
   void find_entries(const BlockPattern& pattern);
+  void find_blocks();
   void find_stale_rows(const LinearSystem<T>& system);
   void multiply_basis(const LinearSystem<T>& system);  // A' Z without the rows, where it is not what it was
   void sum_coarse_matrix(const LinearSystem<T>& system);
   void sum_columns(std::size_t aggregate);
-  void cholesky();
-  void solve_coarse();
+  std::size_t aggregates_of(const ImplicitRow& row, std::array<Index, 4>& aggregates) const;
+  void add_row(const ImplicitRow& row, const ParticleConstraints& constraints);
 
   // A' Z is sparse: particle i has an entry, nine columns, for its own aggregate and for each of its neighbours'.
   using Columns = std::array<Lane<T>, 9>;  // [3 l + c]: basis function l, direction c
@@ -65,16 +67,19 @@ class CoarseSpace {
   std::vector<std::array<std::int32_t, 2>> slot_entry_;  // [slot (i, j)] entry of i for j's aggregate, of j for i's
   std::vector<Columns> AZ_;                              // [entry]
   // What A' Z was made of: between passes of the active set few particles change, and no block.
-  std::uint64_t version_ = 0;           // of A
-  std::vector<Mat3> S_;                 // [particle]
-  std::vector<std::uint8_t> stale_;     // [particle] its row of A' Z
-  std::vector<double> E_without_rows_;  // Z^T A' Z, row-major; upper triangle
-  std::vector<double> E_;               // the same with the rows, then its factor U with E = U^T U
-  std::vector<double> transpose_;       // U^T
+  std::uint64_t version_ = 0;        // of A
+  std::vector<Mat3> S_;              // [particle]
+  std::vector<std::uint8_t> stale_;  // [particle] its row of A' Z
+  // The upper triangle of Z^T A' Z without the rows.
+  std::vector<std::pair<Index, Index>> couples_of_A_;  // [couple] (p, q), p <= q, ascending in q
+  std::vector<std::int32_t> couple_begin_;             // [q]
+  std::vector<std::int32_t> entry_couple_;             // [entry]; -1 below the diagonal
+  std::vector<std::array<double, 81>> E_of_A_;         // [couple] rows of p, columns of q
+  std::vector<std::pair<Index, Index>> couples_;       // with those of the rows
+  BlockCholesky E_;
   std::vector<double> rhs_;
-  std::vector<std::uint8_t> dead_;  // directions in which nothing may move
-  std::vector<Lane<T>> y_;          // [coarse direction] E^-1 Z^T (r - At), each in all lanes
-  std::vector<Lane<T>> affine_;     // [3 aggregate + l]: the same, three directions of basis function l in one
+  std::vector<Lane<T>> y_;       // [coarse direction] E^-1 Z^T (r - At), each in all lanes
+  std::vector<Lane<T>> affine_;  // [3 aggregate + l]: the same, three directions of basis function l in one
 };
 
 extern template class CoarseSpace<float>;

@@ -154,36 +154,6 @@ void add_columns(const CoarseColumns& coarse, Index begin, Index end, Lane<float
   }
 }
 
-// to -= factor * row
-HWY_INLINE void subtract(const double* row, double factor, std::size_t size, double* to) {
-  namespace hn = hwy::HWY_NAMESPACE;
-  const hn::CappedTag<double, 8> wide;
-  const auto all = hn::Set(wide, factor);
-  std::size_t k = 0;
-  for (; k + hn::Lanes(wide) <= size; k += hn::Lanes(wide))
-    hn::StoreU(hn::Sub(hn::LoadU(wide, to + k), hn::Mul(hn::LoadU(wide, row + k), all)), wide, to + k);
-  for (; k < size; ++k) to[k] -= row[k] * factor;
-}
-
-void substitute(const CoarseFactor& factor, double* x) {
-  const std::size_t n = factor.size;
-  for (std::size_t k = 0; k < n; ++k) {  // U^T y = x
-    if (factor.dead[k]) {
-      x[k] = 0;
-      continue;
-    }
-    const double* row = factor.U + k * n;
-    x[k] /= row[k];
-    subtract(row + k + 1, x[k], n - k - 1, x + k + 1);
-  }
-  for (std::size_t k = n; k-- > 0;) {  // U x = y, by columns of U: rows of its transpose
-    if (factor.dead[k]) continue;
-    const double* column = factor.U_transpose + k * n;
-    x[k] /= column[k];
-    subtract(column, x[k], k, x);
-  }
-}
-
 }  // namespace
 }  // namespace toile::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -193,7 +163,6 @@ namespace toile {
 namespace {
 HWY_EXPORT(sweep);
 HWY_EXPORT(add_columns);
-HWY_EXPORT(substitute);
 }  // namespace
 
 void sweep_strips(const StripPair& strips, const Block<float>* G, const Lane<float>* r, Lane<float>* s,
@@ -204,8 +173,6 @@ void sweep_strips(const StripPair& strips, const Block<float>* G, const Lane<flo
 void add_coarse_columns(const CoarseColumns& coarse, Index begin, Index end, Lane<float>* sum) {
   HWY_DYNAMIC_DISPATCH(add_columns)(coarse, begin, end, sum);
 }
-
-void substitute_coarse(const CoarseFactor& factor, double* x) { HWY_DYNAMIC_DISPATCH(substitute)(factor, x); }
 
 }  // namespace toile
 #endif

@@ -41,13 +41,4 @@ struct CoarseColumns {
 // sum += A' Z y of particles [begin, end).  `sum` begins with particle 0.
 void add_coarse_columns(const CoarseColumns& coarse, Index begin, Index end, Lane<float>* sum);
 
-// E = U^T U of the coarse directions, square matrices by rows.
-struct CoarseFactor {
-  std::size_t size;
-  const double *U, *U_transpose;
-  const std::uint8_t* dead;  // [direction]: nothing may move in it
-};
-// x <- E^-1 x, zero where a direction is dead
-void substitute_coarse(const CoarseFactor& factor, double* x);
-
 }  // namespace toile

@@ -208,9 +208,9 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "26f081639edf429d");
-  EXPECT_EQ(folding(), "59f85fb00bdcd021");
-  EXPECT_EQ(drop(1), "e4138863f3791907");
+  EXPECT_EQ(hanging(), "9f3e7112578c37e3");
+  EXPECT_EQ(folding(), "886d84bcf58fe28b");
+  EXPECT_EQ(drop(1), "ebbc1380ddfc1d0c");
 }
 
 }  // namespace
