@@ -216,12 +216,15 @@ void Elements::stretch(std::span<const Vec3> x, std::span<Vec2> w) const {
               w.begin() + static_cast<std::ptrdiff_t>(whole * batch_size));
 }
 
-double Elements::energy_beyond_linear(std::span<const Vec3> x) {
+Elements::BeyondLinear Elements::energy_beyond_linear(std::span<const Vec3> x) {
   for_batches(rest_.size(), [&](std::size_t begin, std::size_t end) {
     membrane_energy_beyond(batches(begin, end), x.data(), beyond_linear_.data());
   });
-  double sum = 0;
-  for (std::size_t t = 0; t < triangles_.size(); ++t) sum += std::max(0.0, beyond_linear_[t]);
+  BeyondLinear sum;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    sum.made += std::max(0.0, beyond_linear_[t]);
+    sum.net += beyond_linear_[t];
+  }
   return sum;
 }
 

@@ -37,7 +37,10 @@ class Elements {
   // What a linear step does not know of the energy of stretch and shear at its end F': E(F') - (E + P.d + d.K d / 2), d = F' - F, with
   // the linearisation of the last evaluate(); the sum over the triangles that have more than they were thought to, J.  A piece that turns
   // by the angle a along tangents has |w'| = sqrt(1 + a^2): k s^2 (|w'| - 1)^2 / 2 per thread, made out of nothing.
-  double energy_beyond_linear(std::span<const Vec3> x);
+  struct BeyondLinear {
+    double made = 0, net = 0;  // summed over triangles where it is positive; over all
+  };
+  BeyondLinear energy_beyond_linear(std::span<const Vec3> x);
 
   // Per-element access for diagnosis and tests.
   MembraneResponse membrane(Index triangle) const;

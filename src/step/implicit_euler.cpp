@@ -14,6 +14,7 @@ constexpr int contact_passes = 2;
 // What a solve may make in threads without knowing of it, of the kinetic energy; that of a step's free fall counts as well, or cloth that
 // hardly moves would never be still enough.
 constexpr double most_made = 0.1;
+constexpr double shortest_part = 1.0 / 16;  // of the way that a solve about an end leads
 
 }  // namespace
 
@@ -33,7 +34,7 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       rows_(model, world.body, world.merged_particle, options.body.offset_m, options.body.friction, options.rows) {
   const auto n = static_cast<std::size_t>(model.particle_count());
   for (Vec3s* vector : {&force_, &b_, &y_, &y_known_, &y_linearised_, &linearised_, &displacement_, &force_linearised_,
-                        &x_linearised_, &moved_, &reference_, &dv_, &dv_last_, &e_})
+                        &x_linearised_, &moved_, &reference_, &dv_, &dv_last_, &dv_linearised_, &way_, &e_})
     vector->assign(n, Vec3::Zero());
   diagonal_.assign(n, Mat3::Zero());
   stretch_.resize(model.mesh.triangles.size());
@@ -197,6 +198,22 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   return report;
 }
 
+// Newton's method may lead farther than its linearisation bears: then half the way is gone, and half of that, until the energy that the
+// linearisation did not know of is no more than what it gained.  Over the part a of the way d, dv.A dv / 2 - dv.b falls by
+// (a - a^2 / 2) d.A d.                                                        [Nocedal & Wright 2006, 3.1: backtracking]
+void ImplicitEuler::shorten(const ClothState& state, const StepFormula& step, ClothState& candidate) {
+  const Timed timed(seconds_.eval);
+  for (std::size_t i = 0; i < dv_.size(); ++i) way_[i] = dv_[i] - dv_linearised_[i];
+  system_.multiply_unfiltered(way_, displacement_);
+  double gain = 0;
+  for (std::size_t i = 0; i < dv_.size(); ++i) gain += way_[i].dot(displacement_[i]);
+  for (double part = 1; part >= shortest_part; part /= 2) {
+    for (std::size_t i = 0; i < dv_.size(); ++i) dv_[i] = dv_linearised_[i] + part * way_[i];
+    find_end(state, step, candidate);
+    if (elements_.energy_beyond_linear(candidate.x).net <= (part - 0.5 * part * part) * gain) return;
+  }
+}
+
 // Where the step ends by the last solve.
 void ImplicitEuler::find_end(const ClothState& state, const StepFormula& step, ClothState& candidate) {
   for (std::size_t i = 0; i < dv_.size(); ++i) {
@@ -212,7 +229,7 @@ bool ImplicitEuler::makes_energy(const ClothState& candidate, double h_s) {
   double kinetic_J = 0;
   for (std::size_t i = 0; i < candidate.v.size(); ++i)
     kinetic_J += 0.5 * model_->mass_kg[i] * (candidate.v[i].squaredNorm() + fall2);
-  return elements_.energy_beyond_linear(candidate.x) > most_made * kinetic_J;
+  return elements_.energy_beyond_linear(candidate.x).made > most_made * kinetic_J;
 }
 
 // About the end x^k that the last solve found, with the unknown dv still counted from v:
@@ -222,6 +239,7 @@ void ImplicitEuler::relinearise(const ClothState& state, double t_s, const StepF
   evaluated_at_state_ = false;
   linearised_is_old_ = true;
   x_linearised_ = candidate.x;
+  dv_linearised_ = dv_;
   elements_.evaluate(*model_, {candidate.x, state.v});
   elements_.forces(force_linearised_);
   for (std::size_t i = 0; i < force_linearised_.size(); ++i)
@@ -304,11 +322,13 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
     }
     const ContactRows::Change change = rows_.update(state, dv_, y_known_, step, report.passes <= 4);
     report.rows = change.active;
+    if (report.relinearised > 0) shorten(state, step, candidate);
     if (pass >= contact_passes && report.relinearised < options_.relinearisations) {
       const Timed timed(seconds_.eval);
       find_end(state, step, candidate);
       const StretchChange largest = largest_stretch_change(candidate);
-      if (largest.change > limits.stretch || largest.beyond >= 0 || makes_energy(candidate, step.h_s)) {
+      if (largest.change > limits.stretch || largest.beyond >= 0 ||
+          (report.relinearised == 0 && makes_energy(candidate, step.h_s))) {
         relinearise(state, t_s, step, candidate);
         ++report.relinearised;
         continue;

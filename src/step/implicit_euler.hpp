@@ -110,6 +110,7 @@ class ImplicitEuler {
   bool solve_with_contacts(const ClothState& state, double t_s, const StepFormula& step, int iteration,
                            const StepLimits& limits, ClothState& candidate, StepReport& report);
   bool makes_energy(const ClothState& candidate, double h_s);
+  void shorten(const ClothState& state, const StepFormula& step, ClothState& candidate);
   void find_end(const ClothState& state, const StepFormula& step, ClothState& candidate);
   struct StretchChange {
     double change = 0;
@@ -147,7 +148,7 @@ class ImplicitEuler {
   std::vector<LinearSpring> springs_;
   std::vector<ImplicitRow> implicit_rows_;
   Vec3s force_, b_, y_, y_known_, y_linearised_, linearised_, displacement_, force_linearised_, x_linearised_, moved_,
-      reference_, dv_, dv_last_, e_;
+      reference_, dv_, dv_last_, dv_linearised_, way_, e_;
   std::vector<Mat3> diagonal_;
   std::vector<Vec2> stretch_, stretch_candidate_;
   Vec3s body_start_, body_end_;               // world_->body_at at the two ends of the step
