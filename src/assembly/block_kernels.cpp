@@ -87,12 +87,13 @@ void sum_diagonals(const BlockRows& A, Index begin, Index end, Mat3* of_rows) {
   }
 }
 
-void gather(const BlockParts& parts, Slot begin, Slot end, const MembraneBlocks* membranes, const BendResponse* bends,
+void gather(const BlockParts& parts, Slot begin, Slot end, const Mat3* membranes, const BendResponse* bends,
             const double* weight, Block<float>* below) {
   for (Slot s = begin; s < end; ++s) {
     Four c0{0, 0, 0, 0}, c1 = c0, c2 = c0;  // of the block above the diagonal
     for (auto k = parts.triangle_begin[s]; k < parts.triangle_begin[s + 1]; ++k) {
-      const double* block = membranes[parts.triangles[k].triangle][parts.triangles[k].pair].data();
+      const auto [triangle, pair] = parts.triangles[k];
+      const double* block = membranes[3 * static_cast<std::size_t>(triangle) + pair].data();
       c0 += four(block);
       c1 += four(block + 3);
       c2 += four(block + 6);
@@ -133,8 +134,8 @@ void sum_block_diagonals(const BlockRows& A, Index begin, Index end, Mat3* of_ro
   HWY_DYNAMIC_DISPATCH(sum_diagonals)(A, begin, end, of_rows);
 }
 
-void gather_blocks(const BlockParts& parts, Slot begin, Slot end, const MembraneBlocks* membranes,
-                   const BendResponse* bends, const double* weight, Block<float>* below) {
+void gather_blocks(const BlockParts& parts, Slot begin, Slot end, const Mat3* membranes, const BendResponse* bends,
+                   const double* weight, Block<float>* below) {
   HWY_DYNAMIC_DISPATCH(gather)(parts, begin, end, membranes, bends, weight, below);
 }
 

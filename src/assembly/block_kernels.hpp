@@ -29,8 +29,8 @@ struct BlockParts {
 };
 
 // The transposes of h D + h^2 K of slots [begin, end).  `weight` is (h^2 + h tau) kappa, per hinge.
-// One number after the last of `membranes` is read and not used.
-void gather_blocks(const BlockParts& parts, Slot begin, Slot end, const MembraneBlocks* membranes,
-                   const BendResponse* bends, const double* weight, Block<float>* below);
+// `membranes` are three per triangle; one number after the last is read and not used.
+void gather_blocks(const BlockParts& parts, Slot begin, Slot end, const Mat3* membranes, const BendResponse* bends,
+                   const double* weight, Block<float>* below);
 
 }  // namespace toile

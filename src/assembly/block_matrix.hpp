@@ -89,6 +89,7 @@ class BlockMatrix {
   }
   // A_ii, valid after update_diagonal().
   const Mat3& diagonal(Index row) const { return diagonal_[static_cast<std::size_t>(row)]; }
+  std::span<const Mat3> diagonals() const { return diagonal_; }
   // Call when blocks have changed.
   void update_diagonal();
   // Another number after every update_diagonal() of any matrix: for those who keep a copy of the blocks.

@@ -89,16 +89,16 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
   model.thickness_m.assign(particles, 0);
   model.friction.assign(particles, 0);
   model.membrane.resize(triangles);
-  model.stiffness.resize(triangles);
+  for (const Fabric& fabric : fabrics)
+    model.stiffness.push_back({fabric.stretch_u_N_per_m, fabric.stretch_v_N_per_m, fabric.shear_N_per_m,
+                               fabric.stretch_damping_s, fabric.shear_damping_s, fabric.compression_ratio,
+                               fabric.strain_limit});
   for (std::size_t t = 0; t < triangles; ++t) {
     const Fabric& fabric = fabrics[fabrics.size() == 1 ? 0 : static_cast<std::size_t>(model.mesh.panel[t])];
     const MaterialFrame frame = material_frame(model.mesh.uv[t]);
     model.membrane[t].alpha = frame.alpha;
     model.membrane[t].beta = frame.beta;
     model.membrane[t].scale2 = options.paper_scaling ? frame.area_m2 * frame.area_m2 : frame.area_m2;
-    model.stiffness[t] = {fabric.stretch_u_N_per_m, fabric.stretch_v_N_per_m, fabric.shear_N_per_m,
-                          fabric.stretch_damping_s, fabric.shear_damping_s,   fabric.compression_ratio,
-                          fabric.strain_limit};
     for (const Index corner : model.mesh.triangles[t]) {
       const auto p = static_cast<std::size_t>(corner);
       model.mass_kg[p] += fabric.density_kg_per_m2 * frame.area_m2 / 3;

@@ -30,7 +30,7 @@ struct ClothModel {
   ClothMesh mesh;
   Topology topology;
   std::vector<MembraneRest> membrane;              // [triangle]
-  std::vector<MembraneStiffness> stiffness;        // [triangle]
+  std::vector<MembraneStiffness> stiffness;        // [panel], or one for all
   std::vector<BendRest> bend;                      // [hinge]
   std::vector<double> mass_kg;                     // [particle]
   std::vector<double> thickness_m;                 // [particle] contact distance of two layers
@@ -43,6 +43,9 @@ struct ClothModel {
   int rest_version = 0;  // counts changes of b, so that what depends on rest lengths knows
 
   Index particle_count() const { return mesh.particle_count; }
+  const MembraneStiffness& stiffness_of(std::size_t triangle) const {
+    return stiffness[stiffness.size() == 1 ? 0 : static_cast<std::size_t>(mesh.panel[triangle])];
+  }
   // Of layers whose fabrics are those of particles i and j, where the pair has one of its own; else `usual`.
   double friction_between(Index i, Index j, double usual) const;
 };

@@ -32,25 +32,21 @@ void for_batches(std::size_t count, const Work& work) {
 Elements::Elements(const ClothModel& model)
     : triangles_(model.mesh.triangles),
       hinges_(model.topology.hinges),
+      bend_rest_(model.bend),
       rest_(batches_for(triangles_.size())),
       state_(rest_.size()),
       bend_(hinges_.size()),
-      blocks_(rest_.size() * batch_size + 1),
-      bend_weight_(hinges_.size()),
-      triangle_force_(rest_.size() * batch_size),
-      hinge_force_(hinges_.size()),
-      beyond_linear_(triangle_force_.size()) {
+      of_triangles_(3 * rest_.size() * batch_size + 1),
+      of_hinges_(hinges_.size()),
+      beyond_linear_(rest_.size() * batch_size) {
   std::vector<std::pair<Index, Index>> links;
+  links.reserve(3 * triangles_.size() + hinges_.size());
   for (const Triangle& t : triangles_) {
     for (std::size_t k = 0; k < 3; ++k) links.emplace_back(t[k], t[(k + 1) % 3]);
   }
   for (const Hinge& hinge : hinges_) links.emplace_back(hinge.particle[2], hinge.particle[3]);
   pattern_ = std::make_shared<const BlockPattern>(model.particle_count(), std::move(links));
   pack_rest(model);
-  for (const BendRest& rest : model.bend) {
-    kappa_.push_back(rest.kappa_N_m);
-    tau_.push_back(rest.tau_s);
-  }
   add_incidence(model);
 }
 
@@ -59,7 +55,7 @@ void Elements::pack_rest(const ClothModel& model) {
   form_.damping_jacobian = model.damping_jacobian;
   for (std::size_t k = 0; k < rest_.size() * batch_size && !triangles_.empty(); ++k) {
     const std::size_t t = std::min(k, triangles_.size() - 1);
-    rest_[k / batch_size].set(k % batch_size, model.membrane[t], model.stiffness[t], triangles_[t]);
+    rest_[k / batch_size].set(k % batch_size, model.membrane[t], model.stiffness_of(t), triangles_[t]);
   }
 }
 
@@ -98,6 +94,10 @@ void Elements::add_incidence(const ClothModel& model) {
   hinge_begin_ = offsets(in_hinges, slots);
   particle_triangle_begin_ = offsets(at_triangles, particles);
   particle_hinge_begin_ = offsets(at_hinges, particles);
+  triangle_parts_.reserve(in_triangles.size());
+  hinge_parts_.reserve(in_hinges.size());
+  particle_triangles_.reserve(at_triangles.size());
+  particle_hinges_.reserve(at_hinges.size());
   for (const auto& part : in_triangles) triangle_parts_.push_back(part.second);
   for (const auto& part : in_hinges) hinge_parts_.push_back(part.second);
   for (const auto& part : at_triangles) particle_triangles_.push_back(part.second);
@@ -137,38 +137,34 @@ void Elements::gather(std::span<Vec3> f, double sign) const {
     Vec3 sum = Vec3::Zero();
     for (auto k = particle_triangle_begin_[i]; k < particle_triangle_begin_[i + 1]; ++k) {
       const auto [t, corner] = particle_triangles_[static_cast<std::size_t>(k)];
-      sum += triangle_force_[static_cast<std::size_t>(t)][corner];
+      sum += of_triangles_[static_cast<std::size_t>(t)].col(corner);
     }
     for (auto k = particle_hinge_begin_[i]; k < particle_hinge_begin_[i + 1]; ++k) {
       const auto [h, corner] = particle_hinges_[static_cast<std::size_t>(k)];
-      sum += hinge_force_[static_cast<std::size_t>(h)][corner];
+      sum += of_hinges_[static_cast<std::size_t>(h)] * bend_[static_cast<std::size_t>(h)].g[corner];
     }
     f[i] += sign * sum;
   });
 }
 
 void Elements::forces(std::span<Vec3> f) const {
-  for_batches(rest_.size(), [&](std::size_t begin, std::size_t end) {
-    membrane_forces(batches(begin, end), triangle_force_.data());
-  });
-  parallel_for(hinges_.size(), grain, [&](std::size_t h) {
-    const double moment = bend_[h].moment + bend_[h].damping;
-    for (std::size_t c = 0; c < 4; ++c) hinge_force_[h][c] = moment * bend_[h].g[c];
-  });
+  for_batches(rest_.size(),
+              [&](std::size_t begin, std::size_t end) { membrane_forces(batches(begin, end), of_triangles_.data()); });
+  parallel_for(hinges_.size(), grain, [&](std::size_t h) { of_hinges_[h] = bend_[h].moment + bend_[h].damping; });
   std::fill(f.begin(), f.end(), Vec3::Zero());
   gather(f, -1);
 }
 
 void Elements::subtract_stiffness(std::span<const Vec3> displacement, std::span<Vec3> f) const {
   for_batches(rest_.size(), [&](std::size_t begin, std::size_t end) {
-    membrane_stiffness_times(batches(begin, end), displacement.data(), triangle_force_.data());
+    membrane_stiffness_times(batches(begin, end), displacement.data(), of_triangles_.data());
   });
   parallel_for(hinges_.size(), grain, [&](std::size_t h) {
     double angle = 0;
     for (std::size_t c = 0; c < 4; ++c) {
       angle += bend_[h].g[c].dot(displacement[static_cast<std::size_t>(hinges_[h].particle[c])]);
     }
-    for (std::size_t c = 0; c < 4; ++c) hinge_force_[h][c] = (kappa_[h] * angle) * bend_[h].g[c];
+    of_hinges_[h] = bend_rest_[h].kappa_N_m * angle;
   });
   gather(f, -1);
 }
@@ -176,25 +172,27 @@ void Elements::subtract_stiffness(std::span<const Vec3> displacement, std::span<
 template <class T>
 void Elements::assemble(double h_s, BlockMatrix<T>& A) {
   const double h2 = h_s * h_s;
-  for_batches(rest_.size(),
-              [&](std::size_t begin, std::size_t end) { membrane_blocks(batches(begin, end), h_s, blocks_.data()); });
-  for (std::size_t h = 0; h < hinges_.size(); ++h) bend_weight_[h] = (h2 + h_s * tau_[h]) * kappa_[h];
+  for_batches(rest_.size(), [&](std::size_t begin, std::size_t end) {
+    membrane_blocks(batches(begin, end), h_s, of_triangles_.data());
+  });
+  for (std::size_t h = 0; h < hinges_.size(); ++h)
+    of_hinges_[h] = (h2 + h_s * bend_rest_[h].tau_s) * bend_rest_[h].kappa_N_m;
   const auto slots = [&](std::size_t begin, std::size_t end) {
     if constexpr (std::is_same_v<T, float>) {
       gather_blocks({triangle_begin_.data(), hinge_begin_.data(), triangle_parts_.data(), hinge_parts_.data()},
-                    static_cast<Slot>(begin), static_cast<Slot>(end), blocks_.data(), bend_.data(), bend_weight_.data(),
-                    A.blocks().data());
+                    static_cast<Slot>(begin), static_cast<Slot>(end), of_triangles_.data(), bend_.data(),
+                    of_hinges_.data(), A.blocks().data());
     } else {  // for tests and references
       for (std::size_t s = begin; s < end; ++s) {
         Mat3 block = Mat3::Zero();  // above the diagonal
         for (auto k = triangle_begin_[s]; k < triangle_begin_[s + 1]; ++k) {
           const auto [triangle, pair] = triangle_parts_[static_cast<std::size_t>(k)];
-          block += blocks_[static_cast<std::size_t>(triangle)][pair];
+          block += of_triangles_[3 * static_cast<std::size_t>(triangle) + pair];
         }
         for (auto k = hinge_begin_[s]; k < hinge_begin_[s + 1]; ++k) {
           const auto [hinge, a, b] = hinge_parts_[static_cast<std::size_t>(k)];
           const auto h = static_cast<std::size_t>(hinge);
-          block += (bend_weight_[h] * bend_[h].g[a]) * bend_[h].g[b].transpose();
+          block += (of_hinges_[h] * bend_[h].g[a]) * bend_[h].g[b].transpose();
         }
         A.below(static_cast<Slot>(s)) = Block<T>::from(block.transpose());
       }

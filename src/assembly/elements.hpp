@@ -14,7 +14,9 @@ namespace toile {
 
 class Elements {
  public:
+  // The model must outlive this object.
   explicit Elements(const ClothModel& model);
+  explicit Elements(ClothModel&&) = delete;
 
   std::shared_ptr<const BlockPattern> pattern() const { return pattern_; }
 
@@ -54,25 +56,24 @@ class Elements {
   }
 
   std::shared_ptr<const BlockPattern> pattern_;
-  std::vector<Triangle> triangles_;
-  std::vector<Hinge> hinges_;
+  std::span<const Triangle> triangles_;  // of the model
+  std::span<const Hinge> hinges_;
+  std::span<const BendRest> bend_rest_;
   // Triangles, eight per batch; arrays over triangles are as long as all batches.
   int rest_version_ = -1;  // of the model, when it was packed
   std::vector<MembraneRestBatch> rest_;
   std::vector<MembraneStateBatch> state_;
   MembraneForm form_;
-  std::vector<double> kappa_, tau_;
-  std::vector<Index> row_of_slot_;
   std::vector<std::int32_t> triangle_begin_, hinge_begin_;  // per slot
   std::vector<BlockParts::OfTriangle> triangle_parts_;
   std::vector<BlockParts::OfHinge> hinge_parts_;
   std::vector<std::int32_t> particle_triangle_begin_, particle_hinge_begin_;  // per particle
   std::vector<std::pair<Index, std::uint8_t>> particle_triangles_, particle_hinges_;
   std::vector<BendResponse> bend_;
-  std::vector<MembraneBlocks> blocks_;                       // [triangle], and one more that is never used
-  std::vector<double> bend_weight_;                          // [hinge] (h^2 + h tau) kappa
-  mutable std::vector<std::array<Vec3, 3>> triangle_force_;  // scratch of the gathers
-  mutable std::vector<std::array<Vec3, 4>> hinge_force_;
+  // Scratch of the gathers.  Of triangles: three blocks each, and one more that is never used; or the forces on the corners, one matrix
+  // each.  Of hinges what g is multiplied by: (h^2 + h tau) kappa in blocks; or the moment.
+  mutable std::vector<Mat3> of_triangles_;
+  mutable std::vector<double> of_hinges_;
   std::vector<double> beyond_linear_;  // [triangle]
   void gather(std::span<Vec3> f, double sign) const;
 };

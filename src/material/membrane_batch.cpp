@@ -208,14 +208,15 @@ HWY_INLINE Response respond(const Rest& rest, const MembraneForm& form, const Gr
 
 // alpha_i u + beta_i v for every corner, to each triangle's own place.
 HWY_INLINE void store_corners(const MembraneRestBatch& rest, const WideVec3& u, const WideVec3& v, std::size_t lane,
-                              std::array<Vec3, 3>* force) {
+                              Mat3* force) {
   alignas(64) Batched out[3][3];
   for (std::size_t c = 0; c < 3; ++c) {
     const WideVec3 f = load(rest.alpha[c], lane) * u + load(rest.beta[c], lane) * v;
     store(f, out[c], lane);
   }
   for (std::size_t k = lane; k < lane + wide_lanes; ++k) {
-    for (std::size_t c = 0; c < 3; ++c) force[k][c] = Vec3(out[c][0][k], out[c][1][k], out[c][2][k]);
+    for (std::size_t c = 0; c < 3; ++c)
+      force[k].col(static_cast<Eigen::Index>(c)) = Vec3(out[c][0][k], out[c][1][k], out[c][2][k]);
   }
 }
 
@@ -253,7 +254,7 @@ void evaluate(const MembraneRestBatch* rests, std::size_t begin, std::size_t end
   }
 }
 
-void forces(const MembraneBatches& of, std::array<Vec3, 3>* force) {
+void forces(const MembraneBatches& of, Mat3* force) {
   for (std::size_t b = of.begin; b < of.end; ++b) {
     for (std::size_t lane = 0; lane < batch_size; lane += wide_lanes) {
       const Response r = respond(load_rest(of.rest[b], lane), of.form, load_state(of.state[b], lane));
@@ -262,7 +263,7 @@ void forces(const MembraneBatches& of, std::array<Vec3, 3>* force) {
   }
 }
 
-void stiffness_times(const MembraneBatches& of, const Vec3* displacement, std::array<Vec3, 3>* force) {
+void stiffness_times(const MembraneBatches& of, const Vec3* displacement, Mat3* force) {
   alignas(64) Batched corner[3][3];
   for (std::size_t b = of.begin; b < of.end; ++b) {
     gather(of.rest[b], displacement, corner);
@@ -276,7 +277,7 @@ void stiffness_times(const MembraneBatches& of, const Vec3* displacement, std::a
   }
 }
 
-void blocks(const MembraneBatches& of, double h_s, MembraneBlocks* to) {
+void blocks(const MembraneBatches& of, double h_s, Mat3* to) {
   const double h2 = h_s * h_s;
   for (std::size_t b = of.begin; b < of.end; ++b) {
     const MembraneRestBatch& rest = of.rest[b];
@@ -300,7 +301,7 @@ void blocks(const MembraneBatches& of, double h_s, MembraneBlocks* to) {
     }
     for (std::size_t k = 0; k < batch_size; ++k) {
       for (std::size_t p = 0; p < 3; ++p) {
-        double* block = to[b * batch_size + k][p].data();
+        double* block = to[3 * (b * batch_size + k) + p].data();
         for (std::size_t c = 0; c < 3; ++c) {
           for (std::size_t row = 0; row < 3; ++row) block[3 * c + row] = out[p][c][row][k];
         }
@@ -424,15 +425,13 @@ void evaluate_membranes(const MembraneRestBatch* rest, std::size_t begin, std::s
   HWY_DYNAMIC_DISPATCH(evaluate)(rest, begin, end, x, v, state);
 }
 
-void membrane_forces(const MembraneBatches& of, std::array<Vec3, 3>* force) { HWY_DYNAMIC_DISPATCH(forces)(of, force); }
+void membrane_forces(const MembraneBatches& of, Mat3* force) { HWY_DYNAMIC_DISPATCH(forces)(of, force); }
 
-void membrane_stiffness_times(const MembraneBatches& of, const Vec3* displacement, std::array<Vec3, 3>* force) {
+void membrane_stiffness_times(const MembraneBatches& of, const Vec3* displacement, Mat3* force) {
   HWY_DYNAMIC_DISPATCH(stiffness_times)(of, displacement, force);
 }
 
-void membrane_blocks(const MembraneBatches& of, double h_s, MembraneBlocks* to) {
-  HWY_DYNAMIC_DISPATCH(blocks)(of, h_s, to);
-}
+void membrane_blocks(const MembraneBatches& of, double h_s, Mat3* to) { HWY_DYNAMIC_DISPATCH(blocks)(of, h_s, to); }
 
 void membrane_stretch(const MembraneRestBatch* rest, std::size_t begin, std::size_t end, const Vec3* x, Vec2* w) {
   HWY_DYNAMIC_DISPATCH(stretches)(rest, begin, end, x, w);

@@ -34,9 +34,6 @@ struct MembraneForm {
   Projection projection = Projection::semidefinite;
 };
 
-// h D + h^2 K of the pairs of corners (0, 1), (1, 2), (2, 0): the block of rows of the lower particle and columns of the higher one.
-using MembraneBlocks = std::array<Mat3, 3>;
-
 // The kernels' arguments: batches of one mesh.
 struct MembraneBatches {
   const MembraneRestBatch* rest;
@@ -47,11 +44,13 @@ struct MembraneBatches {
 
 void evaluate_membranes(const MembraneRestBatch* rest, std::size_t begin, std::size_t end, const Vec3* x, const Vec3* v,
                         MembraneStateBatch* state);
-// Elastic and damping force on each corner, with the opposite sign.
-void membrane_forces(const MembraneBatches& of, std::array<Vec3, 3>* force);
-// K displacement on each corner.
-void membrane_stiffness_times(const MembraneBatches& of, const Vec3* displacement, std::array<Vec3, 3>* force);
-void membrane_blocks(const MembraneBatches& of, double h_s, MembraneBlocks* blocks);
+// Elastic and damping force on each corner, a column each, with the opposite sign.
+void membrane_forces(const MembraneBatches& of, Mat3* force);
+// K displacement on each corner, a column each.
+void membrane_stiffness_times(const MembraneBatches& of, const Vec3* displacement, Mat3* force);
+// h D + h^2 K of the pairs of corners (0, 1), (1, 2), (2, 0), three per triangle: the block of rows of the lower particle and columns of
+// the higher one.
+void membrane_blocks(const MembraneBatches& of, double h_s, Mat3* blocks);
 // |w_u| and |w_v| at x.
 void membrane_stretch(const MembraneRestBatch* rest, std::size_t begin, std::size_t end, const Vec3* x, Vec2* w);
 // Energy at x beyond the second-order expansion about the evaluated state, J.

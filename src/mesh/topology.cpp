@@ -19,6 +19,13 @@ Topology build_topology(Index particle_count, std::span<const Triangle> triangle
 
   Topology topology;
   topology.triangle_edges.resize(triangles.size());
+  std::size_t edges = 0, hinges = 0;
+  for (std::size_t first = 0, end; first < half_edges.size(); first = end, ++edges) {
+    end = edge_end(half_edges, first);
+    if (end - first == 2) ++hinges;
+  }
+  topology.edges.reserve(edges);
+  topology.hinges.reserve(hinges);
   for (std::size_t first = 0; first < half_edges.size();) {
     const std::size_t end = edge_end(half_edges, first);
     const auto edge = static_cast<Index>(topology.edges.size());

@@ -131,23 +131,19 @@ template <class T>
 void CoarseSpace<T>::find_entries(const BlockPattern& pattern) {
   pattern_ = &pattern;
   const auto n = static_cast<std::size_t>(pattern.rows());
-  std::vector<std::vector<Index>> reached(n);
-  const auto reach = [&](Index i, Index aggregate) {
-    auto& of_i = reached[static_cast<std::size_t>(i)];
-    const auto found = std::find(of_i.begin(), of_i.end(), aggregate);
-    if (found == of_i.end()) of_i.push_back(aggregate);
-  };
-  for (Index i = 0; i < pattern.rows(); ++i) reach(i, aggregate_[static_cast<std::size_t>(i)]);
-  for (Index i = 0; i < pattern.rows(); ++i) {
-    for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s) {
-      reach(i, aggregate_[static_cast<std::size_t>(pattern.column(s))]);
-      reach(pattern.column(s), aggregate_[static_cast<std::size_t>(i)]);
-    }
-  }
   entry_begin_.assign(1, 0);
+  entry_begin_.reserve(n + 1);
   entry_aggregate_.clear();
-  for (const auto& of_i : reached) {
-    entry_aggregate_.insert(entry_aggregate_.end(), of_i.begin(), of_i.end());
+  for (Index i = 0; i < pattern.rows(); ++i) {
+    const auto reach = [&](Index particle) {
+      const Index aggregate = aggregate_[static_cast<std::size_t>(particle)];
+      const auto first = entry_aggregate_.begin() + entry_begin_.back();
+      if (std::find(first, entry_aggregate_.end(), aggregate) == entry_aggregate_.end())
+        entry_aggregate_.push_back(aggregate);
+    };
+    reach(i);
+    for (const auto& above : pattern.above(i)) reach(above.row);
+    for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s) reach(pattern.column(s));
     entry_begin_.push_back(static_cast<std::int32_t>(entry_aggregate_.size()));
   }
   const auto entry = [&](Index i, Index aggregate) {
@@ -156,6 +152,7 @@ void CoarseSpace<T>::find_entries(const BlockPattern& pattern) {
     return e;
   };
   slot_entry_.clear();
+  slot_entry_.reserve(static_cast<std::size_t>(pattern.block_count()));
   for (Index i = 0; i < pattern.rows(); ++i) {
     for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s) {
       const Index j = pattern.column(s);
@@ -216,16 +213,25 @@ void CoarseSpace<T>::find_stale_rows(const LinearSystem<T>& system) {
   const auto n = static_cast<std::size_t>(pattern.rows());
   const bool all = version_ != system.A().version();
   version_ = system.A().version();
-  S_.resize(n, Mat3::Identity());
+  was_held_.resize(n, 0);
   stale_.assign(n, all);
-  for (std::size_t p = 0; p < n; ++p) {
-    const auto i = static_cast<Index>(p);
-    if (S_[p] == constraints.S(i)) continue;
-    S_[p] = constraints.S(i);
-    stale_[p] = 1;
+  const auto compare = [&](Index i, const Mat3& before) {
+    if (before == constraints.S(i)) return;
+    stale_[static_cast<std::size_t>(i)] = 1;
     for (const auto& above : pattern.above(i)) stale_[static_cast<std::size_t>(above.row)] = 1;
     for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s)
       stale_[static_cast<std::size_t>(pattern.column(s))] = 1;
+  };
+  const std::span<const Index> held = constraints.constrained();
+  for (std::size_t k = 0; k < held_.size(); ++k) compare(held_[k], S_of_held_[k]);
+  for (const Index i : held)
+    if (!was_held_[static_cast<std::size_t>(i)]) compare(i, Mat3::Identity());
+  for (const Index i : held_) was_held_[static_cast<std::size_t>(i)] = 0;
+  held_.assign(held.begin(), held.end());
+  S_of_held_.clear();
+  for (const Index i : held) {
+    was_held_[static_cast<std::size_t>(i)] = 1;
+    S_of_held_.push_back(constraints.S(i));
   }
 }
 

@@ -67,9 +67,11 @@ class CoarseSpace {
   std::vector<std::array<std::int32_t, 2>> slot_entry_;  // [slot (i, j)] entry of i for j's aggregate, of j for i's
   std::vector<Columns> AZ_;                              // [entry]
   // What A' Z was made of: between passes of the active set few particles change, and no block.
-  std::uint64_t version_ = 0;        // of A
-  std::vector<Mat3> S_;              // [particle]
-  std::vector<std::uint8_t> stale_;  // [particle] its row of A' Z
+  std::uint64_t version_ = 0;  // of A
+  std::vector<Index> held_;    // particles, and their S
+  std::vector<Mat3> S_of_held_;
+  std::vector<std::uint8_t> was_held_;  // [particle]
+  std::vector<std::uint8_t> stale_;     // [particle] its row of A' Z
   // The upper triangle of Z^T A' Z without the rows.
   std::vector<std::pair<Index, Index>> couples_of_A_;  // [couple] (p, q), p <= q, ascending in q
   std::vector<std::int32_t> couple_begin_;             // [q]

@@ -26,39 +26,52 @@ void LinearSystem<T>::update(std::span<const ImplicitRow> rows, const ParticleCo
   rows_ = rows;
   constraints_ = &constraints;
   const auto n = static_cast<std::size_t>(size());
-  diagonal_.resize(n);
-  inverse_.resize(n);
   inverse_block_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) diagonal_[i] = A_->diagonal(static_cast<Index>(i));
+  inverse_.assign(A_->diagonals().begin(), A_->diagonals().end());
+  add_diagonals(inverse_);
   fast_rows_.clear();
   for (const ImplicitRow& row : rows) {
-    const Mat3 nn = row.direction * row.direction.transpose();
     Row fast{row.particle,
              {},
              to_lane<T>(row.direction),
              static_cast<T>(row.a),
              row.particle[1] < 0 && row.particle[2] < 0 && row.particle[3] < 0};
-    for (std::size_t k = 0; k < 4; ++k) {
-      fast.weight[k] = static_cast<T>(row.weight[k]);
-      if (row.particle[k] >= 0)
-        diagonal_[static_cast<std::size_t>(row.particle[k])] += (row.a * row.weight[k] * row.weight[k]) * nn;
-    }
+    for (std::size_t k = 0; k < 4; ++k) fast.weight[k] = static_cast<T>(row.weight[k]);
     fast_rows_.push_back(fast);
   }
   parallel_for(n, 1024, [&](std::size_t i) {
     const auto particle = static_cast<Index>(i);
+    const Mat3 diagonal = inverse_[i];
     if (constraints.is_free(particle)) {
-      inverse_[i] = diagonal_[i].inverse();
+      inverse_[i] = diagonal.inverse();
     } else {
       const Mat3& S = constraints.S(particle);
-      const double sigma = diagonal_[i].trace() / 3;
-      const Mat3 D = S * diagonal_[i] * S + sigma * (Mat3::Identity() - S);
+      const double sigma = diagonal.trace() / 3;
+      const Mat3 D = S * diagonal * S + sigma * (Mat3::Identity() - S);
       inverse_[i] = S * D.inverse() * S;
     }
     inverse_block_[i] = Block<T>::from(inverse_[i]);
   });
   filter_.clear();
   for (const Index i : constraints.constrained()) filter_.push_back(Block<T>::from(constraints.S(i)));
+}
+
+template <class T>
+void LinearSystem<T>::add_diagonals(std::span<Mat3> of_particles) const {
+  for (const ImplicitRow& row : rows_) {
+    const Mat3 nn = row.direction * row.direction.transpose();
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (row.particle[k] >= 0)
+        of_particles[static_cast<std::size_t>(row.particle[k])] += (row.a * row.weight[k] * row.weight[k]) * nn;
+    }
+  }
+}
+
+template <class T>
+std::vector<Mat3> LinearSystem<T>::diagonals() const {
+  std::vector<Mat3> diagonals(A_->diagonals().begin(), A_->diagonals().end());
+  add_diagonals(diagonals);
+  return diagonals;
 }
 
 template <class T>

@@ -56,8 +56,8 @@ class LinearSystem {
   // G_i = S_i D_i^-1 S_i with D_i the diagonal block of A', in double and in T.
   const Mat3& filtered_inverse(Index i) const { return inverse_[static_cast<std::size_t>(i)]; }
   const Block<T>& filtered_inverse_block(Index i) const { return inverse_block_[static_cast<std::size_t>(i)]; }
-  // A_ii + rows, before filtering.
-  const Mat3& diagonal(Index i) const { return diagonal_[static_cast<std::size_t>(i)]; }
+  // A_ii + rows, before filtering; made when asked for.
+  std::vector<Mat3> diagonals() const;
 
   Eigen::MatrixXd to_dense() const;  // A + rows, unfiltered; for tests
 
@@ -77,7 +77,8 @@ class LinearSystem {
   std::span<const ImplicitRow> rows_;
   std::vector<Row> fast_rows_;
   const ParticleConstraints* constraints_ = nullptr;
-  std::vector<Mat3> diagonal_, inverse_;
+  void add_diagonals(std::span<Mat3> of_particles) const;  // of the rows
+  std::vector<Mat3> inverse_;
   std::vector<Block<T>> inverse_block_;
   std::vector<Block<T>> filter_;  // S of the constrained particles, in their order
 };

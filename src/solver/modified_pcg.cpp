@@ -72,11 +72,9 @@ void ModifiedPcg<T>::prepare(const LinearSystem<T>& system, const PcgOptions& op
   for (auto& part : coarse_parts_) part.resize(static_cast<std::size_t>(coarse_.dimension()));
   if (options.preconditioner == Preconditioner::block_ssor_coarse) coarse_.factorise(system);
   if (options.preconditioner == Preconditioner::diagonal) {
-    inverse_diagonal_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Mat3& D = system.diagonal(static_cast<Index>(i));
-      inverse_diagonal_[i] = to_lane<T>(Vec3(1 / D(0, 0), 1 / D(1, 1), 1 / D(2, 2)));
-    }
+    inverse_diagonal_.clear();
+    for (const Mat3& D : system.diagonals())
+      inverse_diagonal_.push_back(to_lane<T>(Vec3(1 / D(0, 0), 1 / D(1, 1), 1 / D(2, 2))));
   }
 }
 

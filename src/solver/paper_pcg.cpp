@@ -21,11 +21,11 @@ PcgReport paper_pcg(const LinearSystem<T>& system, std::span<const Vec3> b, cons
   const bool divide_r = reading != PaperReading::as_printed, divide_b = reading != PaperReading::diagonal_of_A;
   PcgReport report;
 
+  const std::vector<Mat3> diagonals = system.diagonals();
   Vec3s filtered(b.begin(), b.end());
   constraints.filter(filtered);
   double delta_0 = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    delta_0 += filtered[i].dot(scaled(system.diagonal(static_cast<Index>(i)), filtered[i], divide_b));
+  for (std::size_t i = 0; i < n; ++i) delta_0 += filtered[i].dot(scaled(diagonals[i], filtered[i], divide_b));
 
   Vec3s z(n), residual(n);
   for (std::size_t i = 0; i < n; ++i) z[i] = constraints.z(static_cast<Index>(i));
@@ -36,7 +36,7 @@ PcgReport paper_pcg(const LinearSystem<T>& system, std::span<const Vec3> b, cons
   std::vector<Lane<T>> r(n), c(n), q(n), s(n), sum(n, Lane<T>{0, 0, 0, 0}), P_inverse(n);
   for (std::size_t i = 0; i < n; ++i) {
     r[i] = to_lane<T>(residual[i]);
-    P_inverse[i] = to_lane<T>(scaled(system.diagonal(static_cast<Index>(i)), Vec3::Ones(), divide_r));
+    P_inverse[i] = to_lane<T>(scaled(diagonals[i], Vec3::Ones(), divide_r));
     c[i] = P_inverse[i] * r[i];
   }
   system.filter(c);

@@ -23,7 +23,6 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       world_(&world),
       options_(options),
       elements_(model),
-      air_(model, *elements_.pattern()),
       A_(elements_.pattern()),
       system_(A_),
       pcg_(model.mesh),
@@ -36,7 +35,6 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
   for (Vec3s* vector : {&force_, &b_, &y_, &y_known_, &y_linearised_, &linearised_, &displacement_, &force_linearised_,
                         &x_linearised_, &moved_, &reference_, &dv_, &dv_last_, &dv_linearised_, &way_, &e_})
     vector->assign(n, Vec3::Zero());
-  diagonal_.assign(n, Mat3::Zero());
   stretch_.resize(model.mesh.triangles.size());
   stretch_candidate_.resize(model.mesh.triangles.size());
   for (std::size_t i = 0; i < n; ++i) A_.grounded(static_cast<Index>(i)) = model.mass_kg[i] * Mat3::Identity();
@@ -136,8 +134,9 @@ void ImplicitEuler::assemble(const ClothState& at, double t_s, const StepFormula
   elements_.assemble(H, A_);
   if (world_->air.density_kg_per_m3 > 0) {
     const double end_s = t_s + step.h_s;
-    air_.evaluate(world_->air, world_->wind ? world_->wind(end_s) : world_->air.wind_m_per_s, at);
-    air_.assemble(H, A_);
+    if (!air_) air_.emplace(*model_, *elements_.pattern());
+    air_->evaluate(world_->air, world_->wind ? world_->wind(end_s) : world_->air.wind_m_per_s, at);
+    air_->assemble(H, A_);
   }
 }
 
@@ -155,10 +154,9 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     assemble(state, t_s, step);
     linearised_is_old_ = true;
     force_linearised_ = force_;
-    if (world_->air.density_kg_per_m3 > 0) air_.add_forces(force_linearised_);
+    if (world_->air.density_kg_per_m3 > 0) air_->add_forces(force_linearised_);
     x_linearised_ = state.x;
     for (std::size_t i = 0; i < n; ++i) {
-      diagonal_[i] = A_.diagonal(static_cast<Index>(i));
       reference_[i] = (step.weight_s * model_->mass_kg[i]) * model_->gravity_m_per_s2;
       // The predictor: the last change of velocity, so that free fall is exact at any tolerance.
       dv_[i] = h_last_s_ > 0 ? Vec3((h_s / h_last_s_) * dv_last_[i]) : Vec3(h_s * model_->gravity_m_per_s2);
@@ -166,7 +164,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   }
   move_body(t_s, h_s);
   body_.begin(state, dv_, step);
-  rows_.begin(state, dv_, step, base_h_s_, diagonal_);
+  rows_.begin(state, dv_, step, base_h_s_, A_.diagonals());
   candidate.x.resize(n);
   candidate.v.resize(n);
   for (int iteration = 1;; ++iteration) {
@@ -246,8 +244,8 @@ void ImplicitEuler::relinearise(const ClothState& state, double t_s, const StepF
     force_linearised_[i] += model_->mass_kg[i] * (model_->gravity_m_per_s2 - model_->drag_per_s * state.v[i]);
   assemble(candidate, t_s, step);
   if (world_->air.density_kg_per_m3 > 0) {  // F(v') = F(v^k) - B (v' - v^k) = F(v^k) + B (v^k - v) - B dv
-    air_.add_forces(force_linearised_);
-    air_.add_damping(dv_, force_linearised_);
+    air_->add_forces(force_linearised_);
+    air_->add_damping(dv_, force_linearised_);
   }
 }
 
@@ -380,7 +378,7 @@ void ImplicitEuler::judge_strain(const StretchChange& largest, StepReport& repor
   report.status = StepStatus::beyond_limit;
   report.worst_triangle = largest.beyond;
   report.strain = largest.strain;
-  report.strain_limit = model_->stiffness[static_cast<std::size_t>(largest.beyond)].strain_limit;
+  report.strain_limit = model_->stiffness_of(static_cast<std::size_t>(largest.beyond)).strain_limit;
 }
 
 // Only changes away from the rest length count: a thread that relaxes is not diverging, however fast.  One that is pushed together
@@ -391,7 +389,7 @@ ImplicitEuler::StretchChange ImplicitEuler::largest_stretch_change(const ClothSt
   double farthest = 1;  // of the limit
   for (std::size_t t = 0; t < stretch_.size(); ++t) {
     const std::array<double, 2> rest{model_->membrane[t].b_u, model_->membrane[t].b_v};
-    const double limit = model_->stiffness[t].strain_limit;
+    const double limit = model_->stiffness_of(t).strain_limit;
     for (Eigen::Index k = 0; k < 2; ++k) {
       const double b = rest[static_cast<std::size_t>(k)], before = stretch_[t][k], after = stretch_candidate_[t][k];
       if (const double from = limited_from(b); limit > 0 && after > before && after - from > farthest * limit * from) {
@@ -401,7 +399,7 @@ ImplicitEuler::StretchChange ImplicitEuler::largest_stretch_change(const ClothSt
       }
       if (std::abs(after - b) <= std::abs(before - b)) continue;
       double change = std::abs(after - before);
-      if (after < b) change *= std::sqrt(model_->stiffness[t].compression);
+      if (after < b) change *= std::sqrt(model_->stiffness_of(t).compression);
       if (change <= largest.change) continue;
       largest.change = change;
       largest.triangle = static_cast<Index>(t);

@@ -21,6 +21,7 @@
 #include "step/swallowed.hpp"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace toile {
@@ -131,7 +132,7 @@ class ImplicitEuler {
   const StepWorld* world_;
   StepOptions options_;
   Elements elements_;
-  Air air_;
+  std::optional<Air> air_;  // from the first step in air on
   BlockMatrix<float> A_;
   LinearSystem<float> system_;
   ModifiedPcg<float> pcg_;
@@ -149,7 +150,6 @@ class ImplicitEuler {
   std::vector<ImplicitRow> implicit_rows_;
   Vec3s force_, b_, y_, y_known_, y_linearised_, linearised_, displacement_, force_linearised_, x_linearised_, moved_,
       reference_, dv_, dv_last_, dv_linearised_, way_, e_;
-  std::vector<Mat3> diagonal_;
   std::vector<Vec2> stretch_, stretch_candidate_;
   Vec3s body_start_, body_end_;               // world_->body_at at the two ends of the step
   double body_start_s_ = 0, body_end_s_ = 0;  // the times of the two
