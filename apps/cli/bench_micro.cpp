@@ -98,7 +98,7 @@ void measure_contact(Stopwatches& time, Drape& drape) {
            [&] { body.set_motion(man.positions, end, 0); });
 
   const ClothTopology topology(state.x.size(), model.mesh.triangles, model.topology);
-  const TriangleTree tree(state.x, model.mesh.triangles);
+  TriangleTree tree(state.x, model.mesh.triangles);
   ProximityWorkspace workspace;
   ProximityOptions options;
   options.range_m = query_range_m;

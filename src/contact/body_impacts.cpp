@@ -58,9 +58,10 @@ bool apart(const Mover& mover, const Triangle& triangle, std::span<const Vec3> x
 
 class BodyImpactQuery {
  public:
-  BodyImpactQuery(const ClothTopology& cloth, std::span<const Vec3> start, std::span<const Vec3> end,
-                  const BodyGuard& guard, const BodyImpactWorkspace& workspace)
+  BodyImpactQuery(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+                  std::span<const Vec3> end, const BodyGuard& guard, const BodyImpactWorkspace& workspace)
       : cloth_(cloth),
+        tree_(tree),
         body_(*guard.body),
         guard_(guard),
         workspace_(workspace),
@@ -70,7 +71,7 @@ class BodyImpactQuery {
 
   void walk(TreeTask task, std::vector<Impact>& found) const {
     const std::size_t most = most_impacts_of_a_task(start_.size());
-    workspace_.tree.visit_cross(body_.tree(), task, [&](Index a, Index b) {
+    tree_.visit_cross(body_.tree(), task, [&](Index a, Index b) {
       if (found.size() > most) return;
       const Mover &p = workspace_.cloth[at(a)], &q = workspace_.body[at(b)];
       const double moving = (p.displacement - q.displacement).norm() + p.differ + q.differ + separation_m_,
@@ -142,6 +143,7 @@ class BodyImpactQuery {
   }
 
   const ClothTopology& cloth_;
+  const TriangleTree& tree_;
   const BodySurface& body_;
   const BodyGuard& guard_;
   const BodyImpactWorkspace& workspace_;
@@ -161,20 +163,19 @@ bool passes_through(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, 
 
 }  // namespace
 
-bool find_body_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+bool find_body_impacts(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                        std::span<const Vec3> end, const BodyGuard& guard, BodyImpactWorkspace& workspace,
                        std::vector<Impact>& impacts) {
   TOILE_ASSERT(start.size() == cloth.particle_count() && end.size() == start.size() &&
                guard.exempt.size() == start.size());
   impacts.clear();
   if (start.empty() || guard.body->triangles().empty()) return true;
-  if (!workspace.tree.same_hierarchy(tree)) workspace.tree = tree;
-  workspace.tree.refit(start, end, separation_share * guard.contact_m);
+  tree.refit(start, end, separation_share * guard.contact_m);
   move_triangles(cloth.triangles(), start, end, workspace.cloth);
   move_triangles(guard.body->triangles(), guard.body->positions(), guard.body->next_positions(), workspace.body);
-  workspace.tree.cross_tasks(guard.body->tree(), workspace.tasks);
+  tree.cross_tasks(guard.body->tree(), workspace.tasks);
   if (workspace.found.size() < workspace.tasks.size()) workspace.found.resize(workspace.tasks.size());
-  const BodyImpactQuery query(cloth, start, end, guard, workspace);
+  const BodyImpactQuery query(cloth, tree, start, end, guard, workspace);
   parallel_for(workspace.tasks.size(), 1, [&](std::size_t i) {
     workspace.found[i].clear();
     query.walk(workspace.tasks[i], workspace.found[i]);
@@ -182,18 +183,17 @@ bool find_body_impacts(const ClothTopology& cloth, const TriangleTree& tree, std
   return gather_impacts(std::span(workspace.found).first(workspace.tasks.size()), start.size(), impacts);
 }
 
-bool mark_through_body(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x,
-                       const BodySurface& body, BodyImpactWorkspace& workspace, std::vector<char>& through) {
+bool mark_through_body(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x, const BodySurface& body,
+                       BodyImpactWorkspace& workspace, std::vector<char>& through) {
   through.assign(x.size(), 0);
   if (x.empty() || body.triangles().empty()) return false;
-  if (!workspace.tree.same_hierarchy(tree)) workspace.tree = tree;
-  workspace.tree.refit(x, x, 0);
-  workspace.tree.cross_tasks(body.tree_now(), workspace.tasks);
+  tree.refit(x, x, 0);
+  tree.cross_tasks(body.tree_now(), workspace.tasks);
   if (workspace.through.size() < workspace.tasks.size()) workspace.through.resize(workspace.tasks.size());
   parallel_for(workspace.tasks.size(), 1, [&](std::size_t i) {
     std::vector<Index>& found = workspace.through[i];
     found.clear();
-    workspace.tree.visit_cross(body.tree_now(), workspace.tasks[i], [&](Index a, Index b) {
+    tree.visit_cross(body.tree_now(), workspace.tasks[i], [&](Index a, Index b) {
       const auto corners = [](const Triangle& t, std::span<const Vec3> of) {
         return std::array<Vec3, 3>{of[at(t[0])], of[at(t[1])], of[at(t[2])]};
       };

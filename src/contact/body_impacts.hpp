@@ -27,22 +27,22 @@ struct BodyImpactWorkspace {
     Vec3 centre, displacement, normal;  // normal: unit, or zero
     double radius, differ;
   };
-  TriangleTree tree;
   std::vector<TreeTask> tasks;
   std::vector<std::vector<Impact>> found;  // by task
   std::vector<std::vector<Index>> through;
   std::vector<Mover> cloth, body;  // [triangle]
 };
 
-// All impacts, in an order that depends on the input only.  Of `tree` only the hierarchy is used.
+// All impacts, in an order that depends on the input only.  Of `tree` only the hierarchy is used; its boxes
+// become those of the motion.
 // Returns false when there are too many, as find_impacts does: then not all are there.
-[[nodiscard]] bool find_body_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+[[nodiscard]] bool find_body_impacts(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                                      std::span<const Vec3> end, const BodyGuard& guard, BodyImpactWorkspace& workspace,
                                      std::vector<Impact>& impacts);
 
 // Marks the particles of cloth edges and triangles that pass through the body as it is now.  Returns whether there are any.
 // Decided in floating point: for what to guard, not for a judge.
-bool mark_through_body(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x,
-                       const BodySurface& body, BodyImpactWorkspace& workspace, std::vector<char>& through);
+bool mark_through_body(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x, const BodySurface& body,
+                       BodyImpactWorkspace& workspace, std::vector<char>& through);
 
 }  // namespace toile

@@ -22,18 +22,18 @@ bool ridge_counts(double bend, double length2, double range_m) {
 
 class BodyQuery {
  public:
-  BodyQuery(const ClothTopology& cloth, std::span<const Vec3> x, const BodySurface& body,
+  BodyQuery(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x, const BodySurface& body,
             const ProximityOptions& options, const Memory& memory)
-      : cloth_(cloth), around_(cloth, x, options), body_(body), options_(options), memory_(memory) {}
+      : cloth_(cloth), tree_(tree), around_(cloth, x, options), body_(body), options_(options), memory_(memory) {}
 
   void walk(TreeTask task, Memory::Found& found) const {
     const TriangleTree& bodies = body_.tree_now();
-    memory_.tree.visit_cross(bodies, task, [&](Index a, Index b) {
+    tree_.visit_cross(bodies, task, [&](Index a, Index b) {
       const unsigned owned = memory_.body_features[static_cast<std::size_t>(b)];
       if (owned == 0) return;
       const Triangle& corners = body_.triangle(b);
       tree_walk::for_lanes(owned & 7u, [&](std::size_t k) {
-        if (bodies.particle_box(corners[k]).overlaps(memory_.tree.triangle_box(a))) meet_vertex(corners[k], a, found);
+        if (bodies.particle_box(corners[k]).overlaps(tree_.triangle_box(a))) meet_vertex(corners[k], a, found);
       });
       const unsigned edges = static_cast<unsigned>(cloth_.owned(a)) >> 3;
       if (edges == 0) return;
@@ -42,7 +42,7 @@ class BodyQuery {
         const Edge& ridge = body_.topology().edges[static_cast<std::size_t>(f)];
         OuterBox box = bodies.particle_box(ridge.a);
         box.include(bodies.particle_box(ridge.b));
-        if (!box.overlaps(memory_.tree.triangle_box(a))) return;
+        if (!box.overlaps(tree_.triangle_box(a))) return;
         tree_walk::for_lanes(edges, [&](std::size_t k) { meet_edges(cloth_.triangle_edges(a)[k], f, box, found); });
       });
     });
@@ -92,8 +92,8 @@ class BodyQuery {
 
   void meet_edges(Index cloth_edge, Index body_edge, const OuterBox& body_box, Memory::Found& found) const {
     const Edge &e = cloth_.edge(cloth_edge), &f = body_.topology().edges[static_cast<std::size_t>(body_edge)];
-    OuterBox box = memory_.tree.particle_box(e.a);
-    box.include(memory_.tree.particle_box(e.b));
+    OuterBox box = tree_.particle_box(e.a);
+    box.include(tree_.particle_box(e.b));
     if (!box.overlaps(body_box)) return;
     const Vec3 &p0 = around_.x(e.a), &p1 = around_.x(e.b), &q0 = body_x(f.a), &q1 = body_x(f.b);
     if (!ridge_counts(body_.ridge_bend(body_edge), (p1 - p0).squaredNorm(), options_.range_m)) return;
@@ -115,6 +115,7 @@ class BodyQuery {
   }
 
   const ClothTopology& cloth_;
+  const TriangleTree& tree_;
   Surroundings around_;
   const BodySurface& body_;
   ProximityOptions options_;
@@ -157,15 +158,15 @@ void append_sorted(Memory& memory, std::vector<std::pair<Index, Index>> Memory::
 
 }  // namespace
 
-void find_body_contacts(const ClothTopology& cloth, const TriangleTree& cloth_tree, std::span<const Vec3> x,
+void find_body_contacts(const ClothTopology& cloth, TriangleTree& cloth_tree, std::span<const Vec3> x,
                         const BodySurface& body, const ProximityOptions& options, ProximityWorkspace& workspace,
                         std::vector<BodyContact>& contacts) {
   contacts.clear();
   Memory& memory = workspace.memory();
   memory.prepare(cloth, cloth_tree, x, std::max(options.range_m, options.depth_m));  // the body's boxes add nothing
   mark_features(cloth, x, body, options, memory);
-  const BodyQuery query(cloth, x, body, options, memory);
-  memory.tree.cross_tasks(body.tree_now(), memory.tasks);
+  const BodyQuery query(cloth, cloth_tree, x, body, options, memory);
+  cloth_tree.cross_tasks(body.tree_now(), memory.tasks);
   memory.start_tasks();
   parallel_for(memory.tasks.size(), 1, [&](std::size_t i) { query.walk(memory.tasks[i], memory.found[i]); });
   append_sorted(memory, &Memory::Found::vertex_keys, &Memory::Found::body_vertices, body.positions().size(), contacts);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace toile {
 namespace {
@@ -21,12 +22,13 @@ bool by_particles(const ClothContact& a, const ClothContact& b) { return a.parti
 // One query: what is given, and the two stages.
 class ClothQuery {
  public:
-  ClothQuery(const ClothTopology& cloth, std::span<const Vec3> x, const ProximityOptions& options, Memory& memory)
-      : cloth_(cloth), around_(cloth, x, options), range_m_(options.range_m), memory_(memory) {}
+  ClothQuery(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x,
+             const ProximityOptions& options, const Memory& memory)
+      : cloth_(cloth), tree_(tree), around_(cloth, x, options), range_m_(options.range_m), memory_(memory) {}
 
   // Stage 1: everything within range that the owners of features meet in one task.
   void walk(TreeTask task, Memory::Found& found) const {
-    memory_.tree.visit_self(task, [&](Index a, Index b) {
+    tree_.visit_self(task, [&](Index a, Index b) {
       const unsigned owned_a = cloth_.owned(a), owned_b = cloth_.owned(b);
       if (owned_a & 7u) meet_vertices(a, owned_a, b, found);
       if (owned_b & 7u) meet_vertices(b, owned_b, a, found);
@@ -35,21 +37,19 @@ class ClothQuery {
     });
   }
 
-  // Stage 2: of the candidates of one vertex (ascending by triangle) those that count.
-  void choose(Index vertex, std::span<const Index> candidates, Memory::Reported& out) const {
+  // Stage 2: of the places near one vertex (ascending) those that count.
+  void choose(Index vertex, std::span<const Memory::Place> places, Memory::Reported& out) const {
     const std::size_t first_face = out.faces.size();
     out.edge_candidates.clear();
     out.vertex_candidates.clear();
-    for (const Index i : candidates) {
-      const Index t = memory_.keys[static_cast<std::size_t>(i)].second;
-      const VertexTriangle& at = memory_.closest[static_cast<std::size_t>(i)];
-      const auto k = static_cast<std::size_t>(at.index);
-      if (at.feature == Feature::face) {
-        add_face(vertex, t, at, out.faces);
-      } else if (at.feature == Feature::edge) {
-        out.edge_candidates.push_back(cloth_.triangle_edges(t)[k]);
+    for (const Memory::Place place : places) {
+      const Index t = place.triangle();
+      if (place.feature() == Feature::face) {
+        add_face(vertex, t, out.faces);
+      } else if (place.feature() == Feature::edge) {
+        out.edge_candidates.push_back(cloth_.triangle_edges(t)[place.index()]);
       } else {
-        out.vertex_candidates.push_back(cloth_.triangle(t)[k]);
+        out.vertex_candidates.push_back(cloth_.triangle(t)[place.index()]);
       }
     }
     std::sort(out.faces.begin() + static_cast<std::ptrdiff_t>(first_face), out.faces.end(), by_particles);
@@ -91,19 +91,18 @@ class ClothQuery {
 
   void meet_vertices(Index a, unsigned owned, Index b, Memory::Found& found) const {
     const Triangle &corners = cloth_.triangle(b), &merged = cloth_.merged_triangle(b);
-    const OuterBox& box = memory_.tree.triangle_box(b);
+    const OuterBox& box = tree_.triangle_box(b);
     for (std::size_t k = 0; k < 3; ++k) {
       if (!(owned >> k & 1u)) continue;
       const Index v = cloth_.triangle(a)[k], m = cloth_.merged_triangle(a)[k];
-      if (!memory_.tree.particle_box(v).overlaps(box)) continue;
+      if (!tree_.particle_box(v).overlaps(box)) continue;
       if (m == merged[0] || m == merged[1] || m == merged[2]) continue;
       const Vec3 &p = around_.x(v), &origin = around_.x(corners[0]);
       // The distance to the plane is a lower bound, and one product.
       if (std::fabs(memory_.face_normals[static_cast<std::size_t>(b)].dot(p - origin)) >= range_m_) continue;
       const VertexTriangle at = closest_vertex_triangle(p, origin, around_.x(corners[1]), around_.x(corners[2]));
       if (!(at.distance2 < range_m_ * range_m_)) continue;
-      found.vertex_keys.emplace_back(v, b);
-      found.vertices.push_back(at);
+      found.candidates.push_back({v, {b, at}});
     }
   }
 
@@ -123,9 +122,8 @@ class ClothQuery {
   void meet_edge_pair(Index first, Index second, Memory::Found& found) const {
     if (second < first) std::swap(first, second);
     const Edge &e = cloth_.edge(first), &f = cloth_.edge(second);
-    const TriangleTree& tree = memory_.tree;
-    if (!edge_boxes_overlap(tree.particle_box(e.a), tree.particle_box(e.b), tree.particle_box(f.a),
-                            tree.particle_box(f.b))) {
+    if (!edge_boxes_overlap(tree_.particle_box(e.a), tree_.particle_box(e.b), tree_.particle_box(f.a),
+                            tree_.particle_box(f.b))) {
       return;
     }
     const Index ea = cloth_.merged(e.a), eb = cloth_.merged(e.b), fa = cloth_.merged(f.a), fb = cloth_.merged(f.b);
@@ -159,9 +157,10 @@ class ClothQuery {
 
   const Vec3& face_normal(Index t) const { return memory_.face_normals[static_cast<std::size_t>(t)]; }
 
-  void add_face(Index v, Index t, const VertexTriangle& at, std::vector<ClothContact>& out) const {
+  // The closest point once more: of what stage 1 has found, few are on faces.
+  void add_face(Index v, Index t, std::vector<ClothContact>& out) const {
     const Triangle& c = cloth_.triangle(t);
-    const Vec3& b = at.barycentric;
+    const Vec3 b = closest_vertex_triangle(around_.x(v), around_.x(c[0]), around_.x(c[1]), around_.x(c[2])).barycentric;
     ClothContact record{ContactKind::vertex_face, {v, c[0], c[1], c[2]}, {1, -b[0], -b[1], -b[2]}, {}, 0};
     const Vec3 between = around_.x(v) - b[0] * around_.x(c[0]) - b[1] * around_.x(c[1]) - b[2] * around_.x(c[2]);
     if (set_direction(record, between, [&] { return face_normal(t); })) out.push_back(record);
@@ -198,9 +197,10 @@ class ClothQuery {
   }
 
   const ClothTopology& cloth_;
+  const TriangleTree& tree_;
   Surroundings around_;
   double range_m_;
-  Memory& memory_;
+  const Memory& memory_;
 };
 
 void mark_flat_edges(const ClothTopology& cloth, std::span<const std::array<Index, 2>> bent, Memory& memory) {
@@ -245,14 +245,14 @@ ProximityWorkspace::~ProximityWorkspace() = default;
 ProximityWorkspace::ProximityWorkspace(ProximityWorkspace&&) noexcept = default;
 ProximityWorkspace& ProximityWorkspace::operator=(ProximityWorkspace&&) noexcept = default;
 
-void ProximityWorkspace::Memory::prepare(const ClothTopology& cloth, const TriangleTree& hierarchy,
-                                         std::span<const Vec3> x, double margin_m) {
+void ProximityWorkspace::Memory::prepare(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x,
+                                         double margin_m) {
   if (x.size() != cloth.particle_count()) {
     throw InputError("", "cloth positions", std::to_string(cloth.particle_count()) + " particles",
                      std::to_string(x.size()));
   }
-  TOILE_ASSERT(static_cast<std::size_t>(hierarchy.triangle_count()) == cloth.triangles().size());
-  if (!tree.same_hierarchy(hierarchy)) tree = hierarchy;
+  TOILE_ASSERT(static_cast<std::size_t>(tree.triangle_count()) == cloth.triangles().size());
+  TOILE_ASSERT(cloth.triangles().size() <= Place::most_triangles);
   tree.refit(x, x, margin_m);
   face_normals.resize(cloth.triangles().size());
   parallel_for(face_normals.size(), triangle_grain, [&](std::size_t t) {
@@ -267,37 +267,42 @@ void ProximityWorkspace::Memory::prepare(const ClothTopology& cloth, const Trian
 void ProximityWorkspace::Memory::start_tasks() {
   if (found.size() < tasks.size()) found.resize(tasks.size());
   for (std::size_t i = 0; i < tasks.size(); ++i) {
+    found[i].candidates.clear();
     found[i].vertex_keys.clear();
     found[i].edge_keys.clear();
-    found[i].vertices.clear();
     found[i].edges.clear();
     found[i].body_vertices.clear();
     found[i].body_edges.clear();
   }
 }
 
-void find_cloth_contacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x,
+void ProximityWorkspace::Memory::gather_places(std::size_t vertices) {
+  // While filling, first_place[v + 1] runs from the first place of v to its end, which is the first of the next.
+  first_place.assign(vertices + 2, 0);
+  const auto all = std::span(found).first(tasks.size());
+  for (const Found& of_task : all)
+    for (const Candidate& candidate : of_task.candidates) ++first_place[static_cast<std::size_t>(candidate.vertex) + 2];
+  std::partial_sum(first_place.begin(), first_place.end(), first_place.begin());
+  places.resize(first_place.back());
+  for (const Found& of_task : all)
+    for (const Candidate& candidate : of_task.candidates)
+      places[first_place[static_cast<std::size_t>(candidate.vertex) + 1]++] = candidate.place;
+}
+
+void find_cloth_contacts(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x,
                          const ProximityOptions& options, ProximityWorkspace& workspace,
                          std::vector<ClothContact>& contacts) {
   contacts.clear();
   Memory& memory = workspace.memory();
   memory.prepare(cloth, tree, x, options.range_m / 2);
   mark_flat_edges(cloth, options.bent, memory);
-  const ClothQuery query(cloth, x, options, memory);
+  const ClothQuery query(cloth, tree, x, options, memory);
 
-  memory.tree.self_tasks(memory.tasks);
+  tree.self_tasks(memory.tasks);
   memory.start_tasks();
   parallel_for(memory.tasks.size(), 1, [&](std::size_t i) { query.walk(memory.tasks[i], memory.found[i]); });
 
-  memory.keys.clear();
-  memory.closest.clear();
-  for (std::size_t i = 0; i < memory.tasks.size(); ++i) {
-    const Memory::Found& found = memory.found[i];
-    memory.keys.insert(memory.keys.end(), found.vertex_keys.begin(), found.vertex_keys.end());
-    memory.closest.insert(memory.closest.end(), found.vertices.begin(), found.vertices.end());
-  }
-  memory.sorted.sort(memory.keys, x.size());
-
+  memory.gather_places(x.size());
   const std::size_t blocks = (x.size() + vertex_grain - 1) / vertex_grain;
   if (memory.reported.size() < blocks) memory.reported.resize(blocks);
   parallel_blocks(x.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
@@ -306,8 +311,10 @@ void find_cloth_contacts(const ClothTopology& cloth, const TriangleTree& tree, s
     out.edges.clear();
     out.vertices.clear();
     for (std::size_t v = begin; v < end; ++v) {
-      const std::span<const Index> candidates = memory.sorted.bucket(v);
-      if (!candidates.empty()) query.choose(static_cast<Index>(v), candidates, out);
+      const auto places =
+          std::span(memory.places).subspan(memory.first_place[v], memory.first_place[v + 1] - memory.first_place[v]);
+      std::sort(places.begin(), places.end());
+      if (!places.empty()) query.choose(static_cast<Index>(v), places, out);
     }
   });
 

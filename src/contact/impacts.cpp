@@ -47,13 +47,18 @@ double least_gap_m(double gap_m) {
 
 class ImpactQuery {
  public:
-  ImpactQuery(const ClothTopology& cloth, std::span<const Vec3> start, std::span<const double> contact_m,
-              const ImpactWorkspace& workspace, std::span<const Pinched> pinched)
-      : cloth_(cloth), start_(start), contact_m_(contact_m), workspace_(workspace), pinched_(pinched) {}
+  ImpactQuery(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+              std::span<const double> contact_m, std::span<const Vec3> displacement_m, std::span<const Pinched> pinched)
+      : cloth_(cloth),
+        tree_(tree),
+        start_(start),
+        contact_m_(contact_m),
+        displacement_m_(displacement_m),
+        pinched_(pinched) {}
 
   void walk(TreeTask task, std::vector<Impact>& found) const {
     const std::size_t most = most_impacts_of_a_task(start_.size());
-    workspace_.tree.visit_self(task, [&](Index a, Index b) {
+    tree_.visit_self(task, [&](Index a, Index b) {
       if (found.size() > most) return;
       const unsigned owned_a = cloth_.owned(a), owned_b = cloth_.owned(b);
       if (owned_a & 7u) meet_vertices(a, owned_a, b, found);
@@ -65,12 +70,12 @@ class ImpactQuery {
  private:
   void meet_vertices(Index a, unsigned owned, Index b, std::vector<Impact>& found) const {
     const Triangle &corners = cloth_.triangle(b), &merged = cloth_.merged_triangle(b);
-    const OuterBox& box = workspace_.tree.triangle_box(b);
+    const OuterBox& box = tree_.triangle_box(b);
     for (std::size_t k = 0; k < 3; ++k) {
       if (!(owned >> k & 1u)) continue;
       const Index v = cloth_.triangle(a)[k], m = cloth_.merged_triangle(a)[k];
       if (m == merged[0] || m == merged[1] || m == merged[2]) continue;
-      if (!workspace_.tree.particle_box(v).overlaps(box)) continue;
+      if (!tree_.particle_box(v).overlaps(box)) continue;
       decide(ContactKind::vertex_face, {v, corners[0], corners[1], corners[2]}, found);
     }
   }
@@ -80,8 +85,8 @@ class ImpactQuery {
       if (!(edges_a >> k & 1u)) continue;
       const Index first = cloth_.triangle_edges(a)[k];
       const Edge& e = cloth_.edge(first);
-      OuterBox box = workspace_.tree.particle_box(e.a);
-      box.include(workspace_.tree.particle_box(e.b));
+      OuterBox box = tree_.particle_box(e.a);
+      box.include(tree_.particle_box(e.b));
       const Index ea = cloth_.merged(e.a), eb = cloth_.merged(e.b);
       for (std::size_t l = 0; l < 3; ++l) {
         if (!(edges_b >> l & 1u)) continue;
@@ -89,8 +94,8 @@ class ImpactQuery {
         const Edge& f = cloth_.edge(second);
         const Index fa = cloth_.merged(f.a), fb = cloth_.merged(f.b);
         if (ea == fa || ea == fb || eb == fa || eb == fb) continue;
-        OuterBox other = workspace_.tree.particle_box(f.a);
-        other.include(workspace_.tree.particle_box(f.b));
+        OuterBox other = tree_.particle_box(f.a);
+        other.include(tree_.particle_box(f.b));
         if (!box.overlaps(other)) continue;
         if (first < second) {
           decide(ContactKind::edge_edge, {e.a, e.b, f.a, f.b}, found);
@@ -105,14 +110,14 @@ class ImpactQuery {
     Impact impact{kind, particle, {}, Vec3::Zero(), no_impact, 0, contact_m_[at(particle[0])], 0};
     for (const Index i : particle) impact.contact_m = std::min(impact.contact_m, contact_m_[at(i)]);
     if (impact.contact_m <= 0 || is_let_be(particle, pinched_)) return;
-    if (decide_impact(gather(particle, start_), gather(particle, workspace_.displacement_m), impact))
-      found.push_back(impact);
+    if (decide_impact(gather(particle, start_), gather(particle, displacement_m_), impact)) found.push_back(impact);
   }
 
   const ClothTopology& cloth_;
+  const TriangleTree& tree_;
   std::span<const Vec3> start_;
   std::span<const double> contact_m_;
-  const ImpactWorkspace& workspace_;
+  std::span<const Vec3> displacement_m_;
   std::span<const Pinched> pinched_;
 };
 
@@ -131,21 +136,20 @@ bool decide_impact(const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, I
   return true;
 }
 
-bool find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+bool find_impacts(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                   std::span<const Vec3> end, std::span<const double> contact_m, ImpactWorkspace& workspace,
                   std::vector<Impact>& impacts, std::span<const Pinched> pinched) {
   TOILE_ASSERT(start.size() == cloth.particle_count() && end.size() == start.size() &&
                contact_m.size() == start.size());
   impacts.clear();
   if (start.empty()) return true;
-  if (!workspace.tree.same_hierarchy(tree)) workspace.tree = tree;
   const double widest_m = *std::max_element(contact_m.begin(), contact_m.end());
-  workspace.tree.refit(start, end, separation_share * widest_m / 2);
+  tree.refit(start, end, separation_share * widest_m / 2);
   workspace.displacement_m.resize(start.size());
   for (std::size_t i = 0; i < start.size(); ++i) workspace.displacement_m[i] = end[i] - start[i];
-  workspace.tree.self_tasks(workspace.tasks);
+  tree.self_tasks(workspace.tasks);
   if (workspace.found.size() < workspace.tasks.size()) workspace.found.resize(workspace.tasks.size());
-  const ImpactQuery query(cloth, start, contact_m, workspace, pinched);
+  const ImpactQuery query(cloth, tree, start, contact_m, workspace.displacement_m, pinched);
   parallel_for(workspace.tasks.size(), 1, [&](std::size_t i) {
     workspace.found[i].clear();
     query.walk(workspace.tasks[i], workspace.found[i]);

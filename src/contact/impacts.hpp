@@ -35,7 +35,6 @@ struct Impact {
 
 // Memory that a caller keeps between queries.
 struct ImpactWorkspace {
-  TriangleTree tree;
   std::vector<TreeTask> tasks;
   std::vector<std::vector<Impact>> found;  // by task
   std::vector<Vec3> displacement_m;
@@ -53,9 +52,9 @@ inline std::size_t most_impacts_of_a_task(std::size_t particles) {
                                   std::vector<Impact>& impacts);
 
 // All impacts, in an order that depends on the input only.  `contact_m` is r per particle, a pair takes the least of
-// its four; 0 exempts, and so does being let be (contact/pinched.hpp; `pinched` per particle, or empty).  Of `tree` only the hierarchy is used.
-// Returns false when there are more than most_impacts, or far too many in one place: then not all are there.
-[[nodiscard]] bool find_impacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+// its four; 0 exempts, and so does being let be (contact/pinched.hpp; `pinched` per particle, or empty).  Of `tree` only the hierarchy is used;
+// its boxes become those of the motion.  Returns false when there are more than most_impacts, or far too many in one place: then not all are there.
+[[nodiscard]] bool find_impacts(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                                 std::span<const Vec3> end, std::span<const double> contact_m,
                                 ImpactWorkspace& workspace, std::vector<Impact>& impacts,
                                 std::span<const Pinched> pinched = {});

@@ -103,21 +103,21 @@ class ProximityWorkspace {
 };
 
 // All contacts of the cloth with itself within range at positions x.  Features that touch (share a merged particle) are
-// skipped.  Of `tree` only the hierarchy is used, its boxes may be those of any motion.
+// skipped.  Of `tree` only the hierarchy is used; its boxes become those of the query.
 // The list is sorted by (kind, particles) and is the same for any number of threads.
-void find_cloth_contacts(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x,
+void find_cloth_contacts(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x,
                          const ProximityOptions& options, ProximityWorkspace& workspace,
                          std::vector<ClothContact>& contacts);
 
 // Body vertices near cloth faces and body ridges near cloth edges, at x and the body's present positions; sorted by
-// kind, then the body's vertex or edge, then the cloth's triangle or edge.  Of `cloth_tree` only the hierarchy is used.
+// kind, then the body's vertex or edge, then the cloth's triangle or edge.  `cloth_tree`: as above.
 //
 // The sign of the gap comes from the body's pseudonormal, so a body feature that has passed through the cloth pushes it
 // back out.  A penetrating record must be confirmed: its point of the cloth has to be inside the body, with its
 // nearest way out on the same side.  Otherwise the far side of a finger or an ear would pull cloth through it. A body
 // vertex whose nearest cloth feature is not the face's interior is left to the edge and L1 constraints, and so are
 // body edges that are hollow or nearly flat (ridge_dip_share): there the cloth's vertices hold the gap.
-void find_body_contacts(const ClothTopology& cloth, const TriangleTree& cloth_tree, std::span<const Vec3> x,
+void find_body_contacts(const ClothTopology& cloth, TriangleTree& cloth_tree, std::span<const Vec3> x,
                         const BodySurface& body, const ProximityOptions& options, ProximityWorkspace& workspace,
                         std::vector<BodyContact>& contacts);
 

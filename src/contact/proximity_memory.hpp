@@ -12,11 +12,33 @@ namespace toile {
 struct ProximityWorkspace::Memory {
   using Keys = std::vector<std::pair<Index, Index>>;
 
+  // Where on a triangle the point next to a vertex lies.  In one number, ascending with the triangle: on a fine mesh every vertex has
+  // dozens of these, and few of them come to anything.
+  class Place {
+   public:
+    Place() = default;
+    Place(Index triangle, const VertexTriangle& at)
+        : packed_(static_cast<std::uint32_t>(triangle) << 4 | static_cast<std::uint32_t>(at.feature) << 2 |
+                  static_cast<std::uint32_t>(at.index)) {}
+    Index triangle() const { return static_cast<Index>(packed_ >> 4); }
+    Feature feature() const { return static_cast<Feature>(packed_ >> 2 & 3u); }
+    std::size_t index() const { return packed_ & 3u; }
+    bool operator<(Place other) const { return packed_ < other.packed_; }
+    static constexpr std::size_t most_triangles = std::size_t{1} << 28;
+
+   private:
+    std::uint32_t packed_ = 0;
+  };
+  struct Candidate {  // a vertex of the cloth within range of a triangle
+    Index vertex;
+    Place place;
+  };
+
   // What one task of the walk finds, in the order of the walk.
   struct Found {
-    Keys vertex_keys, edge_keys;           // features of the two sides
-    std::vector<VertexTriangle> vertices;  // cloth: by vertex_keys = (vertex, triangle)
-    std::vector<ClothContact> edges;       // cloth: by edge_keys
+    std::vector<Candidate> candidates;
+    Keys vertex_keys, edge_keys;      // features of the two sides; vertices: the body's
+    std::vector<ClothContact> edges;  // cloth: by edge_keys
     std::vector<BodyContact> body_vertices, body_edges;
   };
   // What one block of vertices reports.
@@ -25,22 +47,24 @@ struct ProximityWorkspace::Memory {
     std::vector<Index> edge_candidates, vertex_candidates;
   };
 
-  TriangleTree tree;  // the cloth's hierarchy with the query's own boxes
   std::vector<TreeTask> tasks;
   std::vector<Vec3> face_normals;
   std::vector<std::uint8_t> flat;           // [triangle] bit 3 + k: edge k is flat
   std::vector<std::uint8_t> body_features;  // [triangle of the body] as BodySurface::owned_ridges
   std::vector<Found> found;                 // by task
   std::vector<Reported> reported;           // by block of vertices
+  std::vector<std::size_t> first_place;     // [vertex] of its own in places, and the end of the last
+  std::vector<Place> places;
   Keys keys;
-  std::vector<VertexTriangle> closest;
   std::vector<ClothContact> cloth_edges;
   std::vector<BodyContact> body_records;
   BucketOrder sorted;
 
-  // Boxes of the cloth at rest in x, grown by `margin_m`; face normals; room for the tasks.
-  void prepare(const ClothTopology& cloth, const TriangleTree& hierarchy, std::span<const Vec3> x, double margin_m);
+  // Boxes of the cloth at rest in x, grown by `margin_m`; face normals.
+  void prepare(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x, double margin_m);
   void start_tasks();
+  // The candidates of all tasks, by vertex.
+  void gather_places(std::size_t vertices);
 };
 
 // The surroundings of the cloth's features, for the region test.  A seam's partner counts as soon as it is within

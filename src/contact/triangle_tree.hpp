@@ -161,8 +161,6 @@ class TriangleTree {
   // Of the last refit: the box of the motion, grown by the margin.
   const OuterBox& particle_box(Index particle) const { return particle_boxes_[static_cast<std::size_t>(particle)]; }
   const OuterBox& triangle_box(Index triangle) const { return triangle_boxes_[static_cast<std::size_t>(triangle)]; }
-  // True for copies of one tree, whatever their boxes.
-  bool same_hierarchy(const TriangleTree& other) const { return triangles_ == other.triangles_; }
 
  private:
   static constexpr Index leaf_size = 4;

@@ -46,7 +46,7 @@ OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, BodySurface* body, cons
   stepper_.emplace(model_, world_, step_, adaptive);
   set_rest_stretch(1);
   if (outfit.thickness_scale.empty()) outfit.thickness_scale.assign(outfit.state.x.size(), 1);
-  tangles_.emplace(model_.topology, outfit.mesh.triangles);
+  tangles_.emplace(model_.topology, model_.mesh.triangles);
   tangles_->find(outfit.state.x);
 }
 

@@ -66,6 +66,7 @@ class OutfitRun {
   bool settled() const;
   PhaseSeconds seconds() const { return stepper_->integrator().seconds(); }
   const ClothModel& model() const { return model_; }
+  LayerGap layer_gap() { return stepper_->integrator().contact_rows().layer_gap(outfit_->state.x); }
   std::span<const Pin> pins() const { return world_.pins; }  // of the last frame
 
  private:

@@ -325,6 +325,9 @@ class Run {
     }
     run.set_events(std::move(events));
     recorder_.emplace(*writer_, outfit_, rest_stretch, scene_.fps, body_triangles_, body_x_);
+    // What hangs now is the run's: a second and a third copy of a fine mesh are large.
+    cloth_.clear();
+    outfit_.mesh = {};
     PhaseReport& phase = report_.drape;
     report_.ended = "time";
     const bool moving = motion_.has_value();
@@ -382,17 +385,17 @@ class Run {
     add(phase, frame);
     if (also != nullptr) add(*also, frame);
     if (!frame.ok) {
-      collapse("in frame " + std::to_string(k), frame, outfit_.mesh, outfit_.state.x);
+      collapse("in frame " + std::to_string(k), frame, run.model().mesh, outfit_.state.x);
       return false;
     }
     recorder_->frame(outfit_.state.x, body_x_);
     return true;
   }
 
-  void close(const OutfitRun& run) {
+  void close(OutfitRun& run) {
     report_.drape.simulated_s = report_.drape.frames * frame_s();
     set_seconds(report_.drape, run.seconds());
-    report_.layer_gap = measure_layer_gap(run.model(), outfit_.state.x);
+    report_.layer_gap = run.layer_gap();
   }
 
   Report finish() {

@@ -59,11 +59,24 @@ Vec3 ContactRows::relative_velocity(const Pair& pair, const Vec3s& v, double h_s
   return sum;
 }
 
+// Rest lengths may have changed; the hierarchy is that of the first positions.
+void ContactRows::ready_for(std::span<const Vec3> x) {
+  distance_.update(*model_, topology_);
+  if (tree_.triangle_count() == 0) tree_ = TriangleTree(x, model_->mesh.triangles);
+}
+
+LayerGap ContactRows::layer_gap(std::span<const Vec3> x) {
+  ready_for(x);
+  ProximityOptions options;
+  options.range_m = layer_gap_reach * distance_.largest_m();
+  find_cloth_contacts(topology_, tree_, x, options, workspace_, cloth_contacts_);
+  return measure_layer_gap(cloth_contacts_, distance_, x.size());
+}
+
 void ContactRows::detect(const ClothState& state, double h_s) {
   pairs_.clear();
   h_s_ = h_s;
-  distance_.update(*model_, topology_);
-  if (tree_.triangle_count() == 0) tree_ = TriangleTree(state.x, model_->mesh.triangles);
+  ready_for(state.x);
   // How far ahead pairs are watched does not shrink with a thinned r: how fast they close has nothing to do with it.
   const double r_max = std::max(options_.cloth_cloth ? distance_.largest_m() : 0, body_ ? body_r_m_ : 0);
   const double range = (1 + options_.look_ahead) * r_max;

@@ -17,6 +17,7 @@
 #include "step/bristle.hpp"
 #include "step/flypaper.hpp"
 #include "step/layer_distance.hpp"
+#include "step/layer_gap.hpp"
 #include "step/step_formula.hpp"
 
 #include <span>
@@ -67,8 +68,11 @@ class ContactRows {
   // What the safe filter asks for: whose features touch, a hierarchy over the triangles (after detect), and the distance that neighbours
   // keep, per particle: what it keeps of a gap is far less than either.
   const ClothTopology& topology() const { return topology_; }
-  const TriangleTree& tree() const { return tree_; }
+  TriangleTree& tree() { return tree_; }
   std::span<const double> contact_m() const { return distance_.of_neighbours_m(); }
+
+  // How near layers lie at x, of cloth without open seams.  With the memory of `detect`, whose pairs it leaves alone.
+  LayerGap layer_gap(std::span<const Vec3> x);
 
   int active() const;
   std::size_t candidates() const { return pairs_.size(); }
@@ -118,6 +122,7 @@ class ContactRows {
   void take_over_contacts();
   void aim_at_the_end(Pair& pair, const ClothState& state, std::span<const Vec3> dv, const StepFormula& step) const;
   void find_acting_edges();
+  void ready_for(std::span<const Vec3> x);
 
   const ClothModel* model_;
   const BodySurface* body_;

@@ -49,7 +49,8 @@ void LayerDistance::measure(const ClothModel& model, const ClothTopology& topolo
 
 void LayerDistance::find_neighbours(const std::vector<RestEdge>& edges, const ClothTopology& topology) {
   const std::size_t n = full_m_.size();
-  neighbours_.assign(n, {});
+  neighbours_.offsets.assign(n + 1, 0);
+  neighbours_.values.clear();
   const auto thinned = [&](std::size_t i) { return full_m_[i] < thickness_m_[i]; };
   std::vector<char> any(n, 0);
   for (std::size_t i = 0; i < n; ++i) any[i] = thinned(i) ? 1 : 0;
@@ -68,12 +69,13 @@ void LayerDistance::find_neighbours(const std::vector<RestEdge>& edges, const Cl
     around[i].emplace_back(to, 0);
     around[at(to)].emplace_back(static_cast<Index>(i), 0);
   }
+  std::vector<std::vector<Index>> neighbours(n);
   // The shortest ways from one particle, as far as they count (Dijkstra; a handful of particles each).
   parallel_for(n, 16, [&](std::size_t i) {
     if (!thinned(i)) return;
     const double reach = neighbour_share * thickness_m_[i] + longest;
     std::vector<std::pair<double, Index>> open{{0, static_cast<Index>(i)}};
-    std::vector<Index>& found = neighbours_[i];
+    std::vector<Index>& found = neighbours[i];
     while (!open.empty()) {
       std::pop_heap(open.begin(), open.end(), std::greater<>());
       const auto [way, particle] = open.back();
@@ -88,6 +90,11 @@ void LayerDistance::find_neighbours(const std::vector<RestEdge>& edges, const Cl
       }
     }
   });
+  for (std::size_t i = 0; i < n; ++i)
+    neighbours_.offsets[i + 1] = neighbours_.offsets[i] + static_cast<Index>(neighbours[i].size());
+  neighbours_.values.reserve(static_cast<std::size_t>(neighbours_.offsets.back()));
+  for (const std::vector<Index>& found : neighbours)
+    neighbours_.values.insert(neighbours_.values.end(), found.begin(), found.end());
 }
 
 void LayerDistance::set_scale(std::span<const double> scale) {
@@ -101,8 +108,8 @@ void LayerDistance::set_scale(std::span<const double> scale) {
 }
 
 bool LayerDistance::are_neighbours(Index a, Index b) const {
-  return std::binary_search(neighbours_[at(a)].begin(), neighbours_[at(a)].end(), b) ||
-         std::binary_search(neighbours_[at(b)].begin(), neighbours_[at(b)].end(), a);
+  const auto of_a = neighbours_.row(a), of_b = neighbours_.row(b);
+  return std::binary_search(of_a.begin(), of_a.end(), b) || std::binary_search(of_b.begin(), of_b.end(), a);
 }
 
 LayerDistance::Between LayerDistance::between(ContactKind kind, const std::array<Index, 4>& particle) const {

@@ -44,7 +44,7 @@ class LayerDistance {
   int rest_version_ = 0;                              // of the model, when it was measured
   std::vector<double> thickness_m_, full_m_, scale_;  // [particle]; full_m_ as of_neighbours_m_, unscaled
   std::vector<double> of_neighbours_m_;               // [particle]
-  std::vector<std::vector<Index>> neighbours_;        // [particle] ascending; empty where full_m_ is the thickness
+  IndexRows neighbours_;                              // [particle] ascending; none where full_m_ is the thickness
   double largest_m_ = 0;
 };
 

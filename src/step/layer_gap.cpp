@@ -1,17 +1,11 @@
 #include "step/layer_gap.hpp"
 
-#include "contact/proximity.hpp"
-#include "contact/triangle_tree.hpp"
-#include "step/layer_distance.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <vector>
 
 namespace toile {
 namespace {
-
-constexpr double reach = 2;  // in r: what is farther does not lie on the other layer
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
@@ -21,21 +15,14 @@ double median(std::vector<double>& values) {
 
 }  // namespace
 
-LayerGap measure_layer_gap(const ClothModel& model, std::span<const Vec3> x) {
+LayerGap measure_layer_gap(std::span<const ClothContact> contacts, const LayerDistance& distance,
+                           std::size_t particles) {
   constexpr double none = std::numeric_limits<double>::infinity();
   LayerGap result{0, 0, none, none, 0, 0};
-  const ClothTopology topology(x.size(), model.mesh.triangles, model.topology);
-  const TriangleTree tree(x, model.mesh.triangles);
-  const LayerDistance distance(model, topology);
-  ProximityWorkspace workspace;
-  std::vector<ClothContact> contacts;
-  ProximityOptions options;
-  options.range_m = reach * distance.largest_m();
-  find_cloth_contacts(topology, tree, x, options, workspace, contacts);
-  std::vector<double> nearest_m(x.size(), none), nearest_share(x.size(), none);
+  std::vector<double> nearest_m(particles, none), nearest_share(particles, none);
   for (const ClothContact& contact : contacts) {
     const double r = distance.between(contact.kind, contact.particle).full_m;
-    if (r <= 0 || contact.gap_m >= reach * r) continue;
+    if (r <= 0 || contact.gap_m >= layer_gap_reach * r) continue;
     ++result.pairs;
     const double share = contact.gap_m / r;
     result.least_m = std::min(result.least_m, contact.gap_m);

@@ -4,7 +4,8 @@
 //   asked   = r of the pair, unscaled (step/layer_distance.hpp)
 //   nearest = of a vertex, the least gap to a face, edge or vertex of another layer, where that is below 2 r
 #pragma once
-#include "assembly/cloth_model.hpp"
+#include "contact/proximity.hpp"
+#include "step/layer_distance.hpp"
 
 #include <span>
 
@@ -17,7 +18,10 @@ struct LayerGap {
   double median_m = 0, median_share = 0;  // of `nearest`
 };
 
-// Of cloth without open seams; `x` in m, per particle.
-LayerGap measure_layer_gap(const ClothModel& model, std::span<const Vec3> x);
+inline constexpr double layer_gap_reach = 2;  // in r: what is farther does not lie on the other layer
+
+// Of all contacts within layer_gap_reach of the largest r, of cloth without open seams.
+LayerGap measure_layer_gap(std::span<const ClothContact> contacts, const LayerDistance& distance,
+                           std::size_t particles);
 
 }  // namespace toile

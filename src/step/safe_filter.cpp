@@ -48,7 +48,7 @@ double counted_share(const Vec3& correction_m, const Vec3& v_m_per_s, double h_s
   return std::min(1.0, h_s * (against / length + 1 / base_h_s));
 }
 
-FilterReport SafeFilter::operator()(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+FilterReport SafeFilter::operator()(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                                     std::span<const double> inverse_mass, std::span<const double> contact_m,
                                     bool truncate, std::span<Vec3> end, const BodyGuard* guard,
                                     std::span<const double> before_body, std::span<const Pinched> pinched) {
@@ -130,7 +130,7 @@ void SafeFilter::push_apart(std::span<const double> inverse_mass, std::span<cons
   }
 }
 
-void SafeFilter::cut_short(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+void SafeFilter::cut_short(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                            std::span<const double> inverse_mass, std::span<const double> contact_m,
                            std::span<const Pinched> pinched, std::span<Vec3> end, FilterReport& report) {
   const std::size_t n = start.size();

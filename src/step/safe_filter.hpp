@@ -49,7 +49,7 @@ class SafeFilter {
   // (0: not guarded; empty: none is).  With `truncate` the result is free of impacts of cloth with cloth, without it `left` may
   // be positive.  `before_body` are the inverse masses against the body; without a guard there is no body.
   // `pinched` [particle], or empty: pairs that are let be are not looked at (contact/pinched.hpp).
-  FilterReport operator()(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+  FilterReport operator()(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                           std::span<const double> inverse_mass, std::span<const double> contact_m, bool truncate,
                           std::span<Vec3> end, const BodyGuard* guard = nullptr,
                           std::span<const double> before_body = {}, std::span<const Pinched> pinched = {});
@@ -64,7 +64,7 @@ class SafeFilter {
  private:
   void push_apart(std::span<const double> inverse_mass, std::span<const double> before_body,
                   std::span<const Pinched> pinched, const BodyGuard* guard, std::span<Vec3> end);
-  void cut_short(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
+  void cut_short(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                  std::span<const double> inverse_mass, std::span<const double> contact_m,
                  std::span<const Pinched> pinched, std::span<Vec3> end, FilterReport& report);
 

@@ -25,7 +25,8 @@ struct Scene {
     static ProximityWorkspace workspace;
     const ClothTopology features(cloth.x.size(), cloth.triangles, topology);
     std::vector<BodyContact> list;
-    find_body_contacts(features, TriangleTree(cloth.x, cloth.triangles), cloth.x, body, options, workspace, list);
+    TriangleTree tree(cloth.x, cloth.triangles);
+    find_body_contacts(features, tree, cloth.x, body, options, workspace, list);
     return list;
   }
 };

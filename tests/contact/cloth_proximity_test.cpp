@@ -32,7 +32,7 @@ struct Cloth {
 std::vector<ClothContact> contacts_of(const Cloth& cloth, double range) {
   static ProximityWorkspace workspace;  // one for all: it must not remember anything
   const ClothTopology topology(cloth.mesh.x.size(), cloth.mesh.triangles, cloth.topology, cloth.merged);
-  const TriangleTree tree(cloth.mesh.x, cloth.mesh.triangles);
+  TriangleTree tree(cloth.mesh.x, cloth.mesh.triangles);
   std::vector<ClothContact> contacts;
   find_cloth_contacts(topology, tree, cloth.mesh.x, {range, 0, region_tolerance, cloth.bent}, workspace, contacts);
   return contacts;
@@ -444,7 +444,7 @@ TEST(ClothContacts, TheListDoesNotDependOnTheNumberOfThreads) {
   for (Vec3& p : mesh.x) p[1] += 0.004 * std::sin(p[0] * 90) * std::cos(p[2] * 70) + random.in(-5e-4, 5e-4);
   const Topology topology = build_topology(static_cast<Index>(mesh.x.size()), mesh.triangles);
   const ClothTopology cloth(mesh.x.size(), mesh.triangles, topology);
-  const TriangleTree tree(mesh.x, mesh.triangles);
+  TriangleTree tree(mesh.x, mesh.triangles);
   std::vector<ClothContact> one, many;
   ProximityWorkspace workspace;
   with_threads(1, [&] { find_cloth_contacts(cloth, tree, mesh.x, {}, workspace, one); });
@@ -467,7 +467,7 @@ TEST(ClothContacts, SaysWhenThePositionsAreNotThoseOfTheCloth) {
   contact_test::add_sheet(mesh, 2, 2, 0.01, Vec3::Zero());
   const Topology topology = build_topology(static_cast<Index>(mesh.x.size()), mesh.triangles);
   const ClothTopology cloth(mesh.x.size(), mesh.triangles, topology);
-  const TriangleTree tree(mesh.x, mesh.triangles);
+  TriangleTree tree(mesh.x, mesh.triangles);
   mesh.x.pop_back();
   ProximityWorkspace workspace;
   std::vector<ClothContact> contacts;

@@ -1,6 +1,8 @@
 // How near layers lie to each other, of layers that were put where they lie.
 #include "step/layer_gap.hpp"
 
+#include "step/contact_rows.hpp"
+
 #include "support/sheets.hpp"
 
 #include <gtest/gtest.h>
@@ -17,6 +19,10 @@ constexpr double edge_m = 0.02;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+LayerGap gap_of(const ClothModel& model, const Vec3s& x) {
+  return ContactRows(model, nullptr, {}, 0, 0, {}).layer_gap(x);
+}
+
 struct Layers {
   // Sheets of 12 cm, one over the other, each of its own thickness.
   Layers(double gap_m, const std::array<double, 2>& thickness_m) : sheet(test::stack(0.12, edge_m, gap_m, 2)) {
@@ -24,7 +30,7 @@ struct Layers {
     for (std::size_t k = 0; k < 2; ++k) fabrics[k].thickness_m = thickness_m[k];
     model = build_model(sheet.mesh, fabrics, {});
   }
-  LayerGap gap() const { return measure_layer_gap(model, sheet.x); }
+  LayerGap gap() const { return gap_of(model, sheet.x); }
   Sheet sheet;
   ClothModel model;
 };
@@ -78,7 +84,7 @@ TEST(LayerGap, WhereOnlyEdgesLieOnEdgesThereIsALeastAndNoMedian) {
     test::add_sheet(strips, one, Vec3::Zero(), across ? "across" : "along");
   }
   const Fabric fabric;
-  const LayerGap found = measure_layer_gap(build_model(strips.mesh, {&fabric, 1}, {}), strips.x);
+  const LayerGap found = gap_of(build_model(strips.mesh, {&fabric, 1}, {}), strips.x);
   EXPECT_GT(found.pairs, 0);
   EXPECT_EQ(found.particles, 0);
   EXPECT_NEAR(found.least_m, 3e-3, 1e-12);
@@ -89,7 +95,7 @@ TEST(LayerGap, OfASingleSheetThereIsNone) {
   const Sheet sheet = test::equilateral_sheet(0.12, 0.12, edge_m);
   const Fabric fabric;
   const ClothModel model = build_model(sheet.mesh, {&fabric, 1}, {});
-  EXPECT_EQ(measure_layer_gap(model, sheet.x).particles, 0);
+  EXPECT_EQ(gap_of(model, sheet.x).particles, 0);
 }
 
 }  // namespace

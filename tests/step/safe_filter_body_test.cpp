@@ -23,7 +23,7 @@ struct Ball {
   long through(int frames) {
     const Topology topology = build_topology(run.model.mesh.particle_count, run.model.mesh.triangles);
     const ClothTopology cloth(run.state.x.size(), run.model.mesh.triangles, topology);
-    const TriangleTree tree(run.state.x, run.model.mesh.triangles);
+    TriangleTree tree(run.state.x, run.model.mesh.triangles);
     BodyImpactWorkspace workspace;
     std::vector<char> marked;
     long most = 0;
@@ -78,8 +78,8 @@ TEST(SafeFilterBody, WhatIsThroughAtTheStartMayLeave) {
   const ClothTopology cloth(run.state.x.size(), run.model.mesh.triangles, topology);
   BodyImpactWorkspace workspace;
   std::vector<char> marked;
-  EXPECT_FALSE(mark_through_body(cloth, TriangleTree(run.state.x, run.model.mesh.triangles), run.state.x, body,
-                                 workspace, marked));
+  TriangleTree tree(run.state.x, run.model.mesh.triangles);
+  EXPECT_FALSE(mark_through_body(cloth, tree, run.state.x, body, workspace, marked));
 }
 
 }  // namespace

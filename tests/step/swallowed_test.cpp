@@ -41,7 +41,7 @@ double least_gap(const ClothRun& run, const BodySurface& body) {
 bool is_through(const ClothRun& run, const BodySurface& body) {
   const Topology topology = build_topology(run.model.mesh.particle_count, run.model.mesh.triangles);
   const ClothTopology cloth(run.state.x.size(), run.model.mesh.triangles, topology);
-  const TriangleTree tree(run.state.x, run.model.mesh.triangles);
+  TriangleTree tree(run.state.x, run.model.mesh.triangles);
   BodyImpactWorkspace workspace;
   std::vector<char> marked;
   return mark_through_body(cloth, tree, run.state.x, body, workspace, marked);
