@@ -8,46 +8,39 @@ namespace toile {
 BoxTree::BoxTree(std::span<const Triangle> triangles, std::span<const Vec3> x) {
   const std::size_t count = triangles.size();
   if (count == 0) return;
-  std::vector<ExactBox> boxes(count);
   std::vector<Vec3> centres(count);
   for (std::size_t t = 0; t < count; ++t) {
-    for (const Index i : triangles[t]) boxes[t].add(x[static_cast<std::size_t>(i)]);
-    centres[t] = 0.5 * boxes[t].low + 0.5 * boxes[t].high;
+    ExactBox box;
+    for (const Index i : triangles[t]) box.add(x[static_cast<std::size_t>(i)]);
+    centres[t] = 0.5 * box.low + 0.5 * box.high;
   }
   order_.resize(count);
   std::iota(order_.begin(), order_.end(), 0);
   nodes_.reserve(count);
-  build(0, count, boxes, centres);
-  leaf_boxes_.reserve(count);
-  for (const Index t : order_) leaf_boxes_.push_back(boxes[static_cast<std::size_t>(t)]);
+  build(0, count, centres);
+  leaf_boxes_.resize(count);
+  refit(triangles, x);
 }
 
 // Recursion is as deep as the tree: at most 31.
-ExactBox BoxTree::build(std::size_t first, std::size_t last, std::span<const ExactBox> boxes,
-                        std::span<const Vec3> centres) {
+void BoxTree::build(std::size_t first, std::size_t last, std::span<const Vec3> centres) {
   const std::size_t self = nodes_.size();
   nodes_.push_back({{}, static_cast<Index>(first), static_cast<Index>(last - first)});
-  ExactBox box;
-  if (last - first <= leaf_size) {
-    for (std::size_t k = first; k < last; ++k) box.add(boxes[static_cast<std::size_t>(order_[k])]);
-  } else {
-    ExactBox spread;
-    for (std::size_t k = first; k < last; ++k) spread.add(centres[static_cast<std::size_t>(order_[k])]);
-    int axis = 0;
-    (spread.high - spread.low).maxCoeff(&axis);
-    const std::size_t middle = first + (last - first) / 2;
-    const auto at = [&](std::size_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
-    std::nth_element(at(first), at(middle), at(last), [&](Index s, Index t) {
-      const double cs = centres[static_cast<std::size_t>(s)][axis], ct = centres[static_cast<std::size_t>(t)][axis];
-      return cs < ct || (cs == ct && s < t);
-    });
-    box = build(first, middle, boxes, centres);
-    nodes_[self].next = static_cast<Index>(nodes_.size());
-    nodes_[self].count = 0;
-    box.add(build(middle, last, boxes, centres));
-  }
-  nodes_[self].box = box;
-  return box;
+  if (last - first <= leaf_size) return;
+  ExactBox spread;
+  for (std::size_t k = first; k < last; ++k) spread.add(centres[static_cast<std::size_t>(order_[k])]);
+  int axis = 0;
+  (spread.high - spread.low).maxCoeff(&axis);
+  const std::size_t middle = first + (last - first) / 2;
+  const auto at = [&](std::size_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
+  std::nth_element(at(first), at(middle), at(last), [&](Index s, Index t) {
+    const double cs = centres[static_cast<std::size_t>(s)][axis], ct = centres[static_cast<std::size_t>(t)][axis];
+    return cs < ct || (cs == ct && s < t);
+  });
+  build(first, middle, centres);
+  nodes_[self].next = static_cast<Index>(nodes_.size());
+  nodes_[self].count = 0;
+  build(middle, last, centres);
 }
 
 void BoxTree::refit(std::span<const Triangle> triangles, std::span<const Vec3> x) {

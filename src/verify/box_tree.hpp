@@ -110,7 +110,7 @@ class BoxTree {
     Index next;   // leaf: first entry of order_; inner: the second child (the first follows its parent)
     Index count;  // leaf: entries; inner: 0
   };
-  ExactBox build(std::size_t first, std::size_t last, std::span<const ExactBox> boxes, std::span<const Vec3> centres);
+  void build(std::size_t first, std::size_t last, std::span<const Vec3> centres);
 
   std::vector<Node> nodes_;
   std::vector<Index> order_;

@@ -43,6 +43,7 @@ std::vector<EdgeEnds> edges_of(std::span<const Triangle> triangles) {
     }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  edges.shrink_to_fit();  // nearly each was there twice
   return edges;
 }
 
