@@ -283,6 +283,8 @@ void ProximityWorkspace::Memory::gather_places(std::size_t vertices) {
   for (const Found& of_task : all)
     for (const Candidate& candidate : of_task.candidates) ++first_place[static_cast<std::size_t>(candidate.vertex) + 2];
   std::partial_sum(first_place.begin(), first_place.end(), first_place.begin());
+  if (first_place.back() > places.capacity())
+    places.reserve(2 * first_place.back());  // or it would grow time and again
   places.resize(first_place.back());
   for (const Found& of_task : all)
     for (const Candidate& candidate : of_task.candidates)

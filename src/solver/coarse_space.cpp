@@ -214,6 +214,8 @@ void CoarseSpace<T>::find_stale_rows(const LinearSystem<T>& system) {
   const bool all = version_ != system.A().version();
   version_ = system.A().version();
   was_held_.resize(n, 0);
+  held_.reserve(n);  // not touched where nothing is held
+  S_of_held_.reserve(n);
   stale_.assign(n, all);
   const auto compare = [&](Index i, const Mat3& before) {
     if (before == constraints.S(i)) return;
