@@ -1,10 +1,13 @@
-// A step allocates nothing once its buffers have grown to the contacts at hand.  Counted at malloc, below operator new, because
-// Eigen's matrices call malloc themselves.  One thread: what TBB takes for its own tasks is not ours.
+// A step allocates nothing once its buffers have grown to the contacts at hand, and all of it together is not too much.  Counted at
+// malloc, below operator new, because Eigen's matrices call malloc themselves.  One thread: what TBB takes for its own tasks is not ours.
 #include "support/bodies.hpp"
 #include "support/run_cloth.hpp"
 
 #include "core/parallel.hpp"
 
+#include <malloc.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <numeric>
 
@@ -12,8 +15,16 @@
 namespace {
 bool counting = false;
 long allocations = 0;
-void count() {
-  if (counting) ++allocations;
+long held_bytes = 0, most_held_bytes = 0;  // of what was allocated and freed while counting
+void* count(void* memory) {
+  if (!counting) return memory;
+  ++allocations;
+  held_bytes += static_cast<long>(malloc_usable_size(memory));
+  most_held_bytes = std::max(most_held_bytes, held_bytes);
+  return memory;
+}
+void uncount(void* memory) {
+  if (counting) held_bytes -= static_cast<long>(malloc_usable_size(memory));
 }
 }  // namespace
 
@@ -23,22 +34,20 @@ void* __libc_malloc(std::size_t) noexcept;
 void* __libc_calloc(std::size_t, std::size_t) noexcept;
 void* __libc_realloc(void*, std::size_t) noexcept;
 void* __libc_memalign(std::size_t, std::size_t) noexcept;
+void __libc_free(void*) noexcept;
 
-void* malloc(std::size_t size) noexcept {
-  count();
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t number, std::size_t size) noexcept {
-  count();
-  return __libc_calloc(number, size);
-}
+void* malloc(std::size_t size) noexcept { return count(__libc_malloc(size)); }
+void* calloc(std::size_t number, std::size_t size) noexcept { return count(__libc_calloc(number, size)); }
 void* realloc(void* old, std::size_t size) noexcept {
-  count();
-  return __libc_realloc(old, size);
+  uncount(old);
+  return count(__libc_realloc(old, size));
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
-  count();
-  return __libc_memalign(alignment, size);
+  return count(__libc_memalign(alignment, size));
+}
+void free(void* memory) noexcept {
+  uncount(memory);
+  __libc_free(memory);
 }
 }
 
@@ -111,6 +120,29 @@ TEST(Allocation, OnlyForGrowthOfContactsOfASheetFoldingOverABall) {
   EXPECT_GT(run.stepper->integrator().body_constraints().touching(), 10);
   EXPECT_LE(sum(counts, 1), 150);
   EXPECT_LE(sum(counts, 40), 4);
+}
+
+// The mesh is fine beside the cloth's thickness, so that every vertex has dozens of triangles within the range of contact.
+TEST(Allocation, AFineSheetOverABallTakesNoMoreThanItDid) {
+  constexpr long most_bytes_per_particle = 6500;  // 6220, and room for another library
+  BodySurface ball = test::sphere(Vec3(0, -0.1, 0), 0.1, 4);
+  Sheet sheet = test::equilateral_sheet(0.2, 0.2, 0.0035);
+  for (Vec3& p : sheet.x) p += Vec3(-0.1, 0.004, 0.1);
+  const auto particles = static_cast<long>(sheet.x.size());
+  held_bytes = most_held_bytes = 0;
+  counting = true;
+  {
+    ClothRun run(sheet, Fabric{});
+    run.world.body = &ball;
+    run.start();
+    with_threads(1, [&] {
+      for (int f = 0; f < 3; ++f) run.frame();
+      static_cast<void>(run.stepper->integrator().contact_rows().layer_gap(run.state.x));
+    });
+  }
+  counting = false;
+  RecordProperty("bytes_per_particle", static_cast<int>(most_held_bytes / particles));
+  EXPECT_LE(most_held_bytes, most_bytes_per_particle * particles) << most_held_bytes / particles << " per particle";
 }
 
 }  // namespace
