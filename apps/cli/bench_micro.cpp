@@ -3,6 +3,7 @@
 // The state is the paper's first row after 45 frames, so that contact queries find what they find in a run.  Medians: a mean would
 // hold what else the machine did.  `make bench` has the solver's pieces with more statistics.
 #include "bench.hpp"
+#include "bench_limits.hpp"
 #include "bench_probe.hpp"
 #include "body/mannequin.hpp"
 #include "contact/ccd.hpp"
@@ -148,6 +149,7 @@ BenchResult bench_micro(BenchRuns& runs) {
   Stopwatches time(runs, result.tables.front().rows);
   measure_solver(time, drape, system);
   measure_contact(time, drape);
+  result.tables.push_back(measure_limits(runs));
   return result;
 }
 

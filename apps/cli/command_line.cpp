@@ -58,6 +58,9 @@ CLI::App* add_bench(CLI::App& app, CommandLine& line) {
       ->delimiter(',')
       ->check(CLI::IsMember({"1", "2", "3", "4", "5", "6", "7", "8", "9", "cg", "explicit"}));
   CLI::App* micro = bench->add_subcommand("micro", "Times of the pieces of a step");
+  micro->add_option("--limits", line.limit_sizes, "Particles of the table of limits, 2602,8800,100000 (the default)")
+      ->delimiter(',')
+      ->check(CLI::Range(50, 1000000));
   CLI::App* torture = bench->add_subcommand("torture", "Scenes that break cloth simulators: which hold");
   torture->add_option("--scenes", line.rows, "By their numbers, 01,12 (default: all)")->delimiter(',');
   torture->add_option("--size", line.torture_size, "S, M or L")->check(CLI::IsMember({"S", "M", "L"}));
@@ -171,6 +174,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     if (line.sizes.empty() && line.inputs.front() == "scaling") line.sizes = {500, 899, 2602, 7359};
     if (line.repeats == 0) line.repeats = line.inputs.front() == "micro" ? 9 : 1;
     if (line.sizes.empty()) line.sizes = {2602};
+    if (line.limit_sizes.empty()) line.limit_sizes = {2602, 8800, 100000};
   }
   if (chosen == demo && !name.empty()) line.inputs = {name};
   return line;

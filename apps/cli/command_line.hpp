@@ -28,6 +28,7 @@ struct CommandLine {
   bool csv = false;
   int repeats = 0;                // 0: 1, or 9 of the pieces in `bench micro`
   std::vector<int> sizes;         // particles
+  std::vector<int> limit_sizes;   // of the table of limits in `bench micro`
   std::vector<std::string> rows;  // of paper, scenes of torture; empty: all
   std::optional<int> bench_frames;
   std::string torture_size = "S";

@@ -159,7 +159,7 @@ TEST(Bench, ClaimsCountIterationsOfThePaperAndOfOurs) {
 
 TEST(Bench, MicroTimesEveryPiece) {
   const Scratch scratch;
-  const Json json = bench(scratch, {"micro", "--size", "200", "--repeat", "3"});
+  const Json json = bench(scratch, {"micro", "--size", "200", "--limits", "200", "--repeat", "3"});
   const auto& rows = json.at("rows").array();
   EXPECT_EQ(rows.size(), 13u);
   for (const Json& row : rows) {
@@ -169,6 +169,29 @@ TEST(Bench, MicroTimesEveryPiece) {
                 1e-6 * 1e6 * row.at("milliseconds").number());
   }
   EXPECT_EQ(json.at("repeats").integer(), 3);
+}
+
+TEST(Bench, MicroPutsPiecesBesideWhatTheMachineReads) {
+  const Scratch scratch;
+  const Json json =
+      bench(scratch, {"micro", "--size", "200", "--limits", "100,2200", "--repeat", "3", "--threads", "1"});
+  const auto& limits = json.at("limits").array();
+  ASSERT_EQ(limits.size(), 8u) << "four pieces, two sizes";
+  std::map<std::string, double> moved;  // at the larger size
+  for (const Json& row : limits) {
+    const std::string piece = row.at("piece").string();
+    EXPECT_EQ(row.at("threads").integer(), 1);
+    EXPECT_GT(row.at("microseconds").number(), 0) << piece;
+    EXPECT_GT(row.at("limit_microseconds").number(), 0) << piece;
+    EXPECT_GE(row.at("moved_bytes").number(), row.at("worked_on_bytes").number()) << piece;
+    EXPECT_NEAR(row.at("share_percent").number(),
+                100 * row.at("limit_microseconds").number() / row.at("microseconds").number(), 1e-6);
+    moved[piece] = row.at("moved_bytes").number();
+  }
+  // Of a regular sheet a particle has six blocks of its own, of 52 bytes, fewer at the rim; an iteration reads them twice.
+  EXPECT_NEAR(moved["matrix product, float"] / 2200, 6 * 52 + 84, 25);
+  EXPECT_NEAR(moved["iterate block_ssor"] / 2200, 2 * 6 * 52 + 488, 50);
+  EXPECT_GT(moved["iterate block_ssor_coarse"], moved["iterate block_ssor"]);
 }
 
 TEST(Bench, CsvHasTheKeysAndValuesOfTheRows) {
@@ -249,6 +272,8 @@ TEST(Bench, OptionsThatMeanNothingAreUsageErrors) {
                                              {"bench", "stiffness", "--sizes", "100"},
                                              {"bench", "paper", "--rows", "10"},
                                              {"bench", "micro", "--frames", "3"},
+                                             {"bench", "micro", "--limits", "10"},
+                                             {"bench", "scaling", "--limits", "100"},
                                              {"bench", "torture", "--size", "XL"},
                                              {"bench", "torture", "--scenes", "99"},
                                              {"bench", "paper", "--starts", "2"},
