@@ -3,6 +3,7 @@
 #include "body_option.hpp"
 #include "commands.hpp"
 #include "core/parallel.hpp"
+#include "core/stopwatch.hpp"
 #include "embedded.hpp"
 #include "io/file.hpp"
 #include "sim/json_text.hpp"
@@ -210,12 +211,14 @@ std::string summary(const Report& report, const std::string& directory) {
 }  // namespace
 
 ExitCode simulate_command(const CommandLine& line) {
+  const Stopwatch since_start;
   if (line.list) return list_demos(line);
   const Scene scene = scene_of(line);
   ProgressBar bar(line);
   RunOptions options;
   options.directory = directory_of(line, scene);
   options.command = line.typed;
+  options.seconds_before = since_start.seconds();
   if (line.command == CommandLine::Command::demo) options.read = embedded_text;
   options.progress = [&](const Progress& progress) { bar.show(progress); };
   options.stop = interrupted;

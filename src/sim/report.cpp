@@ -34,6 +34,20 @@ void add_seconds_per_frame(JsonText& text, const PhaseReport& phase) {
   text.end_object();
 }
 
+void add_startup(JsonText& text, const StartupReport& startup) {
+  const double parts = startup.scene + startup.cloth + startup.body + startup.placement + startup.crossings;
+  text.key("startup_seconds");
+  text.begin_object();
+  text.member("total", startup.total);
+  text.member("scene", startup.scene);
+  text.member("cloth", startup.cloth);
+  text.member("body", startup.body);
+  text.member("placement", startup.placement);
+  text.member("crossings", startup.crossings);
+  text.member("other", startup.total - parts);
+  text.end_object();
+}
+
 void add_steps(JsonText& text, const PhaseReport& phase) {
   text.member("steps", phase.steps);
   text.member("steps_rejected", phase.steps_rejected);
@@ -204,6 +218,7 @@ std::string to_json(const Report& report, int indent) {
   text.member("frames", report.frames);
   add_steps(text, report.drape);
   text.member("seconds_total", report.seconds_total);
+  add_startup(text, report.startup);
   add_seconds_per_frame(text, report.drape);
   add_cg(text, report.drape);
   if (!report.rest_stretch.empty()) {

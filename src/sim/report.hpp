@@ -31,6 +31,15 @@ struct PhaseReport {  // of the sewing, or of everything after it
   double simulated_s = 0;
 };
 
+struct StartupReport {  // wall time before the first step, s
+  double total = 0;
+  double scene = 0;      // from the program's start until the scene is read
+  double cloth = 0;      // reading patterns and meshing
+  double body = 0;       // its mesh, its motion and its tree
+  double placement = 0;  // of the panels, and which seams lie behind the body
+  double crossings = 0;  // whether the cloth passes through itself or the body, and untangling it
+};
+
 struct StartReport {  // of cloth that passed through itself or the body before the first frame; edges
   int cloth_cloth = 0, cloth_body = 0;
   int cloth_cloth_left = 0, cloth_body_left = 0;
@@ -48,6 +57,7 @@ struct Report {
   double fps = 30;
   int frames = 0;  // samples of cloth.pc2
   double seconds_total = 0;
+  StartupReport startup;
   PhaseReport sewing, drape;    // drape: everything after the weld, the motion too
   PhaseReport motion;           // of it, from the first frame in which the body moves
   int motion_first_frame = -1;  // sample of cloth.pc2 at which the body still stands; -1: no motion

@@ -78,16 +78,9 @@ class Run {
     Hash inputs;
     add_to_hash(scene_, inputs);
     say("meshing", 0);
+    report_.startup.scene = options_.seconds_before;
     load_cloth(inputs);
-    LoadedBody loaded = load_body(scene_.body, inputs);
-    person_vertices_ = loaded.solid.positions.size();
-    person_triangles_ = loaded.solid.triangles.size();
-    add_solids(scene_.solids, loaded, inputs);
-    motion_ = std::move(loaded.movement);
-    SolidMesh& solid = loaded.solid;
-    body_x_ = solid.positions;
-    body_triangles_ = solid.triangles;
-    if (!body_triangles_.empty()) body_.emplace(std::move(solid.positions), std::move(solid.triangles));
+    load_solids(inputs);
     double edge_m = 0;
     for (const LoadedCloth& cloth : cloth_) edge_m = std::max(edge_m, cloth.edge_m);
     step_ = step_options(scene_, cloth_.front().fabrics.front(), edge_m);
@@ -147,13 +140,37 @@ class Run {
   }
 
   void load_cloth(Hash& inputs) {
+    const Timed timed(report_.startup.cloth);
     for (const SceneCloth& cloth : scene_.cloth)
       cloth_.push_back(toile::load_cloth(scene_, cloth, options_.read, inputs));
+  }
+
+  void load_solids(Hash& inputs) {
+    const Timed timed(report_.startup.body);
+    LoadedBody loaded = load_body(scene_.body, inputs);
+    person_vertices_ = loaded.solid.positions.size();
+    person_triangles_ = loaded.solid.triangles.size();
+    add_solids(scene_.solids, loaded, inputs);
+    motion_ = std::move(loaded.movement);
+    SolidMesh& solid = loaded.solid;
+    body_x_ = solid.positions;
+    body_triangles_ = solid.triangles;
+    if (!body_triangles_.empty()) body_.emplace(std::move(solid.positions), std::move(solid.triangles));
+  }
+
+  // Called before every first step of something; the first of them counts.
+  void end_startup() {
+    if (report_.startup.total == 0) report_.startup.total = options_.seconds_before + total_.seconds();
+  }
+  // Where the time of one of its parts goes: after the first step, nowhere.
+  double& startup(double StartupReport::*part) {
+    return report_.startup.total == 0 ? report_.startup.*part : after_startup_;
   }
 
   // Cloth that passes through itself or the body is taken apart before the first frame, as far as it can be (sim/untangle.hpp).
   // `sewn_now`: what sewing left, not what the user gave; --strict-start is about the latter.
   void free_start(bool sewn_now) {
+    const Timed timed(startup(&StartupReport::crossings));
     const auto self = find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x);
     const auto through = body_ ? find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_)
                                : std::vector<Crossing>{};
@@ -188,6 +205,7 @@ class Run {
 
   void place(GarmentMesh& garment) {
     if (!body_) return;
+    const Timed timed(startup(&StartupReport::placement));
     say("placing", 0);
     const Placement placement = place_garment(garment, *body_);
     report_.shift_m = placement.shift_m;
@@ -237,6 +255,7 @@ class Run {
     const bool filmed = k == 0;  // the panels of the others come with what is worn: another mesh
     if (filmed) writer_->begin_sewing(garment.mesh, garment.name, garment.x);
     const int every = std::max(1, static_cast<int>(std::lround(sewing_options.fps / sewing_film_fps)));
+    end_startup();
     Stopwatch watch;
     PhaseReport& phase = report_.sewing;
     FrameReport frame;
@@ -330,6 +349,7 @@ class Run {
     outfit_.mesh = {};
     PhaseReport& phase = report_.drape;
     report_.ended = "time";
+    end_startup();
     const bool moving = motion_.has_value();
     const int drape_frames =
         moving ? (scene_.drape_seconds > 0 ? frames_in(scene_.drape_seconds) : 1) : frames_in(scene_.seconds);
@@ -427,6 +447,7 @@ class Run {
   const RunOptions& options_;
   Stopwatch total_;
   Report report_;
+  double after_startup_ = 0;
   std::vector<Reason> failure_;
   std::vector<LoadedCloth> cloth_;
   Outfit outfit_;

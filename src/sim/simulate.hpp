@@ -25,7 +25,8 @@ struct Progress {
 
 struct RunOptions {
   std::string directory;
-  std::string command;  // as typed, for the report
+  std::string command;        // as typed, for the report
+  double seconds_before = 0;  // wall time since the program began, for the report
   TextSource read = read_text_file;
   std::function<void(const Progress&)> progress;  // may be empty
   std::function<bool()> stop;                     // asked between frames; may be empty

@@ -68,34 +68,20 @@ TEST(Run, WritesTheFilesOfTheContractAndVerifyAgrees) {
     EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
   const Json report = Json::load(scratch / "a/report.json");
   EXPECT_EQ(report.at("state_hash").string(), said.at("state_hash").string()) << "--json prints the report";
-  for (const char* key : {"toile_version",
-                          "command",
-                          "input_hash",
-                          "state_hash",
-                          "verdict",
-                          "reasons",
-                          "limits",
-                          "threads",
-                          "units",
-                          "cloth",
-                          "body",
-                          "fps",
-                          "frames",
-                          "steps",
-                          "steps_rejected",
-                          "step_min_ms",
-                          "step_max_ms",
-                          "seconds_total",
-                          "seconds_per_frame",
-                          "cg_iterations",
-                          "stretch",
-                          "shear_degrees",
-                          "penetrations",
-                          "gap_mm",
-                          "layer_gap",
-                          "still",
-                          "peak_memory_mb"})
+  for (const char* key : {"toile_version", "command",     "input_hash",    "state_hash",      "verdict",
+                          "reasons",       "limits",      "threads",       "units",           "cloth",
+                          "body",          "fps",         "frames",        "steps",           "steps_rejected",
+                          "step_min_ms",   "step_max_ms", "seconds_total", "startup_seconds", "seconds_per_frame",
+                          "cg_iterations", "stretch",     "shear_degrees", "penetrations",    "gap_mm",
+                          "layer_gap",     "still",       "peak_memory_mb"})
     EXPECT_NE(report.find(key), nullptr) << key;
+  double parts = 0;
+  for (const char* part : {"scene", "cloth", "body", "placement", "crossings", "other"}) {
+    EXPECT_GE(report.at("startup_seconds").at(part).number(), 0) << part;
+    parts += report.at("startup_seconds").at(part).number();
+  }
+  EXPECT_NEAR(report.at("startup_seconds").at("total").number(), parts, 1e-9);
+  EXPECT_LT(parts, report.at("seconds_total").number() + report.at("startup_seconds").at("scene").number());
   EXPECT_EQ(report.at("frames").integer(), 21) << "0.7 s at 30 per second, frame 0 included";
   std::int32_t samples = 0;
   std::memcpy(&samples, scratch.get("a/cloth.pc2").data() + 28, 4);
