@@ -14,6 +14,7 @@ namespace {
 
 // A shape farther than this from a point cannot take part in any blend there; its exact distance does not matter.
 constexpr double far_m = 0.12;
+constexpr double rounding_m = 1e-9;  // far more than that of any distance here
 
 // Second derivatives of the natural cubic spline through (t, y): the usual tridiagonal system, solved forwards and
 // back.
@@ -110,6 +111,13 @@ double Ellipsoid::operator()(const Vec3& p) const {
   return k0 * (k0 - 1.0) / std::sqrt(gx * gx + gy * gy + gz * gz);
 }
 
+// f = k0 (k0 - 1) / |grad k0^2 / 2| >= r_min (k0 - 1), and k0 >= |q| / r_max.
+bool Ellipsoid::far(const Vec3& p, double d) const {
+  const double least = std::min({radii.x(), radii.y(), radii.z()}), most = std::max({radii.x(), radii.y(), radii.z()});
+  const double reach = most * (least + std::max(d, 0.0) + rounding_m);
+  return (p - centre).squaredNorm() * (least * least) > reach * reach;
+}
+
 double RoundCone::operator()(const Vec3& p) const {
   const Vec3 axis = b - a, q = p - a;
   const double t = std::clamp(q.dot(axis) / axis.dot(axis), 0.0, 1.0);
@@ -117,11 +125,10 @@ double RoundCone::operator()(const Vec3& p) const {
   return std::sqrt(d.dot(d)) - (radius_a + t * (radius_b - radius_a));
 }
 
-double smooth_min(double a, double b, double k) {
-  const double h = std::max(0.0, 1.0 - std::abs(a - b) / k);
-  return std::min(a, b) - h * h * h * k / 6.0;
+// The axis ends nearer to p than |q| - |axis|, and (a + b)^2 <= 2 a^2 + 2 b^2.
+bool RoundCone::far(const Vec3& p, double d) const {
+  const double reach = std::max(radius_a, radius_b) + std::max(d, 0.0) + rounding_m;
+  return (p - a).squaredNorm() > 2 * ((b - a).squaredNorm() + reach * reach);
 }
-
-double smooth_max(double a, double b, double k) { return -smooth_min(-a, -b, k); }
 
 }  // namespace toile

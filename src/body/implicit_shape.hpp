@@ -11,6 +11,8 @@
 #pragma once
 #include "core/types.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -43,18 +45,27 @@ class Loft {
   std::vector<Knot> value_, second_;  // second derivatives of the natural spline
 };
 
+// `far(p, d)` of a shape f, cheaper than f(p): true only if f(p) > d, by more than rounding.
 struct Ellipsoid {
   Vec3 centre, radii;
   double operator()(const Vec3& p) const;
+  bool far(const Vec3& p, double d) const;
 };
 
 struct RoundCone {  // the hull of two spheres, to first order in the difference of radii
   Vec3 a, b;
   double radius_a = 0, radius_b = 0;
   double operator()(const Vec3& p) const;
+  bool far(const Vec3& p, double d) const;
 };
 
-double smooth_min(double a, double b, double k);
-double smooth_max(double a, double b, double k);
+// Between min(a, b) - k / 6 and min(a, b), and min(a, b) where they differ by k or more.
+inline double smooth_min(double a, double b, double k) {
+  const double difference = std::abs(a - b);
+  if (difference >= k) return std::min(a, b);
+  const double h = std::max(0.0, 1.0 - difference / k);
+  return std::min(a, b) - h * h * h * k / 6.0;
+}
+inline double smooth_max(double a, double b, double k) { return -smooth_min(-a, -b, k); }
 
 }  // namespace toile

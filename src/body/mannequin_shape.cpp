@@ -50,6 +50,18 @@ struct MannequinShape::Parts {
   static double both(const Part& part, const Vec3& p, double k) {
     return smooth_min(part(p), part(image(p)), k);
   }
+  // Whether that is more than d.
+  template <class Part>
+  static bool both_far(const Part& part, const Vec3& p, double k, double d) {
+    return part.far(p, d + k / 6) && part.far(image(p), d + k / 6);
+  }
+
+  double head(const Vec3& p, double from_face) const {
+    double head = smooth_min(form.skull(p), from_face, 0.05);
+    head = smooth_min(head, form.nose(p), 0.032);
+    if (both_far(form.eye_socket, p, 0.01, -head + 0.024)) return head;
+    return smooth_max(head, -both(form.eye_socket, p, 0.01), 0.024);
+  }
 };
 
 MannequinShape::MannequinShape(const MannequinForm& form) : parts_(std::make_unique<const Parts>(form)) {}
@@ -60,15 +72,18 @@ double MannequinShape::operator()(const Vec3& point) const {
   const MannequinForm& form = part.form;
   const Vec3 p(std::abs(point.x()), point.y(), point.z());
   double d = part.trunk(p);
-  d = smooth_min(d, Parts::both(form.buttock, p, 0.02), 0.07);
-  d = smooth_min(d, Parts::both(form.breast, p, 0.07), 0.07);
-  d = smooth_min(d, Parts::both(form.shoulder, p, 0.04), 0.06);
+  // What is farther than d + k leaves d as it is, to the last bit; most parts are that far from most points.
+  const auto blend = [&](const auto& shape, double k_both, double k) {
+    if (!Parts::both_far(shape, p, k_both, d + k)) d = smooth_min(d, Parts::both(shape, p, k_both), k);
+  };
+  blend(form.buttock, 0.02, 0.07);
+  blend(form.breast, 0.07, 0.07);
+  blend(form.shoulder, 0.04, 0.06);
   d = smooth_min(d, part.neck(p), 0.05);
 
-  double head = smooth_min(form.skull(p), part.face(p), 0.05);
-  head = smooth_min(head, form.nose(p), 0.032);
-  head = smooth_max(head, -Parts::both(form.eye_socket, p, 0.01), 0.024);
-  d = smooth_min(d, head, 0.03);
+  const double face = part.face(p), beyond_head = d + 0.03 + (0.05 + 0.032) / 6;
+  if (!(face > beyond_head && form.skull.far(p, beyond_head) && form.nose.far(p, beyond_head)))
+    d = smooth_min(d, part.head(p, face), 0.03);
 
   double leg = smooth_min(part.leg(p), part.foot(p), 0.05);
   leg = smooth_max(leg, -p.y(), 0.010);  // the sole
@@ -76,7 +91,9 @@ double MannequinShape::operator()(const Vec3& point) const {
   d = smooth_min(d, smooth_min(leg, other, 0.02), 0.06);
 
   double arm = part.arm(p);
-  arm = smooth_min(arm, smooth_min(part.thumb(p), part.thumb_tip(p), 0.004), 0.030);
+  const double beyond_thumb = arm + 0.030 + 0.004 / 6;
+  if (!(part.thumb.far(p, beyond_thumb) && part.thumb_tip.far(p, beyond_thumb)))
+    arm = smooth_min(arm, smooth_min(part.thumb(p), part.thumb_tip(p), 0.004), 0.030);
   return smooth_min(d, arm, 0.05);
 }
 

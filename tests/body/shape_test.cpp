@@ -62,6 +62,26 @@ TEST(ImplicitShape, SmoothMinimumIsSymmetricAndNeverAbove) {
     }
 }
 
+TEST(ImplicitShape, FarIsSaidOfWhatIsFartherAndOfMostThatIs) {
+  const Ellipsoid ellipsoid{Vec3(0.1, 0.2, -0.1), Vec3(0.1, 0.06, 0.15)};
+  const RoundCone cone{Vec3(0, 0.1, 0), Vec3(0.05, 0.12, 0.02), 0.03, 0.01};
+  const auto check = [](const auto& shape) {
+    int far = 0;
+    for (double x = -0.8; x < 0.8; x += 0.11)
+      for (double y = -0.8; y < 0.8; y += 0.09)
+        for (double z = -0.8; z < 0.8; z += 0.1)
+          for (const double d : {-0.05, 0.0, 0.02, 0.1}) {
+            const Vec3 p(x, y, z);
+            if (!shape.far(p, d)) continue;
+            ++far;
+            EXPECT_GT(shape(p), d) << p.transpose();
+          }
+    EXPECT_GT(far, 8000) << "of 18,000";
+  };
+  check(ellipsoid);
+  check(cone);
+}
+
 TEST(ImplicitShape, MannequinsFieldIsAboutADistanceNearTheSkin) {
   // Newton's steps rely on it: the gradient is neither flat nor steep where the surface is.
   const MannequinShape shape;
