@@ -3,7 +3,7 @@
 #include "core/disjoint_sets.hpp"
 #include "core/elementary.hpp"
 #include "core/error.hpp"
-#include "garment/fold_lines.hpp"
+#include "garment/panel_mesh.hpp"
 #include "garment/pattern_check.hpp"
 
 #include <Eigen/Geometry>
@@ -24,97 +24,38 @@ std::string side_name(const Pattern& pattern, const StitchSide& side) {
   return printable(panel.name) + "." + std::to_string(panel.file_number(side.edge));
 }
 
-double signed_area(std::span<const Vec2> outline) {
-  double twice = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2 &p = outline[i], &q = outline[(i + 1) % outline.size()];
-    twice += p.x() * q.y() - p.y() * q.x();
-  }
-  return 0.5 * twice;
-}
-
-int piece_count(double length_m, double resolution_m) {
-  return std::max(1, static_cast<int>(std::ceil(length_m / resolution_m - 1e-9)));
-}
-
-// How many pieces every edge of every panel is cut into: both sides of a seam alike.
-std::vector<std::vector<int>> pieces_of_edges(const Pattern& pattern, double resolution_m) {
-  std::vector<std::vector<int>> pieces(pattern.panels.size());
-  for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
-    for (const PanelEdge& edge : pattern.panels[p].edges)
-      pieces[p].push_back(piece_count(edge_length_m(pattern.panels[p], edge), resolution_m));
-  }
-  for (const Stitch& stitch : pattern.stitches) {
-    int &a = pieces[at(stitch.a.panel)][at(stitch.a.edge)], &b = pieces[at(stitch.b.panel)][at(stitch.b.edge)];
-    a = b = std::max(a, b);
-  }
-  return pieces;
-}
-
 struct MeshedPanel {
   std::vector<std::vector<Index>> edge_particles;  // [edge] first to last corner, in the edge's direction
   Index first_particle = 0, end_particle = 0;
 };
 
-// Meshes one panel and appends it to the garment.
-MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_index, const std::vector<int>& pieces,
-                      double resolution_m) {
-  std::vector<Vec2> outline;
-  MeshedPanel meshed;
-  for (std::size_t e = 0; e < panel.edges.size(); ++e) {
-    const std::vector<Vec2> points = sample_edge(panel, panel.edges[e], pieces[e]);
-    std::vector<Index> particles;
-    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-      particles.push_back(garment.mesh.particle_count + static_cast<Index>(outline.size()));
-      outline.push_back(points[k]);
-    }
-    meshed.edge_particles.push_back(particles);
-  }
-  for (std::size_t e = 0; e < panel.edges.size(); ++e) {
-    meshed.edge_particles[e].push_back(meshed.edge_particles[(e + 1) % panel.edges.size()].front());
-  }
+// Appends a panel to the garment.
+MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_index, const PanelMesh& mesh) {
   const Index first = garment.mesh.particle_count;
-  std::vector<FoldLine> lines;
-  for (const PanelFold& fold : panel.folds) {
-    const auto corner = [&](Index c) {  // as a point of the outline
-      for (std::size_t e = 0; e < panel.edges.size(); ++e) {
-        if (panel.edges[e].start == c) return meshed.edge_particles[e].front() - first;
-      }
-      return Index{-1};
-    };
-    const std::vector<Vec2> points =
-        sample_edge(panel, fold.line, piece_count(edge_length_m(panel, fold.line), resolution_m));
-    lines.push_back(
-        {corner(fold.line.start), corner(fold.line.end), std::vector<Vec2>(points.begin() + 1, points.end() - 1)});
+  MeshedPanel meshed{mesh.edge_points};
+  for (auto& particles : meshed.edge_particles) {
+    for (Index& particle : particles) particle += first;
   }
-  FoldedPlanarMesh folded;
-  try {
-    folded = triangulate_folded(outline, lines, resolution_m);
-  } catch (const InputError& error) {
-    throw InputError("", "panel " + printable(panel.name), "an outline that can be meshed at this resolution",
-                     error.what());
-  }
-  const PlanarMesh& planar = folded.mesh;
-  const bool mirrored = signed_area(outline) < 0;
+  const PlanarMesh& planar = mesh.folded.mesh;
   const auto pattern_uv = [&](Index i) {
-    return mirrored ? Vec2(planar.points[at(i)].y(), planar.points[at(i)].x())
-                    : Vec2(planar.points[at(i)].y(), -planar.points[at(i)].x());
+    return mesh.mirrored ? Vec2(planar.points[at(i)].y(), planar.points[at(i)].x())
+                         : Vec2(planar.points[at(i)].y(), -planar.points[at(i)].x());
   };
   for (Triangle t : planar.triangles) {
-    if (mirrored) std::swap(t[1], t[2]);
+    if (mesh.mirrored) std::swap(t[1], t[2]);
     garment.mesh.uv.push_back({pattern_uv(t[0]), pattern_uv(t[1]), pattern_uv(t[2])});
     garment.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
     garment.mesh.panel.push_back(panel_index);
   }
   for (std::size_t i = 0; i < planar.points.size(); ++i) {
     garment.x.push_back(panel.place(planar.points[i]));
-    garment.on_panel_edge.push_back(i < outline.size());
+    garment.on_panel_edge.push_back(i < mesh.outline_points);
   }
   garment.mesh.particle_count += static_cast<Index>(planar.points.size());
   garment.mesh.panel_names.push_back(panel.name);
   garment.mesh.panel_cloth.push_back({panel.fabric, panel.rest_stretch});
   for (std::size_t f = 0; f < panel.folds.size(); ++f) {
-    for (const auto& [a, b] : folded.line[f])
+    for (const auto& [a, b] : mesh.folded.line[f])
       garment.mesh.folds.push_back({first + a, first + b, panel.folds[f].angle_rad});
   }
   meshed.first_particle = first;
@@ -199,15 +140,13 @@ void orient_panels(GarmentMesh& garment, const Pattern& pattern, const std::vect
   }
 }
 
-// `inner_m` is the edge length inside each panel; outlines are cut at `outline_m`.
-GarmentMesh mesh_panels(const Pattern& pattern, double outline_m, std::span<const double> inner_m) {
+GarmentMesh join_panels(const Pattern& pattern, std::span<const PanelMesh> panels) {
   GarmentMesh garment;
   garment.name = pattern.name;
   garment.legacy_frame = pattern.legacy_frame;
-  const std::vector<std::vector<int>> pieces = pieces_of_edges(pattern, outline_m);
   std::vector<MeshedPanel> meshed;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
-    meshed.push_back(add_panel(garment, pattern.panels[p], static_cast<Index>(p), pieces[p], inner_m[p]));
+    meshed.push_back(add_panel(garment, pattern.panels[p], static_cast<Index>(p), panels[p]));
     for (std::size_t e = 0; e < pattern.panels[p].edges.size(); ++e) {
       const std::string& label = pattern.panels[p].edges[e].label;
       if (!label.empty()) garment.labels.push_back({label, meshed.back().edge_particles[e]});
@@ -225,7 +164,8 @@ GarmentMesh mesh_panels(const Pattern& pattern, double outline_m, std::span<cons
 }  // namespace
 
 GarmentMesh mesh_garment(const Pattern& pattern, double resolution_m) {
-  return mesh_panels(pattern, resolution_m, std::vector<double>(pattern.panels.size(), resolution_m));
+  PanelMesher panels(pattern);
+  return join_panels(pattern, panels.mesh(resolution_m, std::vector<double>(pattern.panels.size(), resolution_m)));
 }
 
 int welded_count(const GarmentMesh& garment) {
@@ -239,10 +179,11 @@ CountedGarment mesh_garment_to_count(const Pattern& pattern, int particles) {
   constexpr double tolerance = 0.01;
   if (particles < least || particles > most)
     throw InputError("", "vertices", "a number from 20 to 2,000,000", std::to_string(particles));
+  PanelMesher mesher(pattern);
   CountedGarment best;
   int best_count = 0;
   const auto attempt = [&](double outline_m, std::span<const double> inner_m) {
-    GarmentMesh garment = mesh_panels(pattern, outline_m, inner_m);
+    GarmentMesh garment = join_panels(pattern, mesher.mesh(outline_m, inner_m));
     const int count = welded_count(garment);
     if (best_count == 0 || std::abs(count - particles) < std::abs(best_count - particles)) {
       best = {std::move(garment), outline_m};

@@ -2,6 +2,7 @@
 #include "garment/garment_mesh.hpp"
 
 #include "core/error.hpp"
+#include "garment/panel_mesh.hpp"
 #include "garments.hpp"
 #include "mesh/check.hpp"
 #include "mesh/topology.hpp"
@@ -314,6 +315,31 @@ TEST(GarmentMesh, TheShirtAtOneCentimetreHasItsKnownSize) {
   const MeshQuality quality = mesh_quality(garment.mesh);
   EXPECT_NEAR(quality.mean_edge_m, 0.0101, 2e-4);
   EXPECT_GT(quality.min_angle_deg, 20);
+}
+
+TEST(PanelMesher, KeepsWhatIsAskedForAgainAndNamesTheFirstPanelThatFails) {
+  Pattern pattern;
+  pattern.panels = {test::front_rectangle(0.3, 0.2, Vec3::Zero()), test::back_rectangle(0.3, 0.2, Vec3::Zero())};
+  const auto same = [](const PanelMesh& a, const PanelMesh& b) {
+    return a.edge_points == b.edge_points && a.folded.mesh.points == b.folded.mesh.points &&
+           a.folded.mesh.triangles == b.folded.mesh.triangles;
+  };
+  PanelMesher used(pattern);
+  used.mesh(0.02, std::array{0.02, 0.02});
+  EXPECT_THROW(used.mesh(0.02, std::array{0.02, 1e-9}), InputError);
+  const auto again = used.mesh(0.02, std::array{0.02, 0.03});
+  PanelMesher fresh(pattern);
+  const auto once = fresh.mesh(0.02, std::array{0.02, 0.03});
+  EXPECT_TRUE(same(again[0], once[0]));
+  EXPECT_TRUE(same(again[1], once[1]));
+  PanelMesher other(pattern);
+  EXPECT_FALSE(same(other.mesh(0.02, std::array{0.02, 0.02})[1], once[1]));
+  try {
+    used.mesh(0.02, std::array{1e-9, 1e-9});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("panel front"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

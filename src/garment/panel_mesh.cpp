@@ -1,0 +1,103 @@
+#include "garment/panel_mesh.hpp"
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+namespace toile {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+double signed_area(std::span<const Vec2> outline) {
+  double twice = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 &p = outline[i], &q = outline[(i + 1) % outline.size()];
+    twice += p.x() * q.y() - p.y() * q.x();
+  }
+  return 0.5 * twice;
+}
+
+int piece_count(double length_m, double resolution_m) {
+  return std::max(1, static_cast<int>(std::ceil(length_m / resolution_m - 1e-9)));
+}
+
+// How many pieces every edge of every panel is cut into: both sides of a seam alike.
+std::vector<std::vector<int>> pieces_of_edges(const Pattern& pattern, double resolution_m) {
+  std::vector<std::vector<int>> pieces(pattern.panels.size());
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
+    for (const PanelEdge& edge : pattern.panels[p].edges)
+      pieces[p].push_back(piece_count(edge_length_m(pattern.panels[p], edge), resolution_m));
+  }
+  for (const Stitch& stitch : pattern.stitches) {
+    int &a = pieces[at(stitch.a.panel)][at(stitch.a.edge)], &b = pieces[at(stitch.b.panel)][at(stitch.b.edge)];
+    a = b = std::max(a, b);
+  }
+  return pieces;
+}
+
+PanelMesh mesh_panel(const Panel& panel, const std::vector<int>& pieces, double resolution_m) {
+  std::vector<Vec2> outline;
+  PanelMesh mesh;
+  for (std::size_t e = 0; e < panel.edges.size(); ++e) {
+    const std::vector<Vec2> points = sample_edge(panel, panel.edges[e], pieces[e]);
+    mesh.edge_points.emplace_back();
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+      mesh.edge_points.back().push_back(static_cast<Index>(outline.size()));
+      outline.push_back(points[k]);
+    }
+  }
+  for (std::size_t e = 0; e < panel.edges.size(); ++e)
+    mesh.edge_points[e].push_back(mesh.edge_points[(e + 1) % panel.edges.size()].front());
+  std::vector<FoldLine> lines;
+  for (const PanelFold& fold : panel.folds) {
+    const auto corner = [&](Index c) {  // as a point of the outline
+      for (std::size_t e = 0; e < panel.edges.size(); ++e) {
+        if (panel.edges[e].start == c) return mesh.edge_points[e].front();
+      }
+      return Index{-1};
+    };
+    const std::vector<Vec2> points =
+        sample_edge(panel, fold.line, piece_count(edge_length_m(panel, fold.line), resolution_m));
+    lines.push_back(
+        {corner(fold.line.start), corner(fold.line.end), std::vector<Vec2>(points.begin() + 1, points.end() - 1)});
+  }
+  try {
+    mesh.folded = triangulate_folded(outline, lines, resolution_m);
+  } catch (const InputError& error) {
+    throw InputError("", "panel " + printable(panel.name), "an outline that can be meshed at this resolution",
+                     error.what());
+  }
+  mesh.outline_points = outline.size();
+  mesh.mirrored = signed_area(outline) < 0;
+  return mesh;
+}
+
+}  // namespace
+
+std::span<const PanelMesh> PanelMesher::mesh(double outline_m, std::span<const double> inner_m) {
+  const std::size_t panels = pattern_->panels.size();
+  const std::vector<std::vector<int>> pieces = pieces_of_edges(*pattern_, outline_m);
+  asked_.resize(panels);
+  meshes_.resize(panels);
+  std::vector<std::exception_ptr> failed(panels);
+  parallel_for(panels, 1, [&](std::size_t p) {
+    const Asked asked{pieces[p], inner_m[p]};
+    if (asked_[p] == asked) return;
+    try {
+      meshes_[p] = mesh_panel(pattern_->panels[p], asked.pieces, asked.inner_m);
+      asked_[p] = asked;
+    } catch (...) {
+      asked_[p] = {};
+      failed[p] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& error : failed)
+    if (error) std::rethrow_exception(error);
+  return meshes_;
+}
+
+}  // namespace toile

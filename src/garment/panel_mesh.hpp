@@ -1,0 +1,39 @@
+// garment/panel_mesh.hpp: the panels of a pattern as flat meshes, each by itself.
+//
+// Both sides of a seam are cut into as many pieces; else no panel knows of another, and they are meshed side by side.
+#pragma once
+#include "garment/fold_lines.hpp"
+#include "garment/pattern.hpp"
+
+#include <span>
+#include <vector>
+
+namespace toile {
+
+struct PanelMesh {
+  std::vector<std::vector<Index>> edge_points;  // [edge] first to last corner, in the edge's direction
+  std::size_t outline_points = 0;               // the first of them all
+  bool mirrored = false;                        // the panel is drawn clockwise
+  FoldedPlanarMesh folded;
+};
+
+class PanelMesher {
+ public:
+  explicit PanelMesher(const Pattern& pattern) : pattern_(&pattern) {}
+
+  // [panel] `inner_m` is the edge length inside each; outlines are cut at `outline_m`.  Panels that are asked for as in the last call are
+  // not meshed again.  Throws InputError for the first panel that cannot be meshed.
+  std::span<const PanelMesh> mesh(double outline_m, std::span<const double> inner_m);
+
+ private:
+  struct Asked {
+    std::vector<int> pieces;  // [edge]
+    double inner_m = 0;
+    bool operator==(const Asked&) const = default;
+  };
+  const Pattern* pattern_;
+  std::vector<Asked> asked_;  // of meshes_; empty of one that failed
+  std::vector<PanelMesh> meshes_;
+};
+
+}  // namespace toile
