@@ -10,14 +10,15 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
+#include <memory>
 
 namespace toile {
 namespace {
 
 constexpr double h_s = 1.0 / 60;
 constexpr double noise_m = 1e-3;
-// Of a solve.  The difference is timed: residuals in double before the first iteration and after the fiftieth are not of it.
-constexpr int few_iterations = 9, many_iterations = 49;
+constexpr int iterations = 49;                  // of a solve; after the next one it would make its residual anew
 constexpr double bytes_per_measurement = 64e6;  // some milliseconds
 
 // The system of a flat sheet with noise: without contacts, so that the sum of bytes is that of the mesh alone.
@@ -66,11 +67,16 @@ class SheetSystem {
   Vec3s b_, reference_;
 };
 
-struct Traffic {  // bytes
-  double worked_on = 0, moved = 0;
+// Bytes of a piece: those that it works on, which it moves once at least, and those that it moves again, from where as many bytes as
+// went through in between can lie.
+struct Traffic {
+  double worked_on = 0;
+  double again_in_domain = 0, domain = 0;    // while the sweeps are at one domain
+  double again_in_vectors = 0, vectors = 0;  // while only vectors are worked on
+  double moved() const { return worked_on + again_in_domain + again_in_vectors; }
 };
 struct Sizes {  // as doubles: bytes are their products
-  double particles, blocks, coarse_entries, coarse_directions;
+  double particles, blocks, domains, coarse_entries, coarse_directions;
 };
 
 constexpr double lane = sizeof(Lane<float>), block = sizeof(Block<float>), index = sizeof(Index);
@@ -78,27 +84,32 @@ constexpr double stored_block = block + index;  // with its column
 
 // Every block and vector once: y is added to where it is in the cache.
 Traffic traffic_of_product(const Sizes& n) {
-  const double bytes = n.blocks * stored_block + n.particles * (index + block + 2 * lane);
-  return {bytes, bytes};
+  return {n.blocks * stored_block + n.particles * (index + block + 2 * lane)};
 }
 
 // A gather reads each block for both of its rows, but the second time from a cache: rows that share a block lie near each other.
 Traffic traffic_of_residual_product(const Sizes& n) {
-  const double bytes = n.blocks * (stored_block + sizeof(BlockPattern::Above)) +
-                       n.particles * (2 * index + sizeof(Mat3) + 2 * sizeof(Vec3));
-  return {bytes, bytes};
+  return {n.blocks * (stored_block + sizeof(BlockPattern::Above)) +
+          n.particles * (2 * index + sizeof(Mat3) + 2 * sizeof(Vec3))};
 }
 
 // Of a particle, G = D^-1 and in lanes; a vector that changes is read and written:
 //   forward sweep    G, 3     r to As, s
-//   backward sweep   G, 4     s, As
+//   backward sweep   G, 4     s, As                          again in the domain
 //   delta               2     r.s
 //   direction           6     s, As to c, q, and c.q
 //   residual         G, 6     c, q to w, r, and r.G r
 // and the blocks in both sweeps.  A row's own slots begin with an index.
 Traffic traffic_of_ssor(const Sizes& n) {
-  return {n.blocks * stored_block + n.particles * (index + block + 6 * lane),
-          2 * n.blocks * stored_block + n.particles * (2 * index + 3 * block + 21 * lane)};
+  const double rows = n.blocks * stored_block + n.particles * index;
+  Traffic traffic;
+  traffic.worked_on = rows + n.particles * (block + 6 * lane);
+  traffic.again_in_domain = rows + n.particles * (block + 4 * lane);
+  traffic.domain = (rows + n.particles * (block + 3 * lane)) / n.domains;
+  const double moved = 2 * rows + n.particles * (3 * block + 21 * lane);
+  traffic.again_in_vectors = moved - traffic.worked_on - traffic.again_in_domain;
+  traffic.vectors = n.particles * (block + 6 * lane);
+  return traffic;
 }
 
 // Besides:
@@ -106,12 +117,14 @@ Traffic traffic_of_ssor(const Sizes& n) {
 //   substitute       the triangles of the factor and of its transpose
 //   prolong          basis, aggregate, 5     s, Zy, As, and the columns of A' Z
 Traffic traffic_of_coarse(const Sizes& n) {
-  const double own = sizeof(Vec3) + index;  // of a particle's place in the coarse space
+  const double place = sizeof(Vec3) + index;  // of a particle in the coarse space
   const double columns = n.coarse_entries * (9 * lane + index) + n.particles * index;
   const double factor = n.coarse_directions * (n.coarse_directions + 1) * sizeof(double);
-  const Traffic ssor = traffic_of_ssor(n);
-  return {ssor.worked_on + columns + factor + n.particles * (own + lane),
-          ssor.moved + columns + factor + n.particles * (2 * own + 7 * lane)};
+  Traffic traffic = traffic_of_ssor(n);
+  traffic.worked_on += columns + factor + n.particles * (place + lane);
+  traffic.again_in_vectors += n.particles * (place + 6 * lane);
+  traffic.vectors += n.particles * (place + lane);
+  return traffic;
 }
 
 struct Piece {
@@ -120,11 +133,6 @@ struct Piece {
   int most_threads;
   std::function<double()> seconds;  // of one measurement
 };
-
-double median(std::vector<double> of) {
-  std::sort(of.begin(), of.end());
-  return of[of.size() / 2];
-}
 
 // One call of many.
 double time_calls(const Traffic& traffic, const std::function<void()>& call) {
@@ -135,45 +143,75 @@ double time_calls(const Traffic& traffic, const std::function<void()>& call) {
   return watch.seconds() / calls;
 }
 
+// One of many, and its share of the solve's start, which is some percent.
 double time_iteration(const SheetSystem& sheet, Preconditioner kind) {
   PcgOptions options;
   options.preconditioner = kind;
   options.loosen = 0;  // never good enough
-  // A solver of its own for each measurement: one that waited too long for its threads would go on alone for a hundred solves.
+  options.max_iterations = iterations;
+  // Its own solver for every measurement: one that waited too long for its threads goes on alone for a hundred solves.
   ModifiedPcg<float> pcg(sheet.mesh());
   pcg.prepare(sheet.system(), options);
-  Vec3s dv(sheet.b().size());
-  const auto seconds = [&](int iterations) {
-    options.max_iterations = iterations;
-    std::fill(dv.begin(), dv.end(), Vec3::Zero());
-    const Stopwatch watch;
-    const PcgReport report = pcg.solve(sheet.system(), sheet.b(), sheet.reference(), options, dv);
-    const double spent = watch.seconds();
-    if (report.iterations != iterations) throw Error(ExitCode::internal, "bench limits: " + report.explain());
-    return spent;
-  };
-  seconds(few_iterations);  // caches are warm
-  const double few = seconds(few_iterations);
-  return (seconds(many_iterations) - few) / (many_iterations - few_iterations);
+  Vec3s dv(sheet.b().size(), Vec3::Zero());
+  const Stopwatch watch;
+  const PcgReport report = pcg.solve(sheet.system(), sheet.b(), sheet.reference(), options, dv);
+  const double seconds = watch.seconds();
+  if (report.iterations != iterations) throw Error(ExitCode::internal, "bench limits: " + report.explain());
+  return seconds / iterations;
 }
 
-BenchRow row_of(const Piece& piece, const Sizes& sizes, int threads, int repeats) {
-  ReadStream stream(static_cast<std::size_t>(piece.traffic.worked_on), threads);
-  std::vector<double> measured, limit;
-  for (int k = 0; k < repeats; ++k) {  // in turn, so that other work on the machine meets both
-    limit.push_back(piece.traffic.moved * stream.seconds_per_byte(static_cast<std::size_t>(bytes_per_measurement)));
-    measured.push_back(piece.seconds());
+// The time in which a machine that does nothing else reads as many bytes from as far away.
+class Limit {
+ public:
+  Limit(const Traffic& traffic, int threads) {
+    add(traffic.worked_on, traffic.worked_on, threads);
+    add(traffic.again_in_domain, std::min(threads * traffic.domain, traffic.worked_on), threads);
+    add(traffic.again_in_vectors, traffic.vectors, threads);
   }
+  void measure() {
+    for (Part& part : parts_)
+      part.least_s = std::min(
+          part.least_s, part.bytes * part.stream->seconds_per_byte(static_cast<std::size_t>(bytes_per_measurement)));
+  }
+  double seconds() const {
+    double sum = 0;
+    for (const Part& part : parts_) sum += part.least_s;
+    return sum;
+  }
+
+ private:
+  struct Part {
+    double bytes;
+    std::unique_ptr<ReadStream> stream;
+    double least_s = std::numeric_limits<double>::infinity();
+  };
+  void add(double bytes, double size, int threads) {
+    if (bytes > 0) parts_.push_back({bytes, std::make_unique<ReadStream>(static_cast<std::size_t>(size), threads)});
+  }
+  std::vector<Part> parts_;
+};
+
+BenchRow row_of(const Piece& piece, const Sizes& sizes, int threads, int repeats) {
+  Limit limit(piece.traffic, threads);
+  std::vector<double> seconds;
+  for (int k = 0; k < repeats; ++k) {  // in turn: other work on the machine comes and goes
+    limit.measure();
+    seconds.push_back(piece.seconds());
+  }
+  std::sort(seconds.begin(), seconds.end());
+  const double least = seconds.front(), median = seconds[seconds.size() / 2];
   BenchRow row;
   row.add("piece", "piece", piece.name);
   row.add("particles", "particles", static_cast<long>(sizes.particles));
   row.add("threads", "threads", static_cast<long>(threads));
   row.add("worked_on_bytes", "bytes worked on", static_cast<long>(piece.traffic.worked_on));
-  row.add("moved_bytes", "moved", static_cast<long>(piece.traffic.moved));
-  row.add("microseconds", "us", 1e6 * median(measured), 1);
-  row.add("limit_microseconds", "limit us", 1e6 * median(limit), 1);
-  row.add("limit_gb_per_s", "GB/s", 1e-9 * piece.traffic.moved / median(limit), 1);
-  row.add("share_percent", "share %", 100 * median(limit) / median(measured), 0);
+  row.add("moved_bytes", "moved", static_cast<long>(piece.traffic.moved()));
+  row.add("microseconds", "us", 1e6 * median, 1);
+  row.add("least_microseconds", "least", 1e6 * least, 1);
+  row.add("limit_microseconds", "limit", 1e6 * limit.seconds(), 1);
+  row.add("limit_gb_per_s", "GB/s", 1e-9 * piece.traffic.moved() / limit.seconds(), 1);
+  row.add("share_percent", "share %", 100 * limit.seconds() / median, 0);
+  row.add("best_share_percent", "best %", 100 * limit.seconds() / least, 0);
   return row;
 }
 
@@ -182,8 +220,11 @@ void measure(const LoadedCloth& cloth, BenchRuns& runs, std::vector<BenchRow>& r
   const BlockMatrix<float>& A = sheet.A();
   CoarseSpace<float> coarse(sheet.mesh());
   coarse.factorise(sheet.system());
+  SweepDomains<float> domains;
+  domains.cut(A.pattern());
   const Sizes sizes{static_cast<double>(A.rows()), static_cast<double>(A.pattern().block_count()),
-                    static_cast<double>(coarse.entries()), static_cast<double>(coarse.dimension())};
+                    static_cast<double>(domains.count()), static_cast<double>(coarse.entries()),
+                    static_cast<double>(coarse.dimension())};
   const std::size_t n = sheet.b().size();
   std::vector<Lane<float>> x(n, to_lane<float>(Vec3(1, 2, 3))), y(n);
   const Vec3s wide_x(n, Vec3(1, 2, 3));
