@@ -12,6 +12,9 @@ constexpr double weightless_s = 0.2, ramp_s = 0.3;  // after the weld
 static_assert(weightless_s + ramp_s == OutfitRun::settling_s);
 constexpr double labels_held_s = 0.5, labels_fade_s = 0.5;  // after the weld
 constexpr double frictionless_s = 1;  // after the weld: the garment slips into place before friction holds it
+// While it is to come to rest: a sleeve that swings once a second would swing for ten, since what stops it in life, threads that rub on
+// threads, is not modelled.
+constexpr double coming_to_rest_per_s = 4;
 constexpr double sewn_step_max_s = 1.0 / 60;
 
 // Share of gravity and of the elastic's pull at time t after the weld.
@@ -71,6 +74,7 @@ void OutfitRun::settle() {
   if (t_s >= settling_s) worn_pins_.clear();
   const double slippery_s = first ? frictionless_s : settling_s;
   stepper_->integrator().body_constraints().set_friction(t_s < slippery_s ? 0 : step_.body.friction);
+  model_.drag_per_s = settling_.to_rest && !motion_ && t_s >= slippery_s ? coming_to_rest_per_s : 0;
 }
 
 void OutfitRun::start_motion(BodyAt body_at) {

@@ -2,7 +2,8 @@
 //
 //   after a weld   0.2 s weightless, 0.3 s in which gravity and elastic grow; what was worn before is held that long.
 //                  A single garment slips on the body for 1 s before friction holds it; labels let go between 0.5 and 1 s.
-//   then           as the scene says.  start_motion() lets the body move from the next frame on.
+//   then           as the scene says; where rest is awaited, drag on every motion.  start_motion() lets the body move from the next
+//                  frame on, and takes the drag away.
 #pragma once
 #include "garment/label_heights.hpp"
 #include "sim/outfit.hpp"
@@ -24,6 +25,7 @@ struct Settling {            // of a garment that has just been sewn
   bool sewn = false;         // false: nothing to settle (a grid, or a drape that is taken up again)
   Index held_particles = 0;  // worn before
   LabelSprings labels;       // hold the new garment for a while
+  bool to_rest = true;       // it is awaited: once it hangs, and until the body moves, drag brakes it
 };
 
 struct TimedPin {

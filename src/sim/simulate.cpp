@@ -298,7 +298,7 @@ class Run {
       outfit_.state = sewing.state();  // for the hash
       return false;
     }
-    settling_ = {true, outfit_.mesh.particle_count, dressing.labels()};
+    settling_ = {true, outfit_.mesh.particle_count, dressing.labels(), scene_.until_still || motion_.has_value()};
     outfit_ = dressing.worn();
     free_start(true);
     return true;
