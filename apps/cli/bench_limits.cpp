@@ -76,7 +76,7 @@ struct Traffic {
   double moved() const { return worked_on + again_in_domain + again_in_vectors; }
 };
 struct Sizes {  // as doubles: bytes are their products
-  double particles, blocks, domains, coarse_entries, coarse_directions;
+  double particles, blocks, domains, coarse_entries, factor_blocks;
 };
 
 constexpr double lane = sizeof(Lane<float>), block = sizeof(Block<float>), index = sizeof(Index);
@@ -114,16 +114,16 @@ Traffic traffic_of_ssor(const Sizes& n) {
 
 // Besides:
 //   restrict         basis, aggregate, 2     r, As
-//   substitute       the triangles of the factor and of its transpose
+//   substitute       the factor's blocks, which are read again at once on the way back
 //   prolong          basis, aggregate, 5     s, Zy, As, and the columns of A' Z
 Traffic traffic_of_coarse(const Sizes& n) {
   const double place = sizeof(Vec3) + index;  // of a particle in the coarse space
   const double columns = n.coarse_entries * (9 * lane + index) + n.particles * index;
-  const double factor = n.coarse_directions * (n.coarse_directions + 1) * sizeof(double);
+  const double factor = n.factor_blocks * (sizeof(double) * BlockCholesky::side * BlockCholesky::side + index);
   Traffic traffic = traffic_of_ssor(n);
   traffic.worked_on += columns + factor + n.particles * (place + lane);
-  traffic.again_in_vectors += n.particles * (place + 6 * lane);
-  traffic.vectors += n.particles * (place + lane);
+  traffic.again_in_vectors += factor + n.particles * (place + 6 * lane);
+  traffic.vectors += factor + n.particles * (place + lane);
   return traffic;
 }
 
@@ -224,7 +224,7 @@ void measure(const LoadedCloth& cloth, BenchRuns& runs, std::vector<BenchRow>& r
   domains.cut(A.pattern());
   const Sizes sizes{static_cast<double>(A.rows()), static_cast<double>(A.pattern().block_count()),
                     static_cast<double>(domains.count()), static_cast<double>(coarse.entries()),
-                    static_cast<double>(coarse.dimension())};
+                    static_cast<double>(coarse.factor_blocks())};
   const std::size_t n = sheet.b().size();
   std::vector<Lane<float>> x(n, to_lane<float>(Vec3(1, 2, 3))), y(n);
   const Vec3s wide_x(n, Vec3(1, 2, 3));

@@ -173,7 +173,7 @@ struct Scene {
   PcgProcedure procedure = PcgProcedure::prefiltered;
   Integrator integrator = Integrator::backward_euler;
   int newton_iterations = 1;
-  int relinearisations = 3;
+  int relinearisations = 6;
   bool paper_scaling = false;
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
 

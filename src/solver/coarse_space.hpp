@@ -31,6 +31,7 @@ class CoarseSpace {
   int dimension() const { return 9 * aggregate_count_; }
   // Of A' Z: the aggregates that the rows of all particles reach.  Known after factorise().
   std::size_t entries() const { return entry_aggregate_.size(); }
+  std::size_t factor_blocks() const { return E_.stored_blocks(); }
 
   // A' Z and the factor of E.  Call when A, the rows or the constraints have changed.
   void factorise(const LinearSystem<T>& system);

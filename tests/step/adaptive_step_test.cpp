@@ -209,8 +209,8 @@ TEST(Golden, StateHashesOfThreeScenes) {
     return state_hash(run.state);
   };
   EXPECT_EQ(hanging(), "9f3e7112578c37e3");
-  EXPECT_EQ(folding(), "886d84bcf58fe28b");
-  EXPECT_EQ(drop(1), "ebbc1380ddfc1d0c");
+  EXPECT_EQ(folding(), "a88fd148e7e5f81d");
+  EXPECT_EQ(drop(1), "0d5c6a3d6056e02d");
 }
 
 }  // namespace
