@@ -14,7 +14,7 @@ constexpr double labels_held_s = 0.5, labels_fade_s = 0.5;  // after the weld
 constexpr double frictionless_s = 1;  // after the weld: the garment slips into place before friction holds it
 // While it is to come to rest: a sleeve that swings once a second would swing for ten, since what stops it in life, threads that rub on
 // threads, is not modelled.
-constexpr double coming_to_rest_per_s = 4;
+constexpr double coming_to_rest_per_s = 10;
 constexpr double sewn_step_max_s = 1.0 / 60;
 
 // Share of gravity and of the elastic's pull at time t after the weld.
