@@ -15,11 +15,10 @@ namespace toile {
 class BlockCholesky {
  public:
   static constexpr std::size_t side = 9;
-  using Block = double[side * side];  // by rows
 
   // `couples`: pairs (p, q), p < q < blocks, in any order, also twice, whose block is not empty.  All entries become zero.
   void begin(Index blocks, std::span<const std::pair<Index, Index>> couples);
-  // Of a couple, or p = q: rows of p, columns of q.
+  // Of a couple, or p = q: rows of p, columns of q, by rows.
   double* block(Index p, Index q) { return &value_[offset(p, q)]; }
 
   // After all blocks are set.  A pivot that is nothing beside the largest (1e-9) is struck out: nothing moves in its direction.
@@ -27,7 +26,6 @@ class BlockCholesky {
   // x <- E^-1 x, zero in what was struck out.
   void solve(std::span<double> x) const;
 
-  Index blocks() const { return blocks_; }
   std::size_t stored_blocks() const { return column_.size(); }
 
  private:
@@ -42,7 +40,7 @@ class BlockCholesky {
   std::vector<std::int32_t> row_begin_;              // [p], and the end of the last
   std::vector<Index> column_;                        // [slot] ascending in a row, the diagonal first
   std::vector<std::int32_t> slot_;                   // [p][q] of U
-  std::vector<double> value_;                        // [slot] a Block: of E, then of U
+  std::vector<double> value_;                        // [slot] side * side each: of E, then of U
   std::vector<std::uint8_t> dead_;                   // [direction]
 };
 

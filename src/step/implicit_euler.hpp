@@ -44,8 +44,8 @@ struct StepOptions {
   PositionAlteration position_alteration = PositionAlteration::in_solve;
   Integrator integrator = Integrator::backward_euler;
   int newton_iterations = 1;  // linear solves per step, each about the end that the last one found; the paper: 1
-  // More solves about where the last one ended, while a thread changes by more than it may, or turning makes energy; the paper: none.
-  // Scenes run with three (sim/scene.hpp).
+  // More solves about where the last one ended, while a thread changes by more than it may, and one where turning makes energy; the
+  // paper: none.  Scenes run with six (sim/scene.hpp).
   int relinearisations = 0;
   int max_passes = 8;              // of the active set, per linear solve
   double max_speed_m_per_s = 100;  // beyond this the step is refused
