@@ -18,8 +18,18 @@ constexpr double slowest_slip = 1e-3;         // v_0, m/s
 constexpr double stick_below = 0.99;          // of v_0: below v_0 friction needs less than its cone
 constexpr double slides_on_s = 0.1;           // after it broke loose
 constexpr double pull_of_weight = 0.01;       // a pull below this part of the particle's weight is solver noise
+constexpr double same_face = 0.9;             // cosine between normals, from which on they are of one face
+constexpr double look_back = -0.9;            // cosine between normals of faces that look at each other
+constexpr double least_sine2 = 0.1;           // between two faces at the start of a step it is 0.19 at least
+constexpr double over = 0.87;                 // cosine between a face's normal and the way from it to what lies over it
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// Of a force lambda n + mu m + what leads along the crease: lambda and mu.
+std::array<double, 2> along_normals(const Vec3& force, const Vec3& n, const Vec3& m) {
+  const double c = n.dot(m), f_n = n.dot(force), f_m = m.dot(force), s2 = std::max(1 - c * c, least_sine2);
+  return {(f_n - c * f_m) / s2, (f_m - c * f_n) / s2};
+}
 
 }  // namespace
 
@@ -33,6 +43,7 @@ BodyConstraints::BodyConstraints(const ClothModel& model, const BodySurface* bod
       lambda_n_(model.mass_kg.size(), 0),
       loose_s_(model.mass_kg.size(), 0) {
   near_.reserve(points_.size());
+  memory_.reserve(points_.size());
 }
 
 bool BodyConstraints::too_deep(const BodyPoint& point) const { return point.gap_m < -deepest * options_.offset_m; }
@@ -53,12 +64,35 @@ void BodyConstraints::detect(const ClothState& state, double h_s) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const BodyPoint& point = points_[i];
     if (point.triangle < 0 || too_deep(point)) continue;
-    near_.push_back({static_cast<Index>(i), point, Vec3::Zero(), point.normal});
+    near_.push_back({static_cast<Index>(i), {point, Vec3::Zero(), point.normal}});
+  }
+  find_creases(state);
+}
+
+void BodyConstraints::find_creases(const ClothState& state) {
+  beside_.clear();
+  auto memory = memory_.begin();
+  for (Near& near : near_) {
+    while (memory != memory_.end() && memory->particle < near.particle) ++memory;
+    if (memory == memory_.end()) return;
+    if (memory->particle != near.particle) continue;
+    const Vec3 &n = near.contact.normal, &x = state.x[at(near.particle)];
+    for (int k = 0; k < memory->faces && near.beside < 0; ++k) {
+      const Vec3& before = memory->normal[static_cast<std::size_t>(k)];
+      if (before.dot(n) > same_face) continue;
+      const BodyPoint face = body_->nearest_facing(x, before, reach_m_[at(near.particle)]);
+      if (face.triangle < 0 || face.normal.dot(n) > same_face) continue;
+      if (face.gap_m < over * (x - body_->position(face.triangle, face.barycentric)).norm()) continue;
+      const bool slit = face.normal.dot(n) < look_back;
+      if (slit && face.gap_m + near.contact.point.gap_m >= 2 * options_.offset_m) continue;
+      near.beside = static_cast<std::ptrdiff_t>(beside_.size());
+      beside_.push_back({{face, Vec3::Zero(), face.normal, false, memory->lambda_beside_N}, slit, memory->faces == 2});
+    }
   }
 }
 
 // The body's motion over the step, of which it may have been told anew.
-void BodyConstraints::Near::follow(const BodySurface& body) {
+void BodyConstraints::Contact::follow(const BodySurface& body) {
   body_travel = body.travel(point.triangle, point.barycentric);
   normal = body.normal_midway(point.triangle, point.normal);
 }
@@ -75,43 +109,66 @@ void BodyConstraints::find_what_came_far(const ClothState& state, std::span<cons
     reach_m_[i] = reach;
     points_[i] = body_->nearest(state.x[i], reach);
     if (points_[i].triangle < 0 || too_deep(points_[i])) continue;
-    Near near{particle, points_[i], Vec3::Zero(), points_[i].normal};
-    near.follow(*body_);
-    near.lambda_n = lambda_n_[i];
+    Near near{particle, {points_[i], Vec3::Zero(), points_[i].normal}};
+    near.contact.follow(*body_);
+    near.contact.lambda_n = lambda_n_[i];
     near_.push_back(near);
   }
 }
 
 // A new contact slides: what friction does to it is decided by the solve.
 void BodyConstraints::touch_down(Near& near, const Vec3& v, double h_s) const {
-  const Vec3 relative = v - near.body_travel / h_s;
-  const double v_n = near.normal.dot(relative);
+  Contact& contact = near.contact;
+  const Vec3 relative = v - contact.body_travel / h_s;
+  const double v_n = contact.normal.dot(relative);
   near.touch = Touch::slides;
-  near.slip_m_per_s = (relative - v_n * near.normal).norm();
-  if (near.lambda_n <= 0) {
-    const double stop = -v_n / h_s - near.normal.dot(model_->gravity_m_per_s2);
-    near.lambda_n = model_->mass_kg[at(near.particle)] * std::max(0.0, stop);
+  near.slip_m_per_s = (relative - v_n * contact.normal).norm();
+  if (contact.lambda_n <= 0) {
+    const double stop = -v_n / h_s - contact.normal.dot(model_->gravity_m_per_s2);
+    contact.lambda_n = model_->mass_kg[at(near.particle)] * std::max(0.0, stop);
   }
 }
 
 void BodyConstraints::begin(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step) {
+  for (Beside& beside : beside_) {
+    beside.contact.released = false;
+    beside.contact.follow(*body_);
+  }
   for (Near& near : near_) {
     const std::size_t i = at(near.particle);
-    near.released = near.slipped = false;
-    near.follow(*body_);
-    near.lambda_n = lambda_n_[i];
+    Contact& contact = near.contact;
+    contact.released = near.slipped = false;
+    contact.follow(*body_);
+    contact.lambda_n = lambda_n_[i];
     near.touch = Touch::none;
-    const Vec3 travel = step.drift(near.particle) + step.weight_s * (state.v[i] + dv[i]) - near.body_travel;
-    if (touch_[i] == Touch::none && near.point.gap_m + near.normal.dot(travel) >= options_.offset_m) continue;
+    const Vec3 way = step.drift(near.particle) + step.weight_s * (state.v[i] + dv[i]);
+    const auto gap = [&](const Contact& c) { return c.point.gap_m + c.normal.dot(way - c.body_travel); };
+    if (Beside* beside = this->beside(near))
+      beside->touches = beside->slit || beside->touched || gap(beside->contact) < options_.offset_m;
+    if (touch_[i] == Touch::none && gap(contact) >= options_.offset_m) continue;
     touch_down(near, state.v[i] + dv[i], step.h_s);
     if (touch_[i] == Touch::sticks && options_.friction > 0) near.touch = Touch::sticks;
   }
 }
 
-double BodyConstraints::alteration(const Near& near) const {
-  const double r = options_.offset_m, missing = r - near.point.gap_m;
+double BodyConstraints::alteration(const Contact& contact, double offset_m) const {
+  const double r = options_.offset_m, missing = offset_m - contact.point.gap_m;
   if (missing >= 0 && missing < dead_band * r) return 0;
   return std::min(missing, largest_alteration * r);
+}
+
+// In a crease y is the shortest way that leads as far as it has to from either face.
+Vec3 BodyConstraints::alteration(const Near& near) {
+  const double r = options_.offset_m;
+  const Vec3& n = near.contact.normal;
+  const Beside* other = touching_beside(near);
+  if (!other) return alteration(near.contact, r) * n;
+  if (other->slit) return alteration(near.contact, 0.5 * (near.contact.point.gap_m + other->contact.point.gap_m)) * n;
+  const Vec3& m = other->contact.normal;
+  const double along_n = alteration(near.contact, r), along_m = alteration(other->contact, r), c = n.dot(m);
+  const Vec3 y = along_n * n + ((along_m - c * along_n) / std::max(1 - c * c, least_sine2)) * (m - c * n);
+  const double most = std::max({largest_alteration * r, std::abs(along_n), std::abs(along_m)});
+  return std::min(1.0, most / std::max(y.norm(), most)) * y;
 }
 
 void BodyConstraints::apply(const ClothState& state, const StepFormula& step, ParticleConstraints& constraints,
@@ -120,25 +177,99 @@ void BodyConstraints::apply(const ClothState& state, const StepFormula& step, Pa
     near.pinned = !constraints.is_free(near.particle);
     if (near.touch == Touch::none || near.pinned) continue;
     const std::size_t i = at(near.particle);
-    const Vec3& n = near.normal;
-    const Vec3 z = (near.body_travel - step.drift(near.particle)) / step.weight_s - state.v[i];
-    y[i] = alteration(near) * n;
+    const Contact* other = other_face(near);
+    const auto z = [&](const Contact& contact) -> Vec3 {
+      return (contact.body_travel - step.drift(near.particle)) / step.weight_s - state.v[i];
+    };
+    y[i] = alteration(near);
     if (near.touch == Touch::sticks) {
-      constraints.hold(near.particle, z);
+      constraints.hold(near.particle, z(near.contact));
       continue;
     }
-    constraints.hold_along(near.particle, n, n.dot(z));
-    if (options_.friction <= 0 || near.lambda_n <= 0) continue;
-    for (const Vec3& t : tangents(n)) {
+    const Vec3& n = near.contact.normal;
+    constraints.hold_along(near.particle, n, n.dot(z(near.contact)));
+    double lambda = near.contact.lambda_n;
+    std::array<Vec3, 2> across = tangents(n);
+    std::span<const Vec3> free = across;
+    if (other) {
+      constraints.hold_along(near.particle, other->normal, other->normal.dot(z(*other)));
+      lambda += other->lambda_n;
+      across[0] = n.cross(other->normal).normalized();
+      free = free.first(1);
+    }
+    if (options_.friction <= 0 || lambda <= 0) continue;
+    for (const Vec3& t : free) {
       LinearSpring drag;
       drag.particle[0] = near.particle;
       drag.weight[0] = 1;
       drag.direction = t;
-      drag.damping_N_s_per_m = options_.friction * near.lambda_n / std::max(near.slip_m_per_s, slowest_slip);
-      drag.body_displacement_m = t.dot(near.body_travel);
+      drag.damping_N_s_per_m = options_.friction * lambda / std::max(near.slip_m_per_s, slowest_slip);
+      drag.body_displacement_m = t.dot(near.contact.body_travel);
       springs.push_back(drag);
     }
   }
+}
+
+double BodyConstraints::predicted_gap_m(const Contact& contact, Index particle, const Vec3& v,
+                                        const StepFormula& step) const {
+  const Vec3& n = contact.normal;
+  const Vec3 velocity = v - contact.body_travel / step.h_s;
+  const double gap = contact.point.gap_m + step.weight_s * n.dot(velocity);
+  if (step.drift_m.empty()) return gap;
+  return gap + n.dot(step.drift(particle) + (step.weight_s / step.h_s - 1) * contact.body_travel);
+}
+
+// Whether it touches, after faces that it would come too near to have been added.
+bool BodyConstraints::touches(Near& near, const Vec3& v, const StepFormula& step, Change& change) {
+  const auto comes_to = [&](Contact& contact) {
+    const double gap = predicted_gap_m(contact, near.particle, v, step);
+    if (gap >= (1 - dead_band) * options_.offset_m) return false;
+    contact.lambda_n = 0;
+    ++change.added;
+    if (gap < deep * options_.offset_m) ++change.deep;
+    return true;
+  };
+  Beside* beside = this->beside(near);
+  if (beside && !beside->touches) beside->touches = comes_to(beside->contact);
+  if (near.touch != Touch::none) return true;
+  if (!comes_to(near.contact)) {
+    if (!beside || !beside->touches) return false;
+    std::swap(near.contact, beside->contact);
+    beside->touches = false;
+  }
+  touch_down(near, v, step.h_s);
+  return true;
+}
+
+// Whether a face would have to pull, and lets go: of two the one that would pull more.
+bool BodyConstraints::is_let_go(Near& near, const Vec3& force_N, bool may_leave) {
+  Contact& contact = near.contact;
+  Beside* beside = touching_beside(near);
+  std::array<double, 2> lambda{contact.normal.dot(force_N), 0};
+  if (beside && beside->slit) {  // one of the two pushes
+    if (lambda[0] < 0) std::swap(contact, beside->contact);
+    contact.lambda_n = std::abs(lambda[0]);
+    beside->contact.lambda_n = 0;
+    return false;
+  }
+  if (beside) lambda = along_normals(force_N, contact.normal, beside->contact.normal);
+  const bool other_pulls_more = beside && lambda[1] < lambda[0];
+  Contact& pulls = other_pulls_more ? beside->contact : contact;
+  const double noise = pull_of_weight * model_->mass_kg[at(near.particle)] * model_->gravity_m_per_s2.norm();
+  if (std::min(lambda[0], lambda[1]) < -noise && !pulls.released && may_leave) {
+    pulls.released = true;
+    pulls.lambda_n = 0;
+    if (!beside) {
+      near.touch = Touch::none;
+    } else {
+      if (!other_pulls_more) std::swap(contact, beside->contact);
+      beside->touches = false;
+    }
+    return true;
+  }
+  contact.lambda_n = std::max(lambda[0], 0.0);
+  if (beside) beside->contact.lambda_n = std::max(lambda[1], 0.0);
+  return false;
 }
 
 BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::span<const Vec3> dv,
@@ -148,39 +279,31 @@ BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::sp
   for (Near& near : near_) {
     if (near.pinned) continue;
     const std::size_t i = at(near.particle);
-    const Vec3& n = near.normal;
-    const Vec3 velocity =
-        state.v[i] + dv[i] - near.body_travel / step.h_s;  // relative to the body, at the end of the step
-    if (near.touch == Touch::none) {
-      double gap = near.point.gap_m + step.weight_s * n.dot(velocity);
-      if (!step.drift_m.empty())
-        gap += n.dot(step.drift(near.particle) + (step.weight_s / step.h_s - 1) * near.body_travel);
-      if (gap < (1 - dead_band) * options_.offset_m) {
-        near.lambda_n = 0;
-        touch_down(near, state.v[i] + dv[i], step.h_s);
-        ++change.added;
-        if (gap < deep * options_.offset_m) ++change.deep;
-        ++change.touching;
-      }
+    const Vec3 v = state.v[i] + dv[i];
+    const bool touched = near.touch != Touch::none;
+    if (!touches(near, v, step, change)) continue;
+    if (!touched) {
+      ++change.touching;
       continue;
     }
     const Vec3 force = e[i] / step.weight_s;
-    const double lambda = n.dot(force);
-    if (lambda < -pull_of_weight * model_->mass_kg[i] * model_->gravity_m_per_s2.norm() && !near.released &&
-        first_passes) {
-      near.touch = Touch::none;
-      near.released = true;
-      near.lambda_n = 0;
+    if (is_let_go(near, force, first_passes)) {
       ++change.released;
+      change.touching += near.touch != Touch::none ? 1 : 0;
       continue;
     }
     ++change.touching;
-    near.lambda_n = std::max(lambda, 0.0);
-    const Vec3 v_t = velocity - n.dot(velocity) * n;
-    near.slip_m_per_s = v_t.norm();
+    const Vec3 &n = near.contact.normal, velocity = v - near.contact.body_travel / step.h_s;  // at the end of the step
+    near.slip_m_per_s = (velocity - n.dot(velocity) * n).norm();
     if (near.touch == Touch::sticks && !near.slipped) {
-      const Vec3 tangential = force - lambda * n;
-      if (tangential.norm() > static_over_kinetic * options_.friction * near.lambda_n) {
+      Vec3 tangential = force - n.dot(force) * n;
+      double lambda = near.contact.lambda_n;
+      if (const Contact* other = other_face(near)) {
+        const Vec3 along = n.cross(other->normal).normalized();
+        tangential = along.dot(force) * along;
+        lambda += other->lambda_n;
+      }
+      if (tangential.norm() > static_over_kinetic * options_.friction * lambda) {
         near.touch = Touch::slides;
         near.slipped = true;
         ++change.slipped;
@@ -204,14 +327,23 @@ void BodyConstraints::accept(double h_s) {
   std::fill(touch_.begin(), touch_.end(), Touch::none);
   std::fill(lambda_n_.begin(), lambda_n_.end(), 0.0);
   for (double& loose_s : loose_s_) loose_s = std::max(loose_s - h_s, 0.0);
+  memory_.clear();
   for (const Near& near : near_) {
     double& loose_s = loose_s_[at(near.particle)];
     if (near.slipped) loose_s = slides_on_s;
     const bool stopped = options_.friction > 0 && near.touch == Touch::slides && loose_s == 0 &&
                          near.slip_m_per_s < stick_below * slowest_slip;
     touch_[at(near.particle)] = stopped ? Touch::sticks : near.touch;
-    if (near.touch != Touch::none) lambda_n_[at(near.particle)] = near.lambda_n;
+    if (near.touch == Touch::none) continue;
+    lambda_n_[at(near.particle)] = near.contact.lambda_n;
+    memory_.push_back({near.particle, 1, {near.contact.normal, Vec3::Zero()}, 0});
+    if (const Beside* other = touching_beside(near)) {
+      memory_.back().faces = 2;
+      memory_.back().normal[1] = other->contact.normal;
+      memory_.back().lambda_beside_N = other->contact.lambda_n;
+    }
   }
+  std::sort(memory_.begin(), memory_.end(), [](const Memory& a, const Memory& b) { return a.particle < b.particle; });
 }
 
 int BodyConstraints::touching() const {

@@ -15,8 +15,11 @@
 //   y          position alteration: min(r - gap, 0.2 r) n, zero while 0 <= r - gap < 0.02 r; negative lets a predicted contact land exactly
 //              on the offset.  It moves the particle and tells its neighbours through K y, and is never part of v.
 //   release    lambda_n < 0: the body would have to pull.  Within the same step (the paper: in the next), once per particle and step.
+//   crease     the face that a particle touched before, and still lies over, while another one is the nearest now: it may touch both, and has
+//              one degree of freedom left, S = I - p p^T - q q^T.  Held by the nearest alone it would slide on it beneath the offset of the
+//              other, be pushed out of there, and slide again, for ever.  Between faces that look at each other it is moved to the middle.
 //
-// lambda = e / h is read from the residual e = A dv - b of the solve.
+// lambda = e / h is read from the residual e = A dv - b of the solve: in a crease, of both faces.
 #pragma once
 #include "assembly/cloth_model.hpp"
 #include "assembly/implicit_row.hpp"
@@ -24,6 +27,8 @@
 #include "contact/proximity.hpp"
 #include "step/step_formula.hpp"
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -79,20 +84,54 @@ class BodyConstraints {
   const BodyContactOptions& options() const { return options_; }
 
  private:
-  struct Near {  // a particle within reach of the body
-    Index particle;
+  struct Contact {
     BodyPoint point;
-    Vec3 body_travel;  // of the contact's material point over the step, m
-    Vec3 normal;       // of the contact, in the middle of the step
-    Touch touch = Touch::none;
-    bool released = false, slipped = false, pinned = false;
-    double lambda_n = 0;      // N
-    double slip_m_per_s = 0;  // |v_t| relative to the body
+    Vec3 body_travel;  // of its material point over the step, m
+    Vec3 normal;       // in the middle of the step
+    bool released = false;
+    double lambda_n = 0;  // N
     void follow(const BodySurface& body);
   };
+  struct Beside {  // the other face of a crease
+    Contact contact;
+    bool slit;  // faces that look at each other: the particle is in the middle, and held along one normal
+    bool touched, touches = false;  // in the last step; in this one, then the near one does as well
+  };
+  struct Near {  // a particle within reach of the body
+    Index particle;
+    Contact contact;
+    Touch touch = Touch::none;
+    bool slipped = false, pinned = false;
+    double slip_m_per_s = 0;     // |v_t| relative to the body
+    std::ptrdiff_t beside = -1;  // of beside_; -1: no crease
+  };
+  struct Memory {  // of a particle that touched in the last accepted step
+    Index particle;
+    int faces;
+    std::array<Vec3, 2> normal;
+    double lambda_beside_N;
+  };
+  void find_creases(const ClothState& state);
+  // At the end of the step, with the velocity v.
+  double predicted_gap_m(const Contact& contact, Index particle, const Vec3& v, const StepFormula& step) const;
+  bool touches(Near& near, const Vec3& v, const StepFormula& step, Change& change);
+  bool is_let_go(Near& near, const Vec3& force_N, bool may_leave);
+  Beside* beside(const Near& near) {
+    return near.beside < 0 ? nullptr : &beside_[static_cast<std::size_t>(near.beside)];
+  }
+  Beside* touching_beside(const Near& near) {
+    Beside* other = beside(near);
+    return other && other->touches ? other : nullptr;
+  }
+  // The second face that holds it.
+  const Contact* other_face(const Near& near) {
+    const Beside* other = touching_beside(near);
+    return other && !other->slit ? &other->contact : nullptr;
+  }
   void find_what_came_far(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step);
   void touch_down(Near& near, const Vec3& v, double h_s) const;
-  double alteration(const Near& near) const;
+  double alteration(const Contact& contact, double offset_m) const;
+  Vec3 alteration(const Near& near);
 
   const ClothModel* model_;
   const BodySurface* body_;
@@ -101,9 +140,11 @@ class BodyConstraints {
   std::vector<double> reach_m_;    // [particle] how far was looked
   double farthest_travel_m_ = 0;   // of any vertex of the body in the step that detect was told of
   std::vector<Near> near_;         // ascending particles, then those that `update` found
-  std::vector<Touch> touch_;       // [particle] at the end of the last accepted step
-  std::vector<double> lambda_n_;   // [particle] N, likewise
-  std::vector<double> loose_s_;    // [particle] for how long it slides on, however slowly
+  std::vector<Beside> beside_;
+  std::vector<Memory> memory_;    // ascending particles
+  std::vector<Touch> touch_;      // [particle] at the end of the last accepted step
+  std::vector<double> lambda_n_;  // [particle] N, likewise
+  std::vector<double> loose_s_;   // [particle] for how long it slides on, however slowly
 };
 
 }  // namespace toile
