@@ -12,10 +12,9 @@ constexpr double weightless_s = 0.2, ramp_s = 0.3;  // after the weld
 static_assert(weightless_s + ramp_s == OutfitRun::settling_s);
 constexpr double labels_held_s = 0.5, labels_fade_s = 0.5;  // after the weld
 constexpr double frictionless_s = 1;  // after the weld: the garment slips into place before friction holds it
-// While it is to come to rest: a sleeve that swings once a second would swing for ten, since what stops it in life, threads that rub on
-// threads, is not modelled.
-constexpr double coming_to_rest_per_s = 10;
 constexpr double sewn_step_max_s = 1.0 / 60;
+// While rest is awaited: it takes as many steps, however long they are, and what turns slowly is braked by nothing else.
+constexpr double awaited_step_max_s = 1.0 / 30, awaited_slow_motion = 0.1;
 
 // Share of gravity and of the elastic's pull at time t after the weld.
 double ramp(double t_s) { return std::clamp((t_s - weightless_s) / ramp_s, 0.0, 1.0); }
@@ -45,8 +44,8 @@ OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, BodySurface* body, cons
   };
   AdaptiveOptions adaptive;
   adaptive.stop = std::move(stop);
-  adaptive.step_max_s = scene.step_max_s.value_or(scene.cloth.front().is_sewn() ? sewn_step_max_s : 1 / scene.fps);
   stepper_.emplace(model_, world_, step_, adaptive);
+  choose_steps();
   set_rest_stretch(1);
   if (outfit.thickness_scale.empty()) outfit.thickness_scale.assign(outfit.state.x.size(), 1);
   tangles_.emplace(model_.topology, model_.mesh.triangles);
@@ -74,12 +73,21 @@ void OutfitRun::settle() {
   if (t_s >= settling_s) worn_pins_.clear();
   const double slippery_s = first ? frictionless_s : settling_s;
   stepper_->integrator().body_constraints().set_friction(t_s < slippery_s ? 0 : step_.body.friction);
-  model_.drag_per_s = settling_.to_rest && !motion_ && t_s >= slippery_s ? coming_to_rest_per_s : 0;
+}
+
+void OutfitRun::choose_steps() {
+  const bool awaited = settling_.to_rest && !motion_;
+  const double longest = !scene_->cloth.front().is_sewn() ? 1 / scene_->fps
+                         : awaited                        ? awaited_step_max_s
+                                                          : sewn_step_max_s;
+  stepper_->options().step_max_s = scene_->step_max_s.value_or(longest);
+  stepper_->integrator().set_slow_motion(awaited ? awaited_slow_motion : step_.slow_motion);
 }
 
 void OutfitRun::start_motion(BodyAt body_at) {
   motion_ = std::move(body_at);
   motion_start_s_ = time_s();
+  choose_steps();
   world_.body_at = [this](double t_s, std::span<Vec3> x) { motion_(std::max(0.0, t_s - motion_start_s_), x); };
 }
 

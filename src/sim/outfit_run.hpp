@@ -2,8 +2,9 @@
 //
 //   after a weld   0.2 s weightless, 0.3 s in which gravity and elastic grow; what was worn before is held that long.
 //                  A single garment slips on the body for 1 s before friction holds it; labels let go between 0.5 and 1 s.
-//   then           as the scene says; where rest is awaited, drag on every motion.  start_motion() lets the body move from the next
-//                  frame on, and takes the drag away.
+//   then           as the scene says.  start_motion() lets the body move from the next frame on.
+//
+// Where rest is awaited, steps are twice as long until then, and slow motion is solved for more exactly.
 #pragma once
 #include "garment/label_heights.hpp"
 #include "sim/outfit.hpp"
@@ -25,7 +26,7 @@ struct Settling {            // of a garment that has just been sewn
   bool sewn = false;         // false: nothing to settle (a grid, or a drape that is taken up again)
   Index held_particles = 0;  // worn before
   LabelSprings labels;       // hold the new garment for a while
-  bool to_rest = true;       // it is awaited: once it hangs, and until the body moves, drag brakes it
+  bool to_rest = false;      // it is awaited, until the body moves
 };
 
 struct TimedPin {
@@ -73,6 +74,7 @@ class OutfitRun {
 
  private:
   void settle();
+  void choose_steps();
   void set_rest_stretch(double share);
   void happen();
   void take_and_let_go();

@@ -114,6 +114,7 @@ class Run {
   bool stopped() const { return options_.stop && options_.stop(); }
   BodySurface* body() { return body_ ? &*body_ : nullptr; }
   bool sewn() const { return scene_.cloth.front().is_sewn(); }
+  bool awaits_rest() const { return scene_.until_still || motion_.has_value(); }
 
   void end(std::string_view how, std::string detail) {
     report_.ended = how;
@@ -221,6 +222,7 @@ class Run {
   bool put_on() {
     if (!scene_.start.empty()) {
       outfit_ = start_from(scene_.start, cloth_, body_x_);
+      settling_.to_rest = sewn() && awaits_rest();
       free_start(false);
       return true;
     }
@@ -298,7 +300,7 @@ class Run {
       outfit_.state = sewing.state();  // for the hash
       return false;
     }
-    settling_ = {true, outfit_.mesh.particle_count, dressing.labels(), scene_.until_still || motion_.has_value()};
+    settling_ = {true, outfit_.mesh.particle_count, dressing.labels(), awaits_rest()};
     outfit_ = dressing.worn();
     free_start(true);
     return true;
@@ -357,8 +359,7 @@ class Run {
     for (int k = 1; k < drape_frames; ++k) {
       if (!frame(run, phase, "draping", k)) return close(run);
       say("draping", static_cast<double>(k) / drape_frames, watch.seconds() * (drape_frames - 1 - k) / k);
-      if ((scene_.until_still || moving) && run.settled() && run.time_s() - frame_s() > settle_s() + rest_s &&
-          recorder_->at_rest()) {
+      if (awaits_rest() && run.settled() && run.time_s() - frame_s() > settle_s() + rest_s && recorder_->at_rest()) {
         if (!moving) report_.ended = "still";
         break;
       }

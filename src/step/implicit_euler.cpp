@@ -11,9 +11,7 @@ namespace {
 constexpr double loose_passes = 3;  // times the residual at which the last pass stops
 // Passes before the end of a step is worth judging: the first guess of the contacts is poor.
 constexpr int contact_passes = 2;
-// What a solve may make in threads without knowing of it, of the kinetic energy; that of a step's free fall counts as well, or cloth that
-// hardly moves would never be still enough.
-constexpr double most_made = 0.1;
+constexpr double most_made = 0.1;           // in threads by a solve that does not know of it, of the kinetic energy
 constexpr double shortest_part = 1.0 / 16;  // of the way that a solve about an end leads
 
 }  // namespace
@@ -221,9 +219,10 @@ void ImplicitEuler::find_end(const ClothState& state, const StepFormula& step, C
   }
 }
 
-// Whether threads get energy at that end that the solve knew nothing of, as they do where cloth turns: it would brake the turn in the next step.
+// Whether threads get energy at that end that the solve knew nothing of, as they do where cloth turns: it would brake the turn in the next
+// step.  Slow motion counts as well as it would at its slowest speed, or cloth that hardly moves would never be still enough.
 bool ImplicitEuler::makes_energy(const ClothState& candidate, double h_s) {
-  const double fall2 = (h_s * model_->gravity_m_per_s2).squaredNorm();
+  const double fall2 = (options_.slow_motion * h_s * model_->gravity_m_per_s2).squaredNorm();
   double kinetic_J = 0;
   for (std::size_t i = 0; i < candidate.v.size(); ++i)
     kinetic_J += 0.5 * model_->mass_kg[i] * (candidate.v[i].squaredNorm() + fall2);

@@ -47,6 +47,8 @@ struct StepOptions {
   // More solves about where the last one ended, while a thread changes by more than it may, and one where turning makes energy; the
   // paper: none.  Scenes run with six (sim/scene.hpp).
   int relinearisations = 0;
+  // Of the speed that free fall gives in a step: slower turning is not solved again for the energy that it makes, and is braked by it.
+  double slow_motion = 1;
   int max_passes = 8;              // of the active set, per linear solve
   double max_speed_m_per_s = 100;  // beyond this the step is refused
   bool guard_body = true;          // the safe filter keeps cloth out of the body too
@@ -101,6 +103,7 @@ class ImplicitEuler {
   // f + h K terms of the last assembled system, for tests.
   const BlockMatrix<float>& A() const { return A_; }
   const StepOptions& options() const { return options_; }
+  void set_slow_motion(double share) { options_.slow_motion = share; }
   const ClothModel& model() const { return *model_; }
 
  private:

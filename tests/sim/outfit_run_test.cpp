@@ -6,24 +6,27 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 namespace toile {
 namespace {
 
-// A sheet of 20 cm that was level when it was "sewn", and hangs by two of its corners.
+// A sheet of 20 cm that counts as sewn, and hangs by two of its corners.
 struct Hanging {
-  Scene scene = parse_scene(R"({"cloth": [{"name": "sheet",
-      "grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.025}, "placement": {"rotation_deg": [-90, 0, 0]}}],
-      "time": {"step_max_ms": 16}})",
-                            "hanging.json");
+  Scene scene;
   Hash inputs;
   std::vector<LoadedCloth> cloth;
   Outfit outfit;
   std::optional<OutfitRun> run;
 
-  explicit Hanging(bool to_rest) {
+  explicit Hanging(bool to_rest, const char* time = "{}") {
+    scene = parse_scene(R"({"cloth": [{"name": "sheet", "grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.025},
+        "placement": {"rotation_deg": [-90, 0, 0]}}], "time": )" +
+                            std::string(time) + "}",
+                        "hanging.json");
     cloth.push_back(load_cloth(scene, scene.cloth.front(), read_text_file, inputs));
+    scene.cloth.front().pattern = "sheet.json";
     outfit = outfit_of_shapes(cloth);
     Settling settling;
     settling.sewn = true;
@@ -43,33 +46,20 @@ struct Hanging {
     }
     run->set_events(std::move(events));
   }
-  void advance(double seconds) {
-    const int frames = static_cast<int>(std::lround(seconds * scene.fps));
-    for (int f = 0; f < frames; ++f) ASSERT_TRUE(run->frame().ok);
-  }
-  double fastest_m_per_s() const {
-    double fastest = 0;
-    for (const Vec3& v : outfit.state.v) fastest = std::max(fastest, v.norm());
-    return fastest;
-  }
+  double longest_step_s() { return run->frame().step_max_s; }
 };
 
-TEST(OutfitRun, WhatIsToRestStopsSwinging) {
-  Hanging awaited(true), timed(false);
-  for (Hanging* one : {&awaited, &timed}) one->advance(0.9);
-  EXPECT_EQ(awaited.fastest_m_per_s(), timed.fastest_m_per_s());  // it falls as it would
-  for (Hanging* one : {&awaited, &timed}) one->advance(1.2);
-  EXPECT_LT(awaited.fastest_m_per_s(), 0.3 * timed.fastest_m_per_s());
-  EXPECT_GT(timed.fastest_m_per_s(), 0.01);
+TEST(OutfitRun, StepsAreTwiceAsLongWhileRestIsAwaited) {
+  EXPECT_DOUBLE_EQ(Hanging(false).longest_step_s(), 1.0 / 60);
+  Hanging awaited(true);
+  for (int frame = 0; frame < 3; ++frame) EXPECT_DOUBLE_EQ(awaited.longest_step_s(), 1.0 / 30);
+  awaited.run->start_motion([](double, std::span<Vec3>) {});
+  EXPECT_DOUBLE_EQ(awaited.longest_step_s(), 1.0 / 60);
 }
 
-TEST(OutfitRun, DragBrakesNothingOnceTheBodyMoves) {
-  Hanging awaited(true);
-  awaited.advance(1.5);
-  EXPECT_GT(awaited.run->model().drag_per_s, 0);
-  awaited.run->start_motion([](double, std::span<Vec3>) {});
-  awaited.advance(0.1);
-  EXPECT_EQ(awaited.run->model().drag_per_s, 0);
+TEST(OutfitRun, StepsAreNoLongerThanTheSceneSaysAlsoWhileRestIsAwaited) {
+  EXPECT_DOUBLE_EQ(Hanging(true, R"({"step_max_ms": 5})").longest_step_s(), 1.0 / 30 / 7);
+  EXPECT_DOUBLE_EQ(Hanging(true, R"({"fps": 60})").longest_step_s(), 1.0 / 60);
 }
 
 }  // namespace
