@@ -83,15 +83,15 @@ class BodyImpactQuery {
         return;
       const unsigned owned_a = cloth_.owned(a), owned_b = body_.owned(b);
       const Index n = static_cast<Index>(start_.size());
-      tree_walk::for_lanes(owned_a & 7u, [&](std::size_t k) {
+      for_lanes(owned_a & 7u, [&](std::size_t k) {
         decide(ContactKind::vertex_face, {of_cloth[k], n + of_body[0], n + of_body[1], n + of_body[2]}, 1, found);
       });
-      tree_walk::for_lanes(owned_b & 7u, [&](std::size_t k) {
+      for_lanes(owned_b & 7u, [&](std::size_t k) {
         decide(ContactKind::vertex_face, {n + of_body[k], of_cloth[0], of_cloth[1], of_cloth[2]}, 1, found);
       });
-      tree_walk::for_lanes(owned_a >> 3, [&](std::size_t k) {
+      for_lanes(owned_a >> 3, [&](std::size_t k) {
         const Edge& e = cloth_.edge(cloth_.triangle_edges(a)[k]);
-        tree_walk::for_lanes(owned_b >> 3, [&](std::size_t l) {
+        for_lanes(owned_b >> 3, [&](std::size_t l) {
           const Edge& f = body_.topology().edges[at(body_.topology().triangle_edges[at(b)][l])];
           decide(ContactKind::edge_edge, {e.a, e.b, n + f.a, n + f.b}, 2, found);
         });

@@ -32,18 +32,18 @@ class BodyQuery {
       const unsigned owned = memory_.body_features[static_cast<std::size_t>(b)];
       if (owned == 0) return;
       const Triangle& corners = body_.triangle(b);
-      tree_walk::for_lanes(owned & 7u, [&](std::size_t k) {
+      for_lanes(owned & 7u, [&](std::size_t k) {
         if (bodies.particle_box(corners[k]).overlaps(tree_.triangle_box(a))) meet_vertex(corners[k], a, found);
       });
       const unsigned edges = static_cast<unsigned>(cloth_.owned(a)) >> 3;
       if (edges == 0) return;
-      tree_walk::for_lanes(owned >> 3, [&](std::size_t l) {
+      for_lanes(owned >> 3, [&](std::size_t l) {
         const Index f = body_.topology().triangle_edges[static_cast<std::size_t>(b)][l];
         const Edge& ridge = body_.topology().edges[static_cast<std::size_t>(f)];
         OuterBox box = bodies.particle_box(ridge.a);
         box.include(bodies.particle_box(ridge.b));
         if (!box.overlaps(tree_.triangle_box(a))) return;
-        tree_walk::for_lanes(edges, [&](std::size_t k) { meet_edges(cloth_.triangle_edges(a)[k], f, box, found); });
+        for_lanes(edges, [&](std::size_t k) { meet_edges(cloth_.triangle_edges(a)[k], f, box, found); });
       });
     });
   }

@@ -210,7 +210,7 @@ void TriangleTree::overlapping(const Box& box, std::vector<Index>& triangles) co
   stack[top++] = 0;
   while (top > 0) {
     const Node& at = node(stack[--top]);
-    tree_walk::for_lanes(at.boxes.overlapping(query), [&](std::size_t lane) {
+    for_lanes(at.boxes.overlapping(query), [&](std::size_t lane) {
       if (at.leaf()) {
         triangles.push_back(at.child[lane]);
       } else {

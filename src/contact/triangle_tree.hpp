@@ -5,19 +5,15 @@
 // it. The topology of the mesh is fixed, so it is never rebuilt; only boxes change.  Queries visit nodes in a fixed
 // order: the same input gives the same list at any thread count.
 //
-// Boxes are single precision, rounded outward: half the memory traffic, and never smaller than the exact box.  At 2 m
-// from the origin the rounding adds at most 0.4 micrometres.  Coordinates must be below 1e30 m.
+// Boxes are single precision, rounded outward (core/lane_boxes.hpp).
 //
 // Easily got wrong: a copy of a tree shares the original's hierarchy (cheap to hold) but has boxes of its own.
 #pragma once
 #include "core/bucket_order.hpp"
-#include "core/types.hpp"
+#include "core/lane_boxes.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
@@ -29,35 +25,6 @@ struct Box {
   Vec3 low, high;
   bool overlaps(const Box& other) const {
     return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
-  }
-};
-
-// A box in single precision that holds the double precision box it was made from.
-struct OuterBox {
-  std::array<float, 3> low{}, high{};
-
-  // A float at most, and one at least, as large as x.  Converting errs by half a unit in the last place;
-  // |f| 2^-23 is one to two such units, the small constant does the same for numbers near zero.
-  static float below(double x) {
-    const float f = static_cast<float>(x);
-    return f - (std::fabs(f) * 0x1p-23f + 1e-37f);
-  }
-  static float above(double x) {
-    const float f = static_cast<float>(x);
-    return f + (std::fabs(f) * 0x1p-23f + 1e-37f);
-  }
-  bool overlaps(const OuterBox& other) const {  // without branches: the outcome is unpredictable
-    const auto& a = *this;
-    const auto& b = other;
-    return static_cast<bool>(static_cast<int>(a.low[0] <= b.high[0]) & static_cast<int>(b.low[0] <= a.high[0]) &
-                             static_cast<int>(a.low[1] <= b.high[1]) & static_cast<int>(b.low[1] <= a.high[1]) &
-                             static_cast<int>(a.low[2] <= b.high[2]) & static_cast<int>(b.low[2] <= a.high[2]));
-  }
-  void include(const OuterBox& other) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = other.low[k] < low[k] ? other.low[k] : low[k];
-      high[k] = other.high[k] > high[k] ? other.high[k] : high[k];
-    }
   }
 };
 
@@ -73,51 +40,6 @@ struct PairWorkspace {
   std::vector<std::vector<std::pair<Index, Index>>> found;  // by task
   std::vector<std::pair<Index, Index>> all;
   BucketOrder sorted;
-};
-
-// Four boxes side by side; an empty lane overlaps nothing and is infinitely far.
-struct LaneBoxes {
-  using Lanes = float __attribute__((vector_size(16)));
-  using Mask = std::int32_t __attribute__((vector_size(16)));
-  static constexpr float none = std::numeric_limits<float>::infinity();
-
-  std::array<Lanes, 3> low{all(none), all(none), all(none)}, high{all(-none), all(-none), all(-none)};
-
-  static constexpr Lanes all(float x) { return Lanes{x, x, x, x}; }
-  static Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
-
-  void set(int lane, const OuterBox& box) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k][lane] = box.low[k];
-      high[k][lane] = box.high[k];
-    }
-  }
-  OuterBox box(int lane) const {
-    return {{low[0][lane], low[1][lane], low[2][lane]}, {high[0][lane], high[1][lane], high[2][lane]}};
-  }
-  OuterBox whole() const {
-    OuterBox sum = box(0);
-    for (int lane = 1; lane < 4; ++lane) sum.include(box(lane));
-    return sum;
-  }
-  // Bit `lane` is set where the lane overlaps the box.
-  unsigned overlapping(const OuterBox& other) const {
-    const Mask hit = (low[0] <= all(other.high[0])) & (all(other.low[0]) <= high[0]) &  //
-                     (low[1] <= all(other.high[1])) & (all(other.low[1]) <= high[1]) &  //
-                     (low[2] <= all(other.high[2])) & (all(other.low[2]) <= high[2]);
-    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(hit & Mask{1, 2, 4, 8});
-    const std::uint64_t both = halves[0] | halves[1];
-    return static_cast<unsigned>(both | both >> 32) & 15u;
-  }
-  // At most the squared distances to a point in the box [below, above]: the factor covers the rounding of the sums.
-  Lanes distance2(const std::array<float, 3>& below, const std::array<float, 3>& above) const {
-    Lanes sum = all(0);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Lanes out = larger(larger(low[k] - all(above[k]), all(below[k]) - high[k]), all(0));
-      sum += out * out;
-    }
-    return sum * all(1 - 1e-6f);
-  }
 };
 
 class TriangleTree {
@@ -191,11 +113,6 @@ class TriangleTree {
 
 namespace tree_walk {
 inline constexpr std::size_t pair_stack = 640, node_stack = 96;
-// Calls body(lane) for the set bits, ascending.
-template <class Body>
-void for_lanes(unsigned bits, Body&& body) {
-  for (; bits != 0; bits &= bits - 1) body(static_cast<std::size_t>(std::countr_zero(bits)));
-}
 }  // namespace tree_walk
 
 // One step of a walk over pairs: passes pairs of triangles to `visit` and pairs of nodes to `push`.
@@ -212,13 +129,13 @@ void TriangleTree::meet(const TriangleTree& first, const TriangleTree& second, T
     any_b |= hits;
     any_a |= 1u << i;
     if (a.leaf() && b.leaf()) {
-      tree_walk::for_lanes(hits, [&](std::size_t j) { visit(child, b.child[j]); });
+      for_lanes(hits, [&](std::size_t j) { visit(child, b.child[j]); });
     } else if (!a.leaf() && !b.leaf()) {
-      tree_walk::for_lanes(hits, [&](std::size_t j) { push(TreeTask{child, b.child[j]}); });
+      for_lanes(hits, [&](std::size_t j) { push(TreeTask{child, b.child[j]}); });
     }
   }
-  if (a.leaf() && !b.leaf()) tree_walk::for_lanes(any_b, [&](std::size_t j) { push(TreeTask{pair.a, b.child[j]}); });
-  if (!a.leaf() && b.leaf()) tree_walk::for_lanes(any_a, [&](std::size_t i) { push(TreeTask{a.child[i], pair.b}); });
+  if (a.leaf() && !b.leaf()) for_lanes(any_b, [&](std::size_t j) { push(TreeTask{pair.a, b.child[j]}); });
+  if (!a.leaf() && b.leaf()) for_lanes(any_a, [&](std::size_t i) { push(TreeTask{a.child[i], pair.b}); });
 }
 
 template <class Visit, class Push>
@@ -229,7 +146,7 @@ void TriangleTree::meet_itself(Index index, Visit&& visit, Push&& push) const {
     if (child < 0) break;
     if (!a.leaf()) push(TreeTask{child, child});
     const unsigned later = a.boxes.overlapping(a.boxes.box(i)) & ~((2u << i) - 1u);
-    tree_walk::for_lanes(later, [&](std::size_t j) {
+    for_lanes(later, [&](std::size_t j) {
       if (a.leaf()) {
         visit(child, a.child[j]);
       } else {

@@ -1,11 +1,12 @@
 // verify/box_tree.hpp: which triangles could meet a box, and which is nearest to a point.  The judge's own tree.
 //
-// Balanced binary tree: the triangles of a node are halved at the median of their centres along the longest side of the
-// centres' box.  Boxes are closed and hold the coordinates as they are, without rounding: a triangle that touches the
-// query is always visited.
+// Four children to a node: its triangles are halved twice, at the median of their centres along the longest side of the centres'
+// box.  Boxes are closed and rounded outward (core/lane_boxes.hpp): a triangle that touches the query is always visited, and so
+// may be one that lies a rounding error beside it.
 //
 // Easily got wrong: the order of visits depends on the tree.  Callers sort what they collect.
 #pragma once
+#include "core/lane_boxes.hpp"
 #include "core/types.hpp"
 
 #include <algorithm>
@@ -23,15 +24,14 @@ struct ExactBox {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  void add(const ExactBox& other) {
-    low = low.cwiseMin(other.low);
-    high = high.cwiseMax(other.high);
+  OuterBox outer() const {
+    OuterBox box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.low[k] = OuterBox::below(low[static_cast<Eigen::Index>(k)]);
+      box.high[k] = OuterBox::above(high[static_cast<Eigen::Index>(k)]);
+    }
+    return box;
   }
-  bool meets(const ExactBox& other) const {
-    return low.x() <= other.high.x() && other.low.x() <= high.x() && low.y() <= other.high.y() &&
-           other.low.y() <= high.y() && low.z() <= other.high.z() && other.low.z() <= high.z();
-  }
-  double squared_distance(const Vec3& p) const { return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm(); }
 };
 
 class BoxTree {
@@ -39,25 +39,21 @@ class BoxTree {
   // Indices must be in range and positions finite.
   BoxTree(std::span<const Triangle> triangles, std::span<const Vec3> x);
 
-  ExactBox bounds() const { return nodes_.empty() ? ExactBox{} : nodes_.front().box; }
-
   // visit(triangle) for every triangle whose box meets `box`.
   template <class Visit>
   void visit_meeting(const ExactBox& box, Visit&& visit) const {
-    std::array<Index, max_depth> stack;
+    const OuterBox query = box.outer();
+    std::array<Index, most_waiting> stack;
     std::size_t waiting = 0;
     if (!nodes_.empty()) stack[waiting++] = 0;
     while (waiting > 0) {
-      const Index n = stack[--waiting];
-      const Node& node = nodes_[static_cast<std::size_t>(n)];
-      if (!node.box.meets(box)) continue;
-      if (node.count == 0) {
-        stack[waiting++] = node.next;
-        stack[waiting++] = n + 1;
-        continue;
-      }
-      for (Index k = node.next; k < node.next + node.count; ++k)
-        if (leaf_boxes_[static_cast<std::size_t>(k)].meets(box)) visit(order_[static_cast<std::size_t>(k)]);
+      const Node& node = nodes_[static_cast<std::size_t>(stack[--waiting])];
+      for_lanes(node.boxes.overlapping(query), [&](std::size_t lane) {
+        if (node.leaf)
+          visit(node.child[lane]);
+        else
+          stack[waiting++] = node.child[lane];
+      });
     }
   }
 
@@ -71,28 +67,39 @@ class BoxTree {
   // of the triangle to p.  Of triangles that are equally near it may be any one, but always the same.
   template <class SquaredDistance>
   Nearest nearest(const Vec3& p, Nearest start, SquaredDistance&& squared_distance) const {
+    struct Waiting {
+      Index node;
+      double squared_distance;  // of its box, or less
+    };
     Nearest best = start;
-    std::array<Index, max_depth> stack;
+    ExactBox point;
+    point.add(p);
+    const OuterBox at = point.outer();
+    std::array<Waiting, most_waiting> stack;
     std::size_t waiting = 0;
-    if (!nodes_.empty()) stack[waiting++] = 0;
+    if (!nodes_.empty()) stack[waiting++] = {0, 0};
     while (waiting > 0) {
-      const Index n = stack[--waiting];
-      const Node& node = nodes_[static_cast<std::size_t>(n)];
-      if (node.box.squared_distance(p) >= best.squared_distance) continue;
-      if (node.count == 0) {
-        Index near = n + 1, far = node.next;
-        if (nodes_[static_cast<std::size_t>(far)].box.squared_distance(p) <
-            nodes_[static_cast<std::size_t>(near)].box.squared_distance(p))
-          std::swap(near, far);
-        stack[waiting++] = far;
-        stack[waiting++] = near;
+      const Waiting next = stack[--waiting];
+      if (next.squared_distance >= best.squared_distance) continue;
+      const Node& node = nodes_[static_cast<std::size_t>(next.node)];
+      const LaneBoxes::Lanes distance2 = node.boxes.distance2(at.low, at.high);
+      std::array<Waiting, 4> near;  // ascending
+      std::size_t count = 0;
+      for (std::size_t lane = 0; lane < 4 && node.child[lane] >= 0; ++lane) {
+        // A square beyond single precision says nothing but that it is one.
+        const double distance = std::min<double>(distance2[lane], std::numeric_limits<float>::max());
+        if (distance >= best.squared_distance) continue;
+        std::size_t place = count++;
+        for (; place > 0 && distance < near[place - 1].squared_distance; --place) near[place] = near[place - 1];
+        near[place] = {node.child[lane], distance};
+      }
+      if (!node.leaf) {
+        while (count > 0) stack[waiting++] = near[--count];
         continue;
       }
-      for (Index k = node.next; k < node.next + node.count; ++k) {
-        if (leaf_boxes_[static_cast<std::size_t>(k)].squared_distance(p) >= best.squared_distance) continue;
-        const Index triangle = order_[static_cast<std::size_t>(k)];
-        const double distance = squared_distance(triangle);
-        if (distance < best.squared_distance) best = {triangle, distance};
+      for (std::size_t k = 0; k < count && near[k].squared_distance < best.squared_distance; ++k) {
+        const double distance = squared_distance(near[k].node);
+        if (distance < best.squared_distance) best = {near[k].node, distance};
       }
     }
     return best;
@@ -102,19 +109,16 @@ class BoxTree {
   void refit(std::span<const Triangle> triangles, std::span<const Vec3> x);
 
  private:
-  // Halving 2^31 triangles leaves at most 31 levels, each with one waiting sibling.
-  static constexpr std::size_t max_depth = 64;
-  static constexpr std::size_t leaf_size = 4;
+  // Halving 2^31 triangles twice per level leaves at most 16 levels, each with three waiting siblings.
+  static constexpr std::size_t most_waiting = 64;
   struct Node {
-    ExactBox box;
-    Index next;   // leaf: first entry of order_; inner: the second child (the first follows its parent)
-    Index count;  // leaf: entries; inner: 0
+    LaneBoxes boxes;
+    std::array<Index, 4> child{-1, -1, -1, -1};  // nodes, which follow their parent, or triangles; -1: none
+    bool leaf = false;
   };
-  void build(std::size_t first, std::size_t last, std::span<const Vec3> centres);
+  Index build(std::span<Index> triangles, std::span<const Vec3> centres);
 
   std::vector<Node> nodes_;
-  std::vector<Index> order_;
-  std::vector<ExactBox> leaf_boxes_;  // as order_
 };
 
 }  // namespace toile

@@ -55,13 +55,14 @@ ClosedSurface::ClosedSurface(std::span<const Triangle> triangles, std::span<cons
     : ClosedSurface(close_holes(triangles, x)) {}
 
 ClosedSurface::ClosedSurface(std::pair<std::vector<Triangle>, Vec3s> closed)
-    : triangles_(std::move(closed.first)), x_(std::move(closed.second)), tree_(triangles_, x_) {}
+    : triangles_(std::move(closed.first)), x_(std::move(closed.second)), tree_(triangles_, x_) {
+  for (const Vec3& p : x_) bounds_.add(p);
+}
 
 // Crossings of the ray from p upwards, with their direction.
 int ClosedSurface::winding_number(const Vec3& p) const {
-  const ExactBox bounds = tree_.bounds();
   Vec3 far = p;
-  far.y() = std::max(p.y(), bounds.high.y()) + std::max(1.0, bounds.high.y() - bounds.low.y());
+  far.y() = std::max(p.y(), bounds_.high.y()) + std::max(1.0, bounds_.high.y() - bounds_.low.y());
   ExactBox ray;
   ray.add(p);
   ray.add(far);

@@ -23,6 +23,7 @@ class ClosedSurface {
   std::vector<Triangle> triangles_;
   Vec3s x_;
   BoxTree tree_;
+  ExactBox bounds_;
 };
 
 }  // namespace toile
