@@ -14,7 +14,7 @@ constexpr double labels_held_s = 0.5, labels_fade_s = 0.5;  // after the weld
 constexpr double frictionless_s = 1;  // after the weld: the garment slips into place before friction holds it
 constexpr double sewn_step_max_s = 1.0 / 60;
 // While rest is awaited: it takes as many steps, however long they are, and what turns slowly is braked by nothing else.
-constexpr double awaited_step_max_s = 1.0 / 30, awaited_slow_motion = 0.1;
+constexpr double awaited_step_max_s = 1.0 / 30, awaited_slow_motion = 0.01;
 
 // Share of gravity and of the elastic's pull at time t after the weld.
 double ramp(double t_s) { return std::clamp((t_s - weightless_s) / ramp_s, 0.0, 1.0); }

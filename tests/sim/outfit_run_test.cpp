@@ -57,6 +57,24 @@ TEST(OutfitRun, StepsAreTwiceAsLongWhileRestIsAwaited) {
   EXPECT_DOUBLE_EQ(awaited.longest_step_s(), 1.0 / 60);
 }
 
+// At 60 frames per second steps have the same length whether rest is awaited or not, and states are the same until the first that is
+// solved again for its slow motion.
+TEST(OutfitRun, SlowMotionIsSolvedForWhileRestIsAwaited) {
+  const auto solved_again = [](Hanging& hanging) {
+    std::vector<int> counts;
+    for (int frame = 0; frame < 60; ++frame) counts.push_back(hanging.run->frame().last.relinearised);
+    return counts;
+  };
+  Hanging timed(false, R"({"fps": 60})"), awaited(true, R"({"fps": 60})"), moving(true, R"({"fps": 60})");
+  moving.run->start_motion([](double, std::span<Vec3>) {});
+  const std::vector<int> without = solved_again(timed), with = solved_again(awaited);
+  const auto [first, differs] = std::mismatch(without.begin(), without.end(), with.begin());
+  ASSERT_NE(first, without.end());
+  EXPECT_EQ(*first, 0);
+  EXPECT_EQ(*differs, 1);
+  EXPECT_EQ(solved_again(moving), without);
+}
+
 TEST(OutfitRun, StepsAreNoLongerThanTheSceneSaysAlsoWhileRestIsAwaited) {
   EXPECT_DOUBLE_EQ(Hanging(true, R"({"step_max_ms": 5})").longest_step_s(), 1.0 / 30 / 7);
   EXPECT_DOUBLE_EQ(Hanging(true, R"({"fps": 60})").longest_step_s(), 1.0 / 60);

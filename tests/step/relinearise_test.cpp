@@ -113,8 +113,6 @@ TEST(Relinearise, ASheetThatTurnsMakesNoEnergyThatBrakesIt) {
   EXPECT_LT(made, 0.2);
 }
 
-// Threads pushed together by 3 % and drawn apart at 9 /s: by the stiffness they had while slack they would pass their length by as much
-// as 12 %; taut they stop at it.
 // How far a sheet has come down in six seconds that is held in its middle and sinks, into folds, through something that lets nothing fall
 // faster than 3 cm/s: a tenth of what it would fall in a step of 1/30 s.
 double sunk_m(double slow_motion, double step_max_s) {
@@ -138,6 +136,8 @@ TEST(Relinearise, WhatSinksSlowlyIsNotBrakedByItsTurning) {
   EXPECT_LT(in_short_steps - sunk_m(0.1, 1.0 / 30), 0.5e-3);
 }
 
+// Threads pushed together by 3 % and drawn apart at 9 /s: by the stiffness they had while slack they would pass their length by as much
+// as 12 %; taut they stop at it.
 TEST(Relinearise, AThreadThatIsDrawnTautStopsAtItsLength) {
   Fabric soft;
   soft.compression_ratio = 1e-4;
