@@ -26,7 +26,7 @@ struct Demo {
   std::string_view name, what;
 };
 constexpr std::array<Demo, 10> demos = {
-    {{"tshirt", "a T-shirt sewn around the mannequin (the default)"},
+    {{"tshirt", "a T-shirt sewn around a woman, who then walks (the default)"},
      {"skirt", "an A-line skirt on the mannequin"},
      {"cylinder", "a square cloth falls over a cylinder"},
      {"sheet", "the same cloth, held by two corners"},

@@ -219,6 +219,17 @@ TEST(Check, GoesOnAfterABadFile) {
   EXPECT_NE(ended.out.find("skirt.json: pattern"), std::string::npos) << ended.out;
 }
 
+TEST(Demo, TheDefaultIsAGarmentOnABodyThatWalks) {
+  const Scratch scratch;
+  const Ended ended =
+      run_toile(scratch, {"demo", "--resolution", "4", "--seconds", "0.2", "--no-preview", "--out", scratch / "out"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  const Json report = Json::load(scratch / "out/report.json");
+  EXPECT_EQ(report.at("verdict").string(), "pass");
+  EXPECT_EQ(report.at("motion").at("name").string(), "walk");
+  EXPECT_EQ(report.at("motion").at("frames").number(), 6);
+}
+
 TEST(Demo, ListsWhatItHas) {
   const Scratch scratch;
   const Ended ended = run_toile(scratch, {"demo", "--list"});

@@ -37,6 +37,7 @@ def judge_garment(name, report):
 
 def main():
     toile, data = sys.argv[1], pathlib.Path(sys.argv[2])
+    source = pathlib.Path(__file__).resolve().parents[2]
     patterns, body = data / "patterns", data / "bodies/garmentcode/mean_all.obj"
     if not body.exists():
         print(f"skipped: {data} is not there")
@@ -56,8 +57,8 @@ def main():
         if len(set(hashes)) != 1:
             faults.append(f"shirt: state_hash differs between thread counts: {hashes}")
         for fabric, resolution in (("cotton", "1"), ("cotton", "2"), ("silk", "1"), ("wool", "1")):
-            code, report, error = run(toile, out / f"tshirt_{fabric}_{resolution}", "demo", "tshirt", "--fabric", fabric, "--resolution",
-                                      resolution)
+            code, report, error = run(toile, out / f"tshirt_{fabric}_{resolution}", "dress", str(source / "patterns/tshirt.json"), "--body",
+                                      "mannequin", "--fabric", fabric, "--resolution", resolution)
             faults += judge_garment(f"T-shirt in {fabric} at {resolution} cm", report) if report else [f"T-shirt: exit {code}: {error}"]
         tee = [str(patterns / "garment_pattern_generator/tee.json"), "--body", str(body)]
         code, report, error = run(toile, out / "tee", "dress", *tee)
