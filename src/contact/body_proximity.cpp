@@ -8,7 +8,7 @@
 namespace toile {
 namespace {
 
-constexpr std::size_t triangle_grain = 4096;
+constexpr std::size_t triangle_grain = 4096, feature_grain = 1024;
 constexpr double touching_m = 1e-9;  // nearer than this the body's own normal is the direction
 
 using Memory = ProximityWorkspace::Memory;
@@ -26,24 +26,22 @@ class BodyQuery {
             const ProximityOptions& options, const Memory& memory)
       : cloth_(cloth), tree_(tree), around_(cloth, x, options), body_(body), options_(options), memory_(memory) {}
 
-  void walk(TreeTask task, Memory::Found& found) const {
+  // What the features of a triangle of the body meet that speaks for them.
+  void meet_features(Index b, Memory::Found& found) const {
     const TriangleTree& bodies = body_.tree_now();
-    tree_.visit_cross(bodies, task, [&](Index a, Index b) {
-      const unsigned owned = memory_.body_features[static_cast<std::size_t>(b)];
-      if (owned == 0) return;
-      const Triangle& corners = body_.triangle(b);
-      for_lanes(owned & 7u, [&](std::size_t k) {
-        if (bodies.particle_box(corners[k]).overlaps(tree_.triangle_box(a))) meet_vertex(corners[k], a, found);
-      });
-      const unsigned edges = static_cast<unsigned>(cloth_.owned(a)) >> 3;
-      if (edges == 0) return;
-      for_lanes(owned >> 3, [&](std::size_t l) {
-        const Index f = body_.topology().triangle_edges[static_cast<std::size_t>(b)][l];
-        const Edge& ridge = body_.topology().edges[static_cast<std::size_t>(f)];
-        OuterBox box = bodies.particle_box(ridge.a);
-        box.include(bodies.particle_box(ridge.b));
-        if (!box.overlaps(tree_.triangle_box(a))) return;
-        for_lanes(edges, [&](std::size_t k) { meet_edges(cloth_.triangle_edges(a)[k], f, box, found); });
+    const unsigned owned = memory_.body_features[static_cast<std::size_t>(b)];
+    for_lanes(owned & 7u, [&](std::size_t k) {
+      const Index v = body_.triangle(b)[k];
+      tree_.visit_overlapping(bodies.particle_box(v), [&](Index t) { meet_vertex(v, t, found); });
+    });
+    for_lanes(owned >> 3, [&](std::size_t l) {
+      const Index f = body_.topology().triangle_edges[static_cast<std::size_t>(b)][l];
+      const Edge& ridge = body_.topology().edges[static_cast<std::size_t>(f)];
+      OuterBox box = bodies.particle_box(ridge.a);
+      box.include(bodies.particle_box(ridge.b));
+      tree_.visit_overlapping(box, [&](Index t) {
+        for_lanes(static_cast<unsigned>(cloth_.owned(t)) >> 3,
+                  [&](std::size_t k) { meet_edges(cloth_.triangle_edges(t)[k], f, box, found); });
       });
     });
   }
@@ -141,17 +139,11 @@ void mark_features(const ClothTopology& cloth, std::span<const Vec3> x, const Bo
   });
 }
 
-// Appends one kind of record of all tasks, ascending by the keys.
-void append_sorted(Memory& memory, std::vector<std::pair<Index, Index>> Memory::Found::*keys,
+// Appends one kind of record of all blocks, ascending by the keys.
+void append_sorted(Memory& memory, std::size_t blocks, std::vector<std::pair<Index, Index>> Memory::Found::*keys,
                    std::vector<BodyContact> Memory::Found::*records, std::size_t first_count,
                    std::vector<BodyContact>& contacts) {
-  memory.keys.clear();
-  memory.body_records.clear();
-  for (std::size_t i = 0; i < memory.tasks.size(); ++i) {
-    const Memory::Found& found = memory.found[i];
-    memory.keys.insert(memory.keys.end(), (found.*keys).begin(), (found.*keys).end());
-    memory.body_records.insert(memory.body_records.end(), (found.*records).begin(), (found.*records).end());
-  }
+  memory.join(blocks, keys, records, memory.body_records);
   memory.sorted.sort(memory.keys, first_count);
   for (const Index i : memory.sorted.order()) contacts.push_back(memory.body_records[static_cast<std::size_t>(i)]);
 }
@@ -166,11 +158,16 @@ void find_body_contacts(const ClothTopology& cloth, TriangleTree& cloth_tree, st
   memory.prepare(cloth, cloth_tree, x, std::max(options.range_m, options.depth_m));  // the body's boxes add nothing
   mark_features(cloth, x, body, options, memory);
   const BodyQuery query(cloth, cloth_tree, x, body, options, memory);
-  cloth_tree.cross_tasks(body.tree_now(), memory.tasks);
-  memory.start_tasks();
-  parallel_for(memory.tasks.size(), 1, [&](std::size_t i) { query.walk(memory.tasks[i], memory.found[i]); });
-  append_sorted(memory, &Memory::Found::vertex_keys, &Memory::Found::body_vertices, body.positions().size(), contacts);
-  append_sorted(memory, &Memory::Found::edge_keys, &Memory::Found::body_edges, body.topology().edges.size(), contacts);
+  const std::size_t triangles = body.triangles().size(), blocks = (triangles + feature_grain - 1) / feature_grain;
+  memory.start_blocks(blocks);
+  parallel_blocks(triangles, feature_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      query.meet_features(static_cast<Index>(t), memory.found[begin / feature_grain]);
+  });
+  append_sorted(memory, blocks, &Memory::Found::vertex_keys, &Memory::Found::body_vertices, body.positions().size(),
+                contacts);
+  append_sorted(memory, blocks, &Memory::Found::edge_keys, &Memory::Found::body_edges, body.topology().edges.size(),
+                contacts);
 }
 
 }  // namespace toile

@@ -1,4 +1,4 @@
-// The cloth against itself: candidates by a walk over the tree, then the choice of records vertex by vertex.
+// The cloth against itself: vertex by vertex the triangles in its box and the choice of records, then edges with edges.
 #include "contact/proximity_memory.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -12,37 +12,31 @@
 namespace toile {
 namespace {
 
-constexpr std::size_t vertex_grain = 1024, triangle_grain = 4096;
+constexpr std::size_t query_grain = 512, triangle_grain = 4096;
 constexpr double touching_m = 1e-12;  // nearer than this the direction between two points is rounding
 
 using Memory = ProximityWorkspace::Memory;
 
 bool by_particles(const ClothContact& a, const ClothContact& b) { return a.particle < b.particle; }
 
-// One query: what is given, and the two stages.
+// One query: what is given, and the two kinds of features.
 class ClothQuery {
  public:
   ClothQuery(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x,
              const ProximityOptions& options, const Memory& memory)
       : cloth_(cloth), tree_(tree), around_(cloth, x, options), range_m_(options.range_m), memory_(memory) {}
 
-  // Stage 1: everything within range that the owners of features meet in one task.
-  void walk(TreeTask task, Memory::Found& found) const {
-    tree_.visit_self(task, [&](Index a, Index b) {
-      const unsigned owned_a = cloth_.owned(a), owned_b = cloth_.owned(b);
-      if (owned_a & 7u) meet_vertices(a, owned_a, b, found);
-      if (owned_b & 7u) meet_vertices(b, owned_b, a, found);
-      const unsigned edges_a = owned_a >> 3, edges_b = owned_b >> 3;
-      if (edges_a != 0 && edges_b != 0) meet_edges(a, edges_a, b, edges_b, found);
-    });
-  }
-
-  // Stage 2: of the places near one vertex (ascending) those that count.
-  void choose(Index vertex, std::span<const Memory::Place> places, Memory::Reported& out) const {
+  // Of the places within range of a vertex those that count.
+  void meet_vertex(Index vertex, Memory::Reported& out) const {
+    if (cloth_.corners_around(vertex).empty()) return;
+    out.places.clear();
+    tree_.visit_overlapping(tree_.particle_box(vertex), [&](Index t) { add_place(vertex, t, out.places); });
+    if (out.places.empty()) return;
+    std::sort(out.places.begin(), out.places.end());
     const std::size_t first_face = out.faces.size();
     out.edge_candidates.clear();
     out.vertex_candidates.clear();
-    for (const Memory::Place place : places) {
+    for (const Memory::Place place : out.places) {
       const Index t = place.triangle();
       if (place.feature() == Feature::face) {
         add_face(vertex, t, out.faces);
@@ -68,7 +62,31 @@ class ClothQuery {
     }
   }
 
+  // The edges of a triangle that are not flat, and for which it speaks.
+  void meet_edges(Index t, Memory::Found& found) const {
+    const unsigned bent = static_cast<unsigned>(cloth_.owned(t) & ~memory_.flat[static_cast<std::size_t>(t)]) >> 3;
+    for_lanes(bent, [&](std::size_t k) { meet_edge(cloth_.triangle_edges(t)[k], found); });
+  }
+
  private:
+  // An edge that is not flat with all others: one pair of two that are not flat counts for the lesser.
+  void meet_edge(Index first, Memory::Found& found) const {
+    const Edge& e = cloth_.edge(first);
+    const Index ea = cloth_.merged(e.a), eb = cloth_.merged(e.b);
+    const OuterBox box = edge_box(e);
+    tree_.visit_overlapping(box, [&](Index t) {
+      const unsigned flat = static_cast<unsigned>(memory_.flat[static_cast<std::size_t>(t)]) >> 3;
+      for_lanes(static_cast<unsigned>(cloth_.owned(t)) >> 3, [&](std::size_t k) {
+        const Index second = cloth_.triangle_edges(t)[k];
+        if (second <= first && !(flat >> k & 1u)) return;
+        const Edge& f = cloth_.edge(second);
+        const Index fa = cloth_.merged(f.a), fb = cloth_.merged(f.b);
+        if (ea == fa || ea == fb || eb == fa || eb == fb || !box.overlaps(edge_box(f))) return;
+        meet_edge_pair(std::min(first, second), std::max(first, second), found);
+      });
+    });
+  }
+
   static void sort_unique(std::vector<Index>& list) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -89,45 +107,20 @@ class ClothQuery {
     });
   }
 
-  void meet_vertices(Index a, unsigned owned, Index b, Memory::Found& found) const {
-    const Triangle &corners = cloth_.triangle(b), &merged = cloth_.merged_triangle(b);
-    const OuterBox& box = tree_.triangle_box(b);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!(owned >> k & 1u)) continue;
-      const Index v = cloth_.triangle(a)[k], m = cloth_.merged_triangle(a)[k];
-      if (!tree_.particle_box(v).overlaps(box)) continue;
-      if (m == merged[0] || m == merged[1] || m == merged[2]) continue;
-      const Vec3 &p = around_.x(v), &origin = around_.x(corners[0]);
-      // The distance to the plane is a lower bound, and one product.
-      if (std::fabs(memory_.face_normals[static_cast<std::size_t>(b)].dot(p - origin)) >= range_m_) continue;
-      const VertexTriangle at = closest_vertex_triangle(p, origin, around_.x(corners[1]), around_.x(corners[2]));
-      if (!(at.distance2 < range_m_ * range_m_)) continue;
-      found.candidates.push_back({v, {b, at}});
-    }
-  }
-
-  void meet_edges(Index a, unsigned edges_a, Index b, unsigned edges_b, Memory::Found& found) const {
-    const unsigned flat_a = memory_.flat[static_cast<std::size_t>(a)] >> 3u;
-    const unsigned flat_b = memory_.flat[static_cast<std::size_t>(b)] >> 3u;
-    if ((edges_a & ~flat_a) == 0 && (edges_b & ~flat_b) == 0) return;
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!(edges_a >> k & 1u)) continue;
-      const unsigned partners = (flat_a >> k & 1u) ? edges_b & ~flat_b : edges_b;
-      for (std::size_t l = 0; l < 3; ++l) {
-        if (partners >> l & 1u) meet_edge_pair(cloth_.triangle_edges(a)[k], cloth_.triangle_edges(b)[l], found);
-      }
-    }
+  void add_place(Index v, Index t, std::vector<Memory::Place>& places) const {
+    const Triangle& merged = cloth_.merged_triangle(t);
+    const Index m = cloth_.merged(v);
+    if (m == merged[0] || m == merged[1] || m == merged[2]) return;
+    const Triangle& corners = cloth_.triangle(t);
+    const Vec3 &p = around_.x(v), &origin = around_.x(corners[0]);
+    // The distance to the plane is a lower bound, and one product.
+    if (std::fabs(face_normal(t).dot(p - origin)) >= range_m_) return;
+    const VertexTriangle at = closest_vertex_triangle(p, origin, around_.x(corners[1]), around_.x(corners[2]));
+    if (at.distance2 < range_m_ * range_m_) places.emplace_back(t, at);
   }
 
   void meet_edge_pair(Index first, Index second, Memory::Found& found) const {
-    if (second < first) std::swap(first, second);
     const Edge &e = cloth_.edge(first), &f = cloth_.edge(second);
-    if (!edge_boxes_overlap(tree_.particle_box(e.a), tree_.particle_box(e.b), tree_.particle_box(f.a),
-                            tree_.particle_box(f.b))) {
-      return;
-    }
-    const Index ea = cloth_.merged(e.a), eb = cloth_.merged(e.b), fa = cloth_.merged(f.a), fb = cloth_.merged(f.b);
-    if (ea == fa || ea == fb || eb == fa || eb == fb) return;
     EdgeEdge at;
     const Vec3 &p0 = around_.x(e.a), &p1 = around_.x(e.b), &q0 = around_.x(f.a), &q1 = around_.x(f.b);
     if (!interior_edge_edge(p0, p1, q0, q1, at) || !(at.distance2 < range_m_ * range_m_)) return;
@@ -137,6 +130,12 @@ class ClothQuery {
     if (!around_.leaves_edge(second, record.normal) || !around_.leaves_edge(first, -record.normal)) return;
     found.edge_keys.emplace_back(first, second);
     found.edges.push_back(record);
+  }
+
+  OuterBox edge_box(const Edge& edge) const {
+    OuterBox box = tree_.particle_box(edge.a);
+    box.include(tree_.particle_box(edge.b));
+    return box;
   }
 
   // Gap and normal from the vector between the closest points, or from `instead` where they coincide; false when
@@ -264,31 +263,15 @@ void ProximityWorkspace::Memory::prepare(const ClothTopology& cloth, TriangleTre
   });
 }
 
-void ProximityWorkspace::Memory::start_tasks() {
-  if (found.size() < tasks.size()) found.resize(tasks.size());
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    found[i].candidates.clear();
+void ProximityWorkspace::Memory::start_blocks(std::size_t blocks) {
+  if (found.size() < blocks) found.resize(blocks);
+  for (std::size_t i = 0; i < blocks; ++i) {
     found[i].vertex_keys.clear();
     found[i].edge_keys.clear();
     found[i].edges.clear();
     found[i].body_vertices.clear();
     found[i].body_edges.clear();
   }
-}
-
-void ProximityWorkspace::Memory::gather_places(std::size_t vertices) {
-  // While filling, first_place[v + 1] runs from the first place of v to its end, which is the first of the next.
-  first_place.assign(vertices + 2, 0);
-  const auto all = std::span(found).first(tasks.size());
-  for (const Found& of_task : all)
-    for (const Candidate& candidate : of_task.candidates) ++first_place[static_cast<std::size_t>(candidate.vertex) + 2];
-  std::partial_sum(first_place.begin(), first_place.end(), first_place.begin());
-  if (first_place.back() > places.capacity())
-    places.reserve(2 * first_place.back());  // or it would grow time and again
-  places.resize(first_place.back());
-  for (const Found& of_task : all)
-    for (const Candidate& candidate : of_task.candidates)
-      places[first_place[static_cast<std::size_t>(candidate.vertex) + 1]++] = candidate.place;
 }
 
 void find_cloth_contacts(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x,
@@ -300,24 +283,14 @@ void find_cloth_contacts(const ClothTopology& cloth, TriangleTree& tree, std::sp
   mark_flat_edges(cloth, options.bent, memory);
   const ClothQuery query(cloth, tree, x, options, memory);
 
-  tree.self_tasks(memory.tasks);
-  memory.start_tasks();
-  parallel_for(memory.tasks.size(), 1, [&](std::size_t i) { query.walk(memory.tasks[i], memory.found[i]); });
-
-  memory.gather_places(x.size());
-  const std::size_t blocks = (x.size() + vertex_grain - 1) / vertex_grain;
+  const std::size_t blocks = (x.size() + query_grain - 1) / query_grain;
   if (memory.reported.size() < blocks) memory.reported.resize(blocks);
-  parallel_blocks(x.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
-    Memory::Reported& out = memory.reported[begin / vertex_grain];
+  parallel_blocks(x.size(), query_grain, [&](std::size_t begin, std::size_t end) {
+    Memory::Reported& out = memory.reported[begin / query_grain];
     out.faces.clear();
     out.edges.clear();
     out.vertices.clear();
-    for (std::size_t v = begin; v < end; ++v) {
-      const auto places =
-          std::span(memory.places).subspan(memory.first_place[v], memory.first_place[v + 1] - memory.first_place[v]);
-      std::sort(places.begin(), places.end());
-      if (!places.empty()) query.choose(static_cast<Index>(v), places, out);
-    }
+    for (auto v = static_cast<Index>(begin); v < static_cast<Index>(end); ++v) query.meet_vertex(v, out);
   });
 
   const auto append = [&](std::vector<ClothContact> Memory::Reported::*list) {
@@ -331,13 +304,13 @@ void find_cloth_contacts(const ClothTopology& cloth, TriangleTree& tree, std::sp
   append(&Memory::Reported::vertices);
   keep_mutual(contacts, first_pair);
 
-  memory.keys.clear();
-  memory.cloth_edges.clear();
-  for (std::size_t i = 0; i < memory.tasks.size(); ++i) {
-    const Memory::Found& found = memory.found[i];
-    memory.keys.insert(memory.keys.end(), found.edge_keys.begin(), found.edge_keys.end());
-    memory.cloth_edges.insert(memory.cloth_edges.end(), found.edges.begin(), found.edges.end());
-  }
+  const std::size_t triangles = cloth.triangles().size(), triangle_blocks = (triangles + query_grain - 1) / query_grain;
+  memory.start_blocks(triangle_blocks);
+  parallel_blocks(triangles, query_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      query.meet_edges(static_cast<Index>(t), memory.found[begin / query_grain]);
+  });
+  memory.join(triangle_blocks, &Memory::Found::edge_keys, &Memory::Found::edges, memory.cloth_edges);
   memory.sorted.sort(memory.keys, cloth.topology().edges.size());
   for (const Index i : memory.sorted.order()) contacts.push_back(memory.cloth_edges[static_cast<std::size_t>(i)]);
 }

@@ -29,14 +29,9 @@ struct ProximityWorkspace::Memory {
    private:
     std::uint32_t packed_ = 0;
   };
-  struct Candidate {  // a vertex of the cloth within range of a triangle
-    Index vertex;
-    Place place;
-  };
 
-  // What one task of the walk finds, in the order of the walk.
+  // What one block of features finds, in the order of its walks.
   struct Found {
-    std::vector<Candidate> candidates;
     Keys vertex_keys, edge_keys;      // features of the two sides; vertices: the body's
     std::vector<ClothContact> edges;  // cloth: by edge_keys
     std::vector<BodyContact> body_vertices, body_edges;
@@ -44,17 +39,15 @@ struct ProximityWorkspace::Memory {
   // What one block of vertices reports.
   struct Reported {
     std::vector<ClothContact> faces, edges, vertices;
+    std::vector<Place> places;  // near the present vertex
     std::vector<Index> edge_candidates, vertex_candidates;
   };
 
-  std::vector<TreeTask> tasks;
   std::vector<Vec3> face_normals;
   std::vector<std::uint8_t> flat;           // [triangle] bit 3 + k: edge k is flat
   std::vector<std::uint8_t> body_features;  // [triangle of the body] as BodySurface::owned_ridges
-  std::vector<Found> found;                 // by task
+  std::vector<Found> found;                 // by block of features
   std::vector<Reported> reported;           // by block of vertices
-  std::vector<std::size_t> first_place;     // [vertex] of its own in places, and the end of the last
-  std::vector<Place> places;
   Keys keys;
   std::vector<ClothContact> cloth_edges;
   std::vector<BodyContact> body_records;
@@ -62,9 +55,21 @@ struct ProximityWorkspace::Memory {
 
   // Boxes of the cloth at rest in x, grown by `margin_m`; face normals.
   void prepare(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x, double margin_m);
-  void start_tasks();
-  // The candidates of all tasks, by vertex.
-  void gather_places(std::size_t vertices);
+  void start_blocks(std::size_t blocks);
+  // `keys` and `all` become what the blocks have found, one after the other.
+  template <class Record>
+  void join(std::size_t blocks, Keys Found::*keys_of, std::vector<Record> Found::*records, std::vector<Record>& all) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < blocks; ++i) count += (found[i].*keys_of).size();
+    keys.clear();
+    all.clear();
+    if (count > keys.capacity()) keys.reserve(2 * count);  // or they would grow by one record, time and again
+    if (count > all.capacity()) all.reserve(2 * count);
+    for (std::size_t i = 0; i < blocks; ++i) {
+      keys.insert(keys.end(), (found[i].*keys_of).begin(), (found[i].*keys_of).end());
+      all.insert(all.end(), (found[i].*records).begin(), (found[i].*records).end());
+    }
+  }
 };
 
 // The surroundings of the cloth's features, for the region test.  A seam's partner counts as soon as it is within
@@ -128,13 +133,5 @@ class Surroundings {
   std::span<const Vec3> x_;
   double range2_, tolerance2_;
 };
-
-// Do the boxes of two edges, given by those of their ends, overlap?
-inline bool edge_boxes_overlap(const OuterBox& a, const OuterBox& b, const OuterBox& c, const OuterBox& d) {
-  OuterBox first = a, second = c;
-  first.include(b);
-  second.include(d);
-  return first.overlaps(second);
-}
 
 }  // namespace toile

@@ -199,25 +199,12 @@ void TriangleTree::cross_pairs(const TriangleTree& other, std::vector<std::pair<
 
 void TriangleTree::overlapping(const Box& box, std::vector<Index>& triangles) const {
   triangles.clear();
-  if (nodes_.empty()) return;
   OuterBox query;
   for (std::size_t k = 0; k < 3; ++k) {
     query.low[k] = OuterBox::below(box.low[static_cast<Eigen::Index>(k)]);
     query.high[k] = OuterBox::above(box.high[static_cast<Eigen::Index>(k)]);
   }
-  std::array<Index, tree_walk::node_stack> stack;
-  std::size_t top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const Node& at = node(stack[--top]);
-    for_lanes(at.boxes.overlapping(query), [&](std::size_t lane) {
-      if (at.leaf()) {
-        triangles.push_back(at.child[lane]);
-      } else {
-        stack[top++] = at.child[lane];
-      }
-    });
-  }
+  visit_overlapping(query, [&](Index t) { triangles.push_back(t); });
   std::sort(triangles.begin(), triangles.end());
 }
 

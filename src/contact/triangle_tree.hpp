@@ -60,8 +60,10 @@ class TriangleTree {
                    PairWorkspace& workspace) const;
   void cross_pairs(const TriangleTree& other, std::vector<std::pair<Index, Index>>& pairs) const;
 
-  // Triangles whose box overlaps `box`, ascending.
+  // Triangles whose box overlaps `box`, ascending; and unsorted, by visit(triangle).
   void overlapping(const Box& box, std::vector<Index>& triangles) const;
+  template <class Visit>
+  void visit_overlapping(const OuterBox& box, Visit&& visit) const;
 
   // Visits triangles whose box is nearer to p than the bound, nearest boxes first; visit(triangle, bound2) returns
   // the new bound (distance squared).  Returns the last bound.
@@ -181,6 +183,24 @@ void TriangleTree::visit_cross(const TriangleTree& other, TreeTask task, Visit&&
   while (top > 0) {
     const TreeTask pair = stack[--top];
     meet(*this, other, pair, visit, push);
+  }
+}
+
+template <class Visit>
+void TriangleTree::visit_overlapping(const OuterBox& box, Visit&& visit) const {
+  if (nodes_.empty()) return;
+  std::array<Index, tree_walk::node_stack> stack;
+  std::size_t top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Node& at = node(stack[--top]);
+    for_lanes(at.boxes.overlapping(box), [&](std::size_t lane) {
+      if (at.leaf()) {
+        visit(at.child[lane]);
+      } else {
+        stack[top++] = at.child[lane];
+      }
+    });
   }
 }
 
