@@ -13,8 +13,9 @@ static_assert(weightless_s + ramp_s == OutfitRun::settling_s);
 constexpr double labels_held_s = 0.5, labels_fade_s = 0.5;  // after the weld
 constexpr double frictionless_s = 1;  // after the weld: the garment slips into place before friction holds it
 constexpr double sewn_step_max_s = 1.0 / 60;
-// While rest is awaited: it takes as many steps, however long they are, and what turns slowly is braked by nothing else.
-constexpr double awaited_step_max_s = 1.0 / 30, awaited_slow_motion = 0.01;
+// While rest is awaited: it takes as many steps, however long they are, so each is solved better; what turns slowly is not to be braked,
+// and what a solve leaves undone lets folds drift.
+constexpr double awaited_step_max_s = 1.0 / 30, awaited_slow_motion = 0.01, awaited_tolerance = 0.003;
 
 // Share of gravity and of the elastic's pull at time t after the weld.
 double ramp(double t_s) { return std::clamp((t_s - weightless_s) / ramp_s, 0.0, 1.0); }
@@ -82,6 +83,8 @@ void OutfitRun::choose_steps() {
                                                           : sewn_step_max_s;
   stepper_->options().step_max_s = scene_->step_max_s.value_or(longest);
   stepper_->integrator().set_slow_motion(awaited ? awaited_slow_motion : step_.slow_motion);
+  const double tolerance = step_.pcg.tolerance;
+  stepper_->integrator().set_tolerance(awaited ? std::min(tolerance, awaited_tolerance) : tolerance);
 }
 
 void OutfitRun::start_motion(BodyAt body_at) {

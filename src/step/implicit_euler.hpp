@@ -104,6 +104,7 @@ class ImplicitEuler {
   const BlockMatrix<float>& A() const { return A_; }
   const StepOptions& options() const { return options_; }
   void set_slow_motion(double share) { options_.slow_motion = share; }
+  void set_tolerance(double tolerance) { options_.pcg.tolerance = tolerance; }
   const ClothModel& model() const { return *model_; }
 
  private:

@@ -20,10 +20,10 @@ struct Hanging {
   Outfit outfit;
   std::optional<OutfitRun> run;
 
-  explicit Hanging(bool to_rest, const char* time = "{}") {
+  explicit Hanging(bool to_rest, const char* time = "{}", const char* tolerance = "0.003") {
     scene = parse_scene(R"({"cloth": [{"name": "sheet", "grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.025},
         "placement": {"rotation_deg": [-90, 0, 0]}}], "time": )" +
-                            std::string(time) + "}",
+                            std::string(time) + R"(, "solver": {"tolerance": )" + tolerance + "}}",
                         "hanging.json");
     cloth.push_back(load_cloth(scene, scene.cloth.front(), read_text_file, inputs));
     scene.cloth.front().pattern = "sheet.json";
@@ -73,6 +73,15 @@ TEST(OutfitRun, SlowMotionIsSolvedForWhileRestIsAwaited) {
   EXPECT_EQ(*first, 0);
   EXPECT_EQ(*differs, 1);
   EXPECT_EQ(solved_again(moving), without);
+}
+
+TEST(OutfitRun, StepsAreSolvedBetterWhileRestIsAwaited) {
+  const auto iterations = [](bool to_rest, const char* tolerance) {
+    return Hanging(to_rest, R"({"fps": 60})", tolerance).run->frame().cg_iterations;
+  };
+  EXPECT_GT(iterations(true, "0.01"), iterations(false, "0.01"));
+  EXPECT_EQ(iterations(true, "0.01"), iterations(false, "0.003"));
+  EXPECT_EQ(iterations(true, "0.0005"), iterations(false, "0.0005"));
 }
 
 TEST(OutfitRun, StepsAreNoLongerThanTheSceneSaysAlsoWhileRestIsAwaited) {
