@@ -5,12 +5,12 @@
 // it. The topology of the mesh is fixed, so it is never rebuilt; only boxes change.  Queries visit nodes in a fixed
 // order: the same input gives the same list at any thread count.
 //
-// Boxes are single precision, rounded outward (core/lane_boxes.hpp).
+// Boxes are single precision, rounded outward (contact/lane_boxes.hpp).
 //
 // Easily got wrong: a copy of a tree shares the original's hierarchy (cheap to hold) but has boxes of its own.
 #pragma once
+#include "contact/lane_boxes.hpp"
 #include "core/bucket_order.hpp"
-#include "core/lane_boxes.hpp"
 
 #include <algorithm>
 #include <array>

@@ -70,12 +70,12 @@ void BoxTree::refit(std::span<const Triangle> triangles, std::span<const Vec3> x
     for (std::size_t lane = 0; lane < 4 && node.child[lane] >= 0; ++lane) {
       const auto child = static_cast<std::size_t>(node.child[lane]);
       if (!node.leaf) {
-        node.boxes.set(static_cast<int>(lane), nodes_[child].boxes.whole());
+        node.boxes.set(lane, nodes_[child].boxes.whole());
         continue;
       }
       ExactBox box;
       for (const Index i : triangles[child]) box.add(x[static_cast<std::size_t>(i)]);
-      node.boxes.set(static_cast<int>(lane), box.outer());
+      node.boxes.set(lane, box);
     }
   }
 }

@@ -1,15 +1,17 @@
 // verify/box_tree.hpp: which triangles could meet a box, and which is nearest to a point.  The judge's own tree.
 //
 // Four children to a node: its triangles are halved twice, at the median of their centres along the longest side of the centres'
-// box.  Boxes are closed and rounded outward (core/lane_boxes.hpp): a triangle that touches the query is always visited, and so
-// may be one that lies a rounding error beside it.
+// box.  Boxes are closed and hold the coordinates as they are, without rounding: a triangle that touches the query is always
+// visited.  Nothing of this is shared with the tree of src/contact: an error there must not hide itself.
 //
 // Easily got wrong: the order of visits depends on the tree.  Callers sort what they collect.
 #pragma once
-#include "core/lane_boxes.hpp"
 #include "core/types.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -24,14 +26,66 @@ struct ExactBox {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  OuterBox outer() const {
-    OuterBox box;
+};
+
+// Four boxes side by side, in pairs for the narrowest registers.  One that was never set meets nothing and is infinitely far.
+class FourBoxes {
+ public:
+  FourBoxes() { low_.fill({all(none), all(none)}), high_.fill({all(-none), all(-none)}); }
+
+  void set(std::size_t lane, const ExactBox& box) {
     for (std::size_t k = 0; k < 3; ++k) {
-      box.low[k] = OuterBox::below(low[static_cast<Eigen::Index>(k)]);
-      box.high[k] = OuterBox::above(high[static_cast<Eigen::Index>(k)]);
+      low_[k][lane / 2][lane % 2] = box.low[static_cast<Eigen::Index>(k)];
+      high_[k][lane / 2][lane % 2] = box.high[static_cast<Eigen::Index>(k)];
     }
-    return box;
   }
+  ExactBox whole() const {
+    ExactBox sum;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      for (std::size_t lane = 0; lane < 4; ++lane) {
+        sum.low[axis] = std::min(sum.low[axis], double{low_[k][lane / 2][lane % 2]});
+        sum.high[axis] = std::max(sum.high[axis], double{high_[k][lane / 2][lane % 2]});
+      }
+    }
+    return sum;
+  }
+  // Bit `lane` is set where that box meets the other.
+  unsigned meeting(const ExactBox& other) const {
+    unsigned bits = 0;
+    for (std::size_t pair = 0; pair < 2; ++pair) {
+      PairMask hit{-1, -1};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto axis = static_cast<Eigen::Index>(k);
+        hit &= (low_[k][pair] <= all(other.high[axis])) & (all(other.low[axis]) <= high_[k][pair]);
+      }
+      bits |= static_cast<unsigned>((hit[0] & 1) | (hit[1] & 2)) << 2 * pair;
+    }
+    return bits;
+  }
+  std::array<double, 4> squared_distances(const Vec3& p) const {
+    std::array<double, 4> squared{};
+    for (std::size_t pair = 0; pair < 2; ++pair) {
+      Pair sum = all(0);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Pair at = all(p[static_cast<Eigen::Index>(k)]);
+        const Pair out = larger(larger(low_[k][pair] - at, at - high_[k][pair]), all(0));
+        sum += out * out;
+      }
+      squared[2 * pair] = sum[0];
+      squared[2 * pair + 1] = sum[1];
+    }
+    return squared;
+  }
+
+ private:
+  using Pair = double __attribute__((vector_size(16)));
+  using PairMask = std::int64_t __attribute__((vector_size(16)));
+  static constexpr double none = std::numeric_limits<double>::infinity();
+  static Pair all(double x) { return Pair{x, x}; }
+  static Pair larger(Pair a, Pair b) { return a > b ? a : b; }
+
+  std::array<std::array<Pair, 2>, 3> low_, high_;
 };
 
 class BoxTree {
@@ -42,18 +96,18 @@ class BoxTree {
   // visit(triangle) for every triangle whose box meets `box`.
   template <class Visit>
   void visit_meeting(const ExactBox& box, Visit&& visit) const {
-    const OuterBox query = box.outer();
     std::array<Index, most_waiting> stack;
     std::size_t waiting = 0;
     if (!nodes_.empty()) stack[waiting++] = 0;
     while (waiting > 0) {
       const Node& node = nodes_[static_cast<std::size_t>(stack[--waiting])];
-      for_lanes(node.boxes.overlapping(query), [&](std::size_t lane) {
+      for (unsigned bits = node.boxes.meeting(box); bits != 0; bits &= bits - 1) {
+        const Index child = node.child[static_cast<std::size_t>(std::countr_zero(bits))];
         if (node.leaf)
-          visit(node.child[lane]);
+          visit(child);
         else
-          stack[waiting++] = node.child[lane];
-      });
+          stack[waiting++] = child;
+      }
     }
   }
 
@@ -69,12 +123,9 @@ class BoxTree {
   Nearest nearest(const Vec3& p, Nearest start, SquaredDistance&& squared_distance) const {
     struct Waiting {
       Index node;
-      double squared_distance;  // of its box, or less
+      double squared_distance;  // of its box
     };
     Nearest best = start;
-    ExactBox point;
-    point.add(p);
-    const OuterBox at = point.outer();
     std::array<Waiting, most_waiting> stack;
     std::size_t waiting = 0;
     if (!nodes_.empty()) stack[waiting++] = {0, 0};
@@ -82,12 +133,11 @@ class BoxTree {
       const Waiting next = stack[--waiting];
       if (next.squared_distance >= best.squared_distance) continue;
       const Node& node = nodes_[static_cast<std::size_t>(next.node)];
-      const LaneBoxes::Lanes distance2 = node.boxes.distance2(at.low, at.high);
+      const std::array<double, 4> distances = node.boxes.squared_distances(p);
       std::array<Waiting, 4> near;  // ascending
       std::size_t count = 0;
       for (std::size_t lane = 0; lane < 4 && node.child[lane] >= 0; ++lane) {
-        // A square beyond single precision says nothing but that it is one.
-        const double distance = std::min<double>(distance2[lane], std::numeric_limits<float>::max());
+        const double distance = distances[lane];
         if (distance >= best.squared_distance) continue;
         std::size_t place = count++;
         for (; place > 0 && distance < near[place - 1].squared_distance; --place) near[place] = near[place - 1];
@@ -112,7 +162,7 @@ class BoxTree {
   // Halving 2^31 triangles twice per level leaves at most 16 levels, each with three waiting siblings.
   static constexpr std::size_t most_waiting = 64;
   struct Node {
-    LaneBoxes boxes;
+    FourBoxes boxes;
     std::array<Index, 4> child{-1, -1, -1, -1};  // nodes, which follow their parent, or triangles; -1: none
     bool leaf = false;
   };
