@@ -37,8 +37,7 @@ class BodyQuery {
     for_lanes(owned >> 3, [&](std::size_t l) {
       const Index f = body_.topology().triangle_edges[static_cast<std::size_t>(b)][l];
       const Edge& ridge = body_.topology().edges[static_cast<std::size_t>(f)];
-      OuterBox box = bodies.particle_box(ridge.a);
-      box.include(bodies.particle_box(ridge.b));
+      const OuterBox box = bodies.edge_box(ridge.a, ridge.b);
       tree_.visit_overlapping(box, [&](Index t) {
         for_lanes(static_cast<unsigned>(cloth_.owned(t)) >> 3,
                   [&](std::size_t k) { meet_edges(cloth_.triangle_edges(t)[k], f, box, found); });
@@ -90,9 +89,7 @@ class BodyQuery {
 
   void meet_edges(Index cloth_edge, Index body_edge, const OuterBox& body_box, Memory::Found& found) const {
     const Edge &e = cloth_.edge(cloth_edge), &f = body_.topology().edges[static_cast<std::size_t>(body_edge)];
-    OuterBox box = tree_.particle_box(e.a);
-    box.include(tree_.particle_box(e.b));
-    if (!box.overlaps(body_box)) return;
+    if (!tree_.edge_box(e.a, e.b).overlaps(body_box)) return;
     const Vec3 &p0 = around_.x(e.a), &p1 = around_.x(e.b), &q0 = body_x(f.a), &q1 = body_x(f.b);
     if (!ridge_counts(body_.ridge_bend(body_edge), (p1 - p0).squaredNorm(), options_.range_m)) return;
     EdgeEdge at;

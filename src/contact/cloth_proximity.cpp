@@ -73,7 +73,7 @@ class ClothQuery {
   void meet_edge(Index first, Memory::Found& found) const {
     const Edge& e = cloth_.edge(first);
     const Index ea = cloth_.merged(e.a), eb = cloth_.merged(e.b);
-    const OuterBox box = edge_box(e);
+    const OuterBox box = tree_.edge_box(e.a, e.b);
     tree_.visit_overlapping(box, [&](Index t) {
       const unsigned flat = static_cast<unsigned>(memory_.flat[static_cast<std::size_t>(t)]) >> 3;
       for_lanes(static_cast<unsigned>(cloth_.owned(t)) >> 3, [&](std::size_t k) {
@@ -81,7 +81,7 @@ class ClothQuery {
         if (second <= first && !(flat >> k & 1u)) return;
         const Edge& f = cloth_.edge(second);
         const Index fa = cloth_.merged(f.a), fb = cloth_.merged(f.b);
-        if (ea == fa || ea == fb || eb == fa || eb == fb || !box.overlaps(edge_box(f))) return;
+        if (ea == fa || ea == fb || eb == fa || eb == fb || !box.overlaps(tree_.edge_box(f.a, f.b))) return;
         meet_edge_pair(std::min(first, second), std::max(first, second), found);
       });
     });
@@ -130,12 +130,6 @@ class ClothQuery {
     if (!around_.leaves_edge(second, record.normal) || !around_.leaves_edge(first, -record.normal)) return;
     found.edge_keys.emplace_back(first, second);
     found.edges.push_back(record);
-  }
-
-  OuterBox edge_box(const Edge& edge) const {
-    OuterBox box = tree_.particle_box(edge.a);
-    box.include(tree_.particle_box(edge.b));
-    return box;
   }
 
   // Gap and normal from the vector between the closest points, or from `instead` where they coincide; false when

@@ -85,8 +85,7 @@ class ImpactQuery {
       if (!(edges_a >> k & 1u)) continue;
       const Index first = cloth_.triangle_edges(a)[k];
       const Edge& e = cloth_.edge(first);
-      OuterBox box = tree_.particle_box(e.a);
-      box.include(tree_.particle_box(e.b));
+      const OuterBox box = tree_.edge_box(e.a, e.b);
       const Index ea = cloth_.merged(e.a), eb = cloth_.merged(e.b);
       for (std::size_t l = 0; l < 3; ++l) {
         if (!(edges_b >> l & 1u)) continue;
@@ -94,9 +93,7 @@ class ImpactQuery {
         const Edge& f = cloth_.edge(second);
         const Index fa = cloth_.merged(f.a), fb = cloth_.merged(f.b);
         if (ea == fa || ea == fb || eb == fa || eb == fb) continue;
-        OuterBox other = tree_.particle_box(f.a);
-        other.include(tree_.particle_box(f.b));
-        if (!box.overlaps(other)) continue;
+        if (!box.overlaps(tree_.edge_box(f.a, f.b))) continue;
         if (first < second) {
           decide(ContactKind::edge_edge, {e.a, e.b, f.a, f.b}, found);
         } else {

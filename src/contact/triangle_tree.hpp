@@ -85,6 +85,11 @@ class TriangleTree {
   // Of the last refit: the box of the motion, grown by the margin.
   const OuterBox& particle_box(Index particle) const { return particle_boxes_[static_cast<std::size_t>(particle)]; }
   const OuterBox& triangle_box(Index triangle) const { return triangle_boxes_[static_cast<std::size_t>(triangle)]; }
+  OuterBox edge_box(Index a, Index b) const {
+    OuterBox box = particle_box(a);
+    box.include(particle_box(b));
+    return box;
+  }
 
  private:
   static constexpr Index leaf_size = 4;
