@@ -1,7 +1,9 @@
 #include "garment/sewing.hpp"
 
+#include "core/disjoint_sets.hpp"
 #include "step/tangents.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +11,7 @@ namespace toile {
 namespace {
 
 constexpr int most_escalations = 3;  // thin layers, then two doublings of the pull
+constexpr int lets_through = 2;      // from here on what seams have caught
 constexpr double thinning_per_frame = 0.95;
 constexpr double least_thickness = 0.1, thickness_growth = 1.1;  // per frame of the drape
 constexpr double coincident_m = 1e-7;  // below it the direction of a pair means nothing: its spring is isotropic
@@ -147,9 +150,16 @@ void Sewing::judge_progress() {
   const bool stopped = reached && time_s_ - best_time_s_ >= options_.patience_s;
   const bool near = gap < options_.weld_gap_m || (stopped && gap < options_.weld_share * mean_edge_m_);
   weld_obstacle_.reset();
-  if (near && close_seams()) {
-    status_ = SewingStatus::closed;
-    return;
+  if (near || escalations_ >= lets_through) {
+    Vec3s closed = state_.x;
+    const std::vector<Impact> caught = close_seams(closed);
+    if (near && caught.empty()) {
+      state_.x = std::move(closed);
+      status_ = SewingStatus::closed;
+      return;
+    }
+    if (near) weld_obstacle_ = state_.x[at(caught.front().particle[0])];
+    if (escalations_ >= lets_through) let_through(caught);
   }
   if (escalations_ > 0) thin_layers();
   if (!stopped) return;
@@ -163,14 +173,12 @@ void Sewing::judge_progress() {
   best_time_s_ = time_s_;
 }
 
-// Moves every class to where it will be welded, and the cloth around it out of the way; false, and nothing moved, where that is not
-// possible without passing cloth through cloth.
-bool Sewing::close_seams() {
+// Moves every class to where it will be welded, and the cloth around it out of the way.  Returns where that would pass cloth through cloth.
+std::vector<Impact> Sewing::close_seams(Vec3s& end) {
   const std::vector<Vec3> joined = class_means(garment_->merged, model_.mass_kg, state_.x);
   std::vector<double> inverse_mass(state_.x.size(), 0);
   for (std::size_t i = at(options_.held_particles); i < inverse_mass.size(); ++i)
     inverse_mass[i] = 1 / model_.mass_kg[i];
-  Vec3s end = state_.x;
   for (const SeamPair& pair : garment_->pairs) {
     for (const Index i : {pair.a, pair.b}) {
       end[at(i)] = joined[at(garment_->merged[at(i)])];
@@ -179,14 +187,35 @@ bool Sewing::close_seams() {
   }
   ContactRows& rows = stepper_->integrator().contact_rows();
   SafeFilter filter;
-  const FilterReport report =
-      filter(rows.topology(), rows.tree(), state_.x, inverse_mass, rows.contact_m(), false, end);
-  if (report.left > 0) {
-    weld_obstacle_ = state_.x[at(filter.left().front().particle[0])];
-    return false;
+  filter(rows.topology(), rows.tree(), state_.x, inverse_mass, rows.contact_m(), false, end);
+  return {filter.left().begin(), filter.left().end()};
+}
+
+// A fold between the two sides of a seam that has closed around it never comes out.  Its contact goes, and what then passes through is
+// untangled after the weld (sim/untangle.hpp); what is larger than a fold stays in the way.
+void Sewing::let_through(std::span<const Impact> caught) {
+  std::vector<char> sewn(state_.x.size(), 0), off(state_.x.size(), 0);
+  for (const SeamPair& pair : garment_->pairs) sewn[at(pair.a)] = sewn[at(pair.b)] = 1;
+  for (const Impact& impact : caught) {
+    const bool seams_alone =
+        std::all_of(impact.particle.begin(), impact.particle.end(), [&](Index i) { return sewn[at(i)] != 0; });
+    for (const Index i : impact.particle) {
+      if ((seams_alone || !sewn[at(i)]) && i >= options_.held_particles) off[at(i)] = 1;
+    }
   }
-  state_.x = std::move(end);
-  return true;
+  for (std::size_t i = 0; i < off.size(); ++i) off[i] = static_cast<char>(off[i] != 0 || thickness_scale_[i] == 0);
+  DisjointSets pieces(off.size());
+  for (const Triangle& t : garment_->mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (off[at(t[k])] && off[at(t[(k + 1) % 3])]) pieces.join(t[k], t[(k + 1) % 3]);
+  }
+  const std::vector<Index> piece = pieces.representatives();
+  std::vector<Eigen::AlignedBox3d> box(off.size());
+  for (std::size_t i = 0; i < off.size(); ++i)
+    if (off[i]) box[at(piece[i])].extend(state_.x[i]);
+  for (std::size_t i = 0; i < off.size(); ++i)
+    if (off[i] && box[at(piece[i])].diagonal().norm() < options_.largest_fold_m) thickness_scale_[i] = 0;
+  stepper_->integrator().contact_rows().set_thickness_scale(thickness_scale_);
 }
 
 void Sewing::thin_layers() {

@@ -9,8 +9,10 @@
 // up and the corner of four panels never closes), the body is slippery (or a hem caught on the hips holds the shoulders open), and the safe
 // filter of the step never lets cloth pass through cloth.
 //
-// If a seam still gapes when l = 0, the layers of cloth around the gap are thinned; then f_max doubles, at most twice; then the garment is
-// reported as blocked, by seam.  Cloth that is stretched by a fifth beside the gap ends it at once: the garment is too small.  The last millimetre is left to the weld, which waits while it would push cloth through cloth.
+// If a seam still gapes when l = 0, the layers of cloth around the gap are thinned; then f_max doubles, at most twice, and folds that are
+// caught between the sides of a seam lose their contact; then the garment is reported as blocked, by seam.  Cloth that is stretched by a
+// fifth beside the gap ends it at once: the garment is too small.  The last millimetre is left to the weld, which waits while it would push
+// guarded cloth through cloth.
 #pragma once
 #include "garment/label_heights.hpp"
 #include "step/adaptive_step.hpp"
@@ -39,6 +41,7 @@ struct SewingOptions {
   double thickness_scale = 1.6;  // of the fabrics' contact distance, while sewing
   double thinnest = 0.2;         // the same, within `thin_radius_m` of a seam that will not close
   double thin_radius_m = 0.03;
+  double largest_fold_m = 0.1;  // that is let through where a seam has closed around it; 0: none is
   double fps = 60;
   double step_max_s = 1.0 / 60;
   bool paper_scaling = false;  // assembly/cloth_model.hpp
@@ -85,8 +88,8 @@ class Sewing {
  private:
   void append_springs(const ClothState& state, double end_s, std::vector<LinearSpring>& springs) const;
   void judge_progress();
-  bool close_seams();
-  std::optional<Vec3> weld_obstacle_;
+  std::vector<Impact> close_seams(Vec3s& end);
+  void let_through(std::span<const Impact> caught);
   void thin_layers();
 
   const GarmentMesh* garment_;
@@ -101,6 +104,7 @@ class Sewing {
   double best_gap_m_ = 0, best_time_s_ = 0;
   int escalations_ = 0;
   std::vector<double> thickness_scale_;  // [particle]
+  std::optional<Vec3> weld_obstacle_;
   SewingStatus status_ = SewingStatus::sewing;
 };
 

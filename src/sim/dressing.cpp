@@ -5,7 +5,6 @@
 #include <fmt/printf.h>
 
 namespace toile {
-namespace {}  // namespace
 
 Dressing::Dressing(const Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric> fabrics,
                    std::span<const Vec2> rest_stretch, BodySurface* body, const StepOptions& step,

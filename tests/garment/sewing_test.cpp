@@ -10,8 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 namespace toile {
 namespace {
@@ -385,6 +387,36 @@ TEST(Sewing, ASheetBetweenTheSeamsStopsTheWeldAndIsNotPassed) {
   }
   EXPECT_LT(thinnest, 1.2 * options.thickness_scale * std::pow(0.95, 9));
   EXPECT_EQ(thickest, options.thickness_scale);
+}
+
+TEST(Sewing, AFoldBetweenTheSeamsIsLetThroughAndNothingLarger) {
+  Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
+  pattern.panels.push_back(
+      test::front_rectangle(0.3, 0.04, Vec3::Zero()));  // as a fold would, between both sides of both seams
+  pattern.panels.back().name = "fold";
+  SewingOptions options;
+  options.patience_s = 0.05;
+  for (const bool small_enough : {true, false}) {
+    options.largest_fold_m = small_enough ? 0.1 : 0;
+    SewingRun run(pattern, 0.02, nullptr, options);
+    run.run(200);
+    EXPECT_EQ(run.sewing->status(), small_enough ? SewingStatus::closed : SewingStatus::blocked);
+    EXPECT_EQ(run.sewing->weld_obstacle().has_value(), !small_enough);
+    const auto of_fold = [&](Index i) { return run.garment.x[at(i)].z() == 0; };
+    const auto& triangles = run.garment.mesh.triangles;
+    std::vector<Triangle> tube;  // its seams, of which each side is next to the other, may cross there
+    std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(tube),
+                 [&](const Triangle& t) { return !of_fold(t[0]); });
+    const Vec3s& x = run.sewing->state().x;
+    EXPECT_EQ(test::crossings_of(x, triangles) > test::crossings_of(x, tube), small_enough);
+    int unguarded = 0;
+    for (std::size_t i = 0; i < run.garment.x.size(); ++i) {
+      if (run.sewing->thickness_scale()[i] > 0) continue;
+      unguarded += of_fold(static_cast<Index>(i)) ? 1 : 0;
+      EXPECT_NEAR(std::abs(run.garment.x[i].x()), 0.06, 0.04) << "where the seams are";
+    }
+    EXPECT_EQ(unguarded > 0, small_enough);
+  }
 }
 
 TEST(Sewing, ThinnedLayersComeBackToTheFabricsThicknessAndNoFurther) {

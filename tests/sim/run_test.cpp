@@ -251,6 +251,19 @@ TEST(Run, TheTShirtIsSewnWithoutACrossingWhereFourPanelsMeet) {
   }
 }
 
+// At this edge length the seams that meet in the crotch close around a fold.
+TEST(Run, TrousersWhoseSeamsHaveCaughtAFoldAreSewnAndTakenApart) {
+  const Scratch scratch;
+  const Report report = run(scratch, parse_scene(R"({"cloth": [{"pattern": ")" TOILE_SOURCE_DIR
+                                                 R"(/patterns/man_pants.json", "resolution_cm": 3.4}],
+                                                     "body": {"mannequin": "man"}, "time": {"seconds": 0.3}})",
+                                                 "s.json"));
+  ASSERT_EQ(report.ended, "time");
+  EXPECT_GT(report.start.cloth_cloth, 0);
+  EXPECT_EQ(report.start.cloth_cloth_left, 0);
+  EXPECT_EQ(report.audit.cloth_cloth_edges.max, 0);
+}
+
 TEST(Setup, LongerEdgesRestFartherFromTheBodyUnlessTheSceneSays) {
   Scene scene = parse_scene(
       R"({"cloth": [{"grid": {"edge_m": 0.01}}], "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.5}}})", "s.json");
