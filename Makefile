@@ -1,12 +1,16 @@
 # The commands of the README.  Everything real happens in CMake; this file only says what is run.
-.PHONY: build demo test test-long bench tidy format clean packages
+.PHONY: configure build demo test test-long bench tidy format clean packages
 JOBS ?= $(shell nproc)
 
-build: packages
+configure: packages
 	@cmake --preset release >/dev/null
+
+build: configure
 	@cmake --build --preset release -j $(JOBS)
 
-demo: build
+# Without the tests, which are nearly half of what there is to build.
+demo: configure
+	@cmake --build --preset release --target toile -j $(JOBS)
 	build/release/toile demo
 
 test: build
