@@ -152,7 +152,9 @@ void find_body_contacts(const ClothTopology& cloth, TriangleTree& cloth_tree, st
                         std::vector<BodyContact>& contacts) {
   contacts.clear();
   Memory& memory = workspace.memory();
-  memory.prepare(cloth, cloth_tree, x, std::max(options.range_m, options.depth_m));  // the body's boxes add nothing
+  memory.check(cloth, cloth_tree, x);
+  cloth_tree.refit(x, x, std::max(options.range_m, options.depth_m));  // the body's boxes add nothing
+  memory.set_face_normals(cloth, x);
   mark_features(cloth, x, body, options, memory);
   const BodyQuery query(cloth, cloth_tree, x, body, options, memory);
   const std::size_t triangles = body.triangles().size(), blocks = (triangles + feature_grain - 1) / feature_grain;

@@ -23,14 +23,23 @@ bool by_particles(const ClothContact& a, const ClothContact& b) { return a.parti
 class ClothQuery {
  public:
   ClothQuery(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x,
-             const ProximityOptions& options, const Memory& memory)
-      : cloth_(cloth), tree_(tree), around_(cloth, x, options), range_m_(options.range_m), memory_(memory) {}
+             const ProximityOptions& options, const Memory& memory, const FeaturePairs* pairs)
+      : cloth_(cloth),
+        tree_(tree),
+        around_(cloth, x, options),
+        range_m_(options.range_m),
+        memory_(memory),
+        pairs_(pairs) {}
 
   // Of the places within range of a vertex those that count.
   void meet_vertex(Index vertex, Memory::Reported& out) const {
     if (cloth_.corners_around(vertex).empty()) return;
     out.places.clear();
-    tree_.visit_overlapping(tree_.particle_box(vertex), [&](Index t) { add_place(vertex, t, out.places); });
+    if (pairs_) {
+      for (const Index t : pairs_->triangles_near(vertex)) add_place(vertex, t, out.places);
+    } else {
+      tree_.visit_overlapping(tree_.particle_box(vertex), [&](Index t) { add_place(vertex, t, out.places); });
+    }
     if (out.places.empty()) return;
     std::sort(out.places.begin(), out.places.end());
     const std::size_t first_face = out.faces.size();
@@ -62,10 +71,14 @@ class ClothQuery {
     }
   }
 
-  // The edges of a triangle that are not flat, and for which it speaks.
+  // The edges for which a triangle speaks, with others; one of two has to be bent.
   void meet_edges(Index t, Memory::Found& found) const {
-    const unsigned bent = static_cast<unsigned>(cloth_.owned(t) & ~memory_.flat[static_cast<std::size_t>(t)]) >> 3;
-    for_lanes(bent, [&](std::size_t k) { meet_edge(cloth_.triangle_edges(t)[k], found); });
+    const unsigned owned = static_cast<unsigned>(cloth_.owned(t)) >> 3, flat = flat_edges(t);
+    if (pairs_) {
+      for_lanes(owned, [&](std::size_t k) { look_up_edge(cloth_.triangle_edges(t)[k], flat >> k & 1u, found); });
+    } else {
+      for_lanes(owned & ~flat, [&](std::size_t k) { meet_edge(cloth_.triangle_edges(t)[k], found); });
+    }
   }
 
  private:
@@ -75,7 +88,7 @@ class ClothQuery {
     const Index ea = cloth_.merged(e.a), eb = cloth_.merged(e.b);
     const OuterBox box = tree_.edge_box(e.a, e.b);
     tree_.visit_overlapping(box, [&](Index t) {
-      const unsigned flat = static_cast<unsigned>(memory_.flat[static_cast<std::size_t>(t)]) >> 3;
+      const unsigned flat = flat_edges(t);
       for_lanes(static_cast<unsigned>(cloth_.owned(t)) >> 3, [&](std::size_t k) {
         const Index second = cloth_.triangle_edges(t)[k];
         if (second <= first && !(flat >> k & 1u)) return;
@@ -85,6 +98,28 @@ class ClothQuery {
         meet_edge_pair(std::min(first, second), std::max(first, second), found);
       });
     });
+  }
+
+  // Likewise, of the list.
+  void look_up_edge(Index first, bool first_is_flat, Memory::Found& found) const {
+    const std::span<const Index> near = pairs_->edges_near(first);
+    if (near.empty()) return;
+    const Edge& e = cloth_.edge(first);
+    const OuterBox box = memory_.boxes.edge(e.a, e.b);
+    for (const Index second : near) {
+      const Edge& f = cloth_.edge(second);
+      if (box.overlaps(memory_.boxes.edge(f.a, f.b)) && !(first_is_flat && is_flat(second)))
+        meet_edge_pair(first, second, found);
+    }
+  }
+
+  // Bit k: edge k of the triangle is flat.
+  unsigned flat_edges(Index t) const { return static_cast<unsigned>(memory_.flat[static_cast<std::size_t>(t)]) >> 3; }
+  bool is_flat(Index edge) const {
+    const Index t = cloth_.edge(edge).triangle[0];
+    const std::array<Index, 3>& edges = cloth_.triangle_edges(t);
+    const unsigned k = edges[0] == edge ? 0 : edges[1] == edge ? 1 : 2;
+    return flat_edges(t) >> k & 1u;
   }
 
   static void sort_unique(std::vector<Index>& list) {
@@ -194,6 +229,7 @@ class ClothQuery {
   Surroundings around_;
   double range_m_;
   const Memory& memory_;
+  const FeaturePairs* pairs_;  // lists that hold, or none
 };
 
 void mark_flat_edges(const ClothTopology& cloth, std::span<const std::array<Index, 2>> bent, Memory& memory) {
@@ -238,15 +274,17 @@ ProximityWorkspace::~ProximityWorkspace() = default;
 ProximityWorkspace::ProximityWorkspace(ProximityWorkspace&&) noexcept = default;
 ProximityWorkspace& ProximityWorkspace::operator=(ProximityWorkspace&&) noexcept = default;
 
-void ProximityWorkspace::Memory::prepare(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x,
-                                         double margin_m) {
+void ProximityWorkspace::Memory::check(const ClothTopology& cloth, [[maybe_unused]] const TriangleTree& tree,
+                                       std::span<const Vec3> x) const {
   if (x.size() != cloth.particle_count()) {
     throw InputError("", "cloth positions", std::to_string(cloth.particle_count()) + " particles",
                      std::to_string(x.size()));
   }
   TOILE_ASSERT(static_cast<std::size_t>(tree.triangle_count()) == cloth.triangles().size());
   TOILE_ASSERT(cloth.triangles().size() <= Place::most_triangles);
-  tree.refit(x, x, margin_m);
+}
+
+void ProximityWorkspace::Memory::set_face_normals(const ClothTopology& cloth, std::span<const Vec3> x) {
   face_normals.resize(cloth.triangles().size());
   parallel_for(face_normals.size(), triangle_grain, [&](std::size_t t) {
     const Triangle& c = cloth.triangles()[t];
@@ -270,12 +308,18 @@ void ProximityWorkspace::Memory::start_blocks(std::size_t blocks) {
 
 void find_cloth_contacts(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x,
                          const ProximityOptions& options, ProximityWorkspace& workspace,
-                         std::vector<ClothContact>& contacts) {
+                         std::vector<ClothContact>& contacts, FeaturePairs* pairs) {
   contacts.clear();
   Memory& memory = workspace.memory();
-  memory.prepare(cloth, tree, x, options.range_m / 2);
+  memory.check(cloth, tree, x);
+  memory.boxes.set_seen_from_mean(x, x, options.range_m / 2);
+  if (!pairs || !pairs->seek(cloth, tree, memory.boxes)) {
+    pairs = nullptr;
+    tree.refit(memory.boxes);
+  }
+  memory.set_face_normals(cloth, x);
   mark_flat_edges(cloth, options.bent, memory);
-  const ClothQuery query(cloth, tree, x, options, memory);
+  const ClothQuery query(cloth, tree, x, options, memory, pairs);
 
   const std::size_t blocks = (x.size() + query_grain - 1) / query_grain;
   if (memory.reported.size() < blocks) memory.reported.resize(blocks);

@@ -10,6 +10,7 @@
 namespace toile {
 namespace {
 
+constexpr std::size_t list_grain = 512;
 constexpr double separation_share = 0.1;  // of r
 constexpr double gap_share = 0.5;         // of d_0
 constexpr double floor_m = 1e-6;          // files of float32 tell sides that far apart within 8 m of the origin
@@ -48,74 +49,100 @@ double least_gap_m(double gap_m) {
 class ImpactQuery {
  public:
   ImpactQuery(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> start,
-              std::span<const double> contact_m, std::span<const Vec3> displacement_m, std::span<const Pinched> pinched)
-      : cloth_(cloth),
-        tree_(tree),
-        start_(start),
-        contact_m_(contact_m),
-        displacement_m_(displacement_m),
-        pinched_(pinched) {}
+              std::span<const double> contact_m, std::span<const Pinched> pinched, ImpactWorkspace& workspace)
+      : cloth_(cloth), tree_(tree), start_(start), contact_m_(contact_m), pinched_(pinched), workspace_(workspace) {}
 
-  void walk(TreeTask task, std::vector<Impact>& found) const {
+  // All of them, by a walk of the tree, whose boxes are those of the motion.  False: they are too many.
+  bool walk(std::vector<Impact>& impacts) const {
+    tree_.self_tasks(workspace_.tasks);
     const std::size_t most = most_impacts_of_a_task(start_.size());
-    tree_.visit_self(task, [&](Index a, Index b) {
-      if (found.size() > most) return;
-      const unsigned owned_a = cloth_.owned(a), owned_b = cloth_.owned(b);
-      if (owned_a & 7u) meet_vertices(a, owned_a, b, found);
-      if (owned_b & 7u) meet_vertices(b, owned_b, a, found);
-      if (owned_a >> 3 != 0 && owned_b >> 3 != 0) meet_edges(a, owned_a >> 3, b, owned_b >> 3, found);
+    start_blocks(workspace_.tasks.size());
+    parallel_for(workspace_.tasks.size(), 1, [&](std::size_t i) {
+      std::vector<Impact>& found = workspace_.found[i];
+      visit_feature_pairs(
+          cloth_, tree_, workspace_.tasks[i],
+          [&](Index v, Index t) {
+            if (found.size() <= most) decide_vertex(v, t, found);
+          },
+          [&](Index e, Index f) {
+            if (found.size() <= most) decide_edges(e, f, found);
+          });
     });
+    return gather_impacts(found(workspace_.tasks.size()), start_.size(), impacts);
+  }
+
+  // All of them, by lists that hold.  False: they are so many that the walk might have stopped, and is to say.
+  bool look_up(const FeaturePairs& pairs, std::vector<Impact>& impacts) const {
+    const std::size_t vertices = start_.size(), edges = cloth_.topology().edges.size();
+    const std::size_t vertex_blocks = (vertices + list_grain - 1) / list_grain,
+                      blocks = vertex_blocks + (edges + list_grain - 1) / list_grain;
+    start_blocks(blocks);
+    parallel_for(blocks, 1, [&](std::size_t i) {
+      if (i < vertex_blocks) {
+        const std::size_t begin = i * list_grain;
+        look_up_vertices(pairs, begin, std::min(begin + list_grain, vertices), workspace_.found[i]);
+      } else {
+        const std::size_t begin = (i - vertex_blocks) * list_grain;
+        look_up_edges(pairs, begin, std::min(begin + list_grain, edges), workspace_.found[i]);
+      }
+    });
+    return gather_impacts(found(blocks), start_.size(), impacts) && impacts.size() <= few_impacts;
   }
 
  private:
-  void meet_vertices(Index a, unsigned owned, Index b, std::vector<Impact>& found) const {
-    const Triangle &corners = cloth_.triangle(b), &merged = cloth_.merged_triangle(b);
-    const OuterBox& box = tree_.triangle_box(b);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!(owned >> k & 1u)) continue;
-      const Index v = cloth_.triangle(a)[k], m = cloth_.merged_triangle(a)[k];
-      if (m == merged[0] || m == merged[1] || m == merged[2]) continue;
-      if (!tree_.particle_box(v).overlaps(box)) continue;
-      decide(ContactKind::vertex_face, {v, corners[0], corners[1], corners[2]}, found);
-    }
+  void start_blocks(std::size_t count) const {
+    if (workspace_.found.size() < count) workspace_.found.resize(count);
+    for (std::size_t i = 0; i < count; ++i) workspace_.found[i].clear();
+  }
+  std::span<const std::vector<Impact>> found(std::size_t count) const {
+    return std::span(workspace_.found).first(count);
   }
 
-  void meet_edges(Index a, unsigned edges_a, Index b, unsigned edges_b, std::vector<Impact>& found) const {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!(edges_a >> k & 1u)) continue;
-      const Index first = cloth_.triangle_edges(a)[k];
+  void look_up_vertices(const FeaturePairs& pairs, std::size_t begin, std::size_t end,
+                        std::vector<Impact>& found) const {
+    const ParticleBoxes& boxes = workspace_.boxes;
+    for (auto v = static_cast<Index>(begin); v < static_cast<Index>(end); ++v) {
+      for (const Index t : pairs.triangles_near(v)) {
+        if (boxes[v].overlaps(boxes.triangle(cloth_.triangle(t)))) decide_vertex(v, t, found);
+      }
+    }
+  }
+  void look_up_edges(const FeaturePairs& pairs, std::size_t begin, std::size_t end, std::vector<Impact>& found) const {
+    const ParticleBoxes& boxes = workspace_.boxes;
+    for (auto first = static_cast<Index>(begin); first < static_cast<Index>(end); ++first) {
+      const std::span<const Index> near = pairs.edges_near(first);
+      if (near.empty()) continue;
       const Edge& e = cloth_.edge(first);
-      const OuterBox box = tree_.edge_box(e.a, e.b);
-      const Index ea = cloth_.merged(e.a), eb = cloth_.merged(e.b);
-      for (std::size_t l = 0; l < 3; ++l) {
-        if (!(edges_b >> l & 1u)) continue;
-        const Index second = cloth_.triangle_edges(b)[l];
+      const OuterBox box = boxes.edge(e.a, e.b);
+      for (const Index second : near) {
         const Edge& f = cloth_.edge(second);
-        const Index fa = cloth_.merged(f.a), fb = cloth_.merged(f.b);
-        if (ea == fa || ea == fb || eb == fa || eb == fb) continue;
-        if (!box.overlaps(tree_.edge_box(f.a, f.b))) continue;
-        if (first < second) {
-          decide(ContactKind::edge_edge, {e.a, e.b, f.a, f.b}, found);
-        } else {
-          decide(ContactKind::edge_edge, {f.a, f.b, e.a, e.b}, found);
-        }
+        if (box.overlaps(boxes.edge(f.a, f.b))) decide_edges(first, second, found);
       }
     }
   }
 
+  void decide_vertex(Index v, Index t, std::vector<Impact>& found) const {
+    const Triangle& corners = cloth_.triangle(t);
+    decide(ContactKind::vertex_face, {v, corners[0], corners[1], corners[2]}, found);
+  }
+  void decide_edges(Index first, Index second, std::vector<Impact>& found) const {
+    const Edge &e = cloth_.edge(first), &f = cloth_.edge(second);
+    decide(ContactKind::edge_edge, {e.a, e.b, f.a, f.b}, found);
+  }
   void decide(ContactKind kind, const std::array<Index, 4>& particle, std::vector<Impact>& found) const {
     Impact impact{kind, particle, {}, Vec3::Zero(), no_impact, 0, contact_m_[at(particle[0])], 0};
     for (const Index i : particle) impact.contact_m = std::min(impact.contact_m, contact_m_[at(i)]);
     if (impact.contact_m <= 0 || is_let_be(particle, pinched_)) return;
-    if (decide_impact(gather(particle, start_), gather(particle, displacement_m_), impact)) found.push_back(impact);
+    if (decide_impact(gather(particle, start_), gather(particle, workspace_.displacement_m), impact))
+      found.push_back(impact);
   }
 
   const ClothTopology& cloth_;
   const TriangleTree& tree_;
   std::span<const Vec3> start_;
   std::span<const double> contact_m_;
-  std::span<const Vec3> displacement_m_;
   std::span<const Pinched> pinched_;
+  ImpactWorkspace& workspace_;
 };
 
 }  // namespace
@@ -135,23 +162,26 @@ bool decide_impact(const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, I
 
 bool find_impacts(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                   std::span<const Vec3> end, std::span<const double> contact_m, ImpactWorkspace& workspace,
-                  std::vector<Impact>& impacts, std::span<const Pinched> pinched) {
+                  std::vector<Impact>& impacts, std::span<const Pinched> pinched, const FeaturePairs* pairs) {
   TOILE_ASSERT(start.size() == cloth.particle_count() && end.size() == start.size() &&
                contact_m.size() == start.size());
   impacts.clear();
   if (start.empty()) return true;
   const double widest_m = *std::max_element(contact_m.begin(), contact_m.end());
-  tree.refit(start, end, separation_share * widest_m / 2);
+  workspace.boxes.set_seen_from_mean(start, end, separation_share * widest_m / 2);
   workspace.displacement_m.resize(start.size());
   for (std::size_t i = 0; i < start.size(); ++i) workspace.displacement_m[i] = end[i] - start[i];
-  tree.self_tasks(workspace.tasks);
-  if (workspace.found.size() < workspace.tasks.size()) workspace.found.resize(workspace.tasks.size());
-  const ImpactQuery query(cloth, tree, start, contact_m, workspace.displacement_m, pinched);
-  parallel_for(workspace.tasks.size(), 1, [&](std::size_t i) {
-    workspace.found[i].clear();
-    query.walk(workspace.tasks[i], workspace.found[i]);
+  const ImpactQuery query(cloth, tree, start, contact_m, pinched, workspace);
+  bool all = pairs && pairs->hold(workspace.boxes) && query.look_up(*pairs, impacts);
+  if (!all) {
+    impacts.clear();
+    tree.refit(workspace.boxes);
+    all = query.walk(impacts);
+  }
+  std::sort(impacts.begin(), impacts.end(), [](const Impact& a, const Impact& b) {
+    return a.kind != b.kind ? a.kind < b.kind : a.particle < b.particle;
   });
-  return gather_impacts(std::span(workspace.found).first(workspace.tasks.size()), start.size(), impacts);
+  return all;
 }
 
 bool gather_impacts(std::span<const std::vector<Impact>> found, std::size_t particles, std::vector<Impact>& impacts) {

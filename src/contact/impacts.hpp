@@ -36,8 +36,9 @@ struct Impact {
 // Memory that a caller keeps between queries.
 struct ImpactWorkspace {
   std::vector<TreeTask> tasks;
-  std::vector<std::vector<Impact>> found;  // by task
+  std::vector<std::vector<Impact>> found;  // by task, or by block of features
   std::vector<Vec3> displacement_m;
+  ParticleBoxes boxes;
 };
 
 // Impacts beyond which a motion is not worth correcting: whatever made it threw cloth through cloth, or through the body.
@@ -51,13 +52,13 @@ inline std::size_t most_impacts_of_a_task(std::size_t particles) {
 [[nodiscard]] bool gather_impacts(std::span<const std::vector<Impact>> found, std::size_t particles,
                                   std::vector<Impact>& impacts);
 
-// All impacts, in an order that depends on the input only.  `contact_m` is r per particle, a pair takes the least of
+// All impacts, sorted by (kind, particles).  `contact_m` is r per particle, a pair takes the least of
 // its four; 0 exempts, and so does being let be (contact/pinched.hpp; `pinched` per particle, or empty).  Of `tree` only the hierarchy is used;
-// its boxes become those of the motion.  Returns false when there are more than most_impacts, or far too many in one place: then not all are there.
+// its boxes become those of the motion.  `pairs`: lists that serve where they hold; the impacts are the same without.  Returns false when there are more than most_impacts, or far too many in one place: then not all are there.
 [[nodiscard]] bool find_impacts(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                                 std::span<const Vec3> end, std::span<const double> contact_m,
                                 ImpactWorkspace& workspace, std::vector<Impact>& impacts,
-                                std::span<const Pinched> pinched = {});
+                                std::span<const Pinched> pinched = {}, const FeaturePairs* pairs = nullptr);
 
 // The impact of one pair whose corners x move by u, if it has one; particle, kind and contact_m are those of `impact`, the rest is
 // filled in.  A pair that coincides at the start has no side to be kept on, and none.

@@ -35,6 +35,17 @@ struct OuterBox {
                              static_cast<int>(a.low[1] <= b.high[1]) & static_cast<int>(b.low[1] <= a.high[1]) &
                              static_cast<int>(a.low[2] <= b.high[2]) & static_cast<int>(b.low[2] <= a.high[2]));
   }
+  bool within(const OuterBox& other) const {
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) inside &= (other.low[k] <= low[k]) & (high[k] <= other.high[k]);
+    return inside;
+  }
+  void grow(float by) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] -= by;
+      high[k] += by;
+    }
+  }
   void include(const OuterBox& other) {
     for (std::size_t k = 0; k < 3; ++k) {
       low[k] = other.low[k] < low[k] ? other.low[k] : low[k];

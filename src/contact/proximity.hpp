@@ -27,6 +27,7 @@
 #pragma once
 #include "contact/body_surface.hpp"
 #include "contact/distance.hpp"
+#include "contact/feature_pairs.hpp"
 #include "contact/features.hpp"
 #include "contact/triangle_tree.hpp"
 
@@ -104,10 +105,11 @@ class ProximityWorkspace {
 
 // All contacts of the cloth with itself within range at positions x.  Features that touch (share a merged particle) are
 // skipped.  Of `tree` only the hierarchy is used; its boxes become those of the query.
-// The list is sorted by (kind, particles) and is the same for any number of threads.
+// The list is sorted by (kind, particles) and is the same for any number of threads.  `pairs`: lists of this cloth, kept where that
+// pays, for the caller's next queries as well; the contacts are the same without.
 void find_cloth_contacts(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x,
                          const ProximityOptions& options, ProximityWorkspace& workspace,
-                         std::vector<ClothContact>& contacts);
+                         std::vector<ClothContact>& contacts, FeaturePairs* pairs = nullptr);
 
 // Body vertices near cloth faces and body ridges near cloth edges, at x and the body's present positions; sorted by
 // kind, then the body's vertex or edge, then the cloth's triangle or edge.  `cloth_tree`: as above.

@@ -43,6 +43,7 @@ struct ProximityWorkspace::Memory {
     std::vector<Index> edge_candidates, vertex_candidates;
   };
 
+  ParticleBoxes boxes;  // of the cloth against itself, seen from its mean
   std::vector<Vec3> face_normals;
   std::vector<std::uint8_t> flat;           // [triangle] bit 3 + k: edge k is flat
   std::vector<std::uint8_t> body_features;  // [triangle of the body] as BodySurface::owned_ridges
@@ -53,8 +54,9 @@ struct ProximityWorkspace::Memory {
   std::vector<BodyContact> body_records;
   BucketOrder sorted;
 
-  // Boxes of the cloth at rest in x, grown by `margin_m`; face normals.
-  void prepare(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x, double margin_m);
+  // Throws InputError when `x` is not of this cloth.
+  void check(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x) const;
+  void set_face_normals(const ClothTopology& cloth, std::span<const Vec3> x);
   void start_blocks(std::size_t blocks);
   // `keys` and `all` become what the blocks have found, one after the other.
   template <class Record>

@@ -115,24 +115,19 @@ Index TriangleTree::build(std::span<const Vec3> centroids, std::span<Index> tria
 }
 
 void TriangleTree::refit(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m) {
-  TOILE_ASSERT(start.size() == end.size());
-  particle_boxes_.resize(start.size());
-  parallel_for(start.size(), box_grain, [&](std::size_t i) {
-    OuterBox& box = particle_boxes_[i];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double a = start[i][static_cast<Eigen::Index>(k)], b = end[i][static_cast<Eigen::Index>(k)];
-      box.low[k] = OuterBox::below(std::min(a, b) - margin_m);
-      box.high[k] = OuterBox::above(std::max(a, b) + margin_m);
-    }
-  });
+  particle_boxes_.set(start, end, margin_m);
+  refit_triangles();
+}
+
+void TriangleTree::refit(const ParticleBoxes& particles) {
+  particle_boxes_ = particles;
+  refit_triangles();
+}
+
+void TriangleTree::refit_triangles() {
   if (nodes_.empty()) return;
-  parallel_for(triangle_boxes_.size(), box_grain, [&](std::size_t t) {
-    const Triangle& corners = (*triangles_)[t];
-    OuterBox box = particle_box(corners[0]);
-    box.include(particle_box(corners[1]));
-    box.include(particle_box(corners[2]));
-    triangle_boxes_[t] = box;
-  });
+  parallel_for(triangle_boxes_.size(), box_grain,
+               [&](std::size_t t) { triangle_boxes_[t] = particle_boxes_.triangle((*triangles_)[t]); });
   for (std::size_t i = nodes_.size(); i-- > 0;) {  // children stand after their parents
     Node& at = nodes_[i];
     for (int lane = 0; lane < 4; ++lane) {

@@ -10,6 +10,7 @@
 // Easily got wrong: a copy of a tree shares the original's hierarchy (cheap to hold) but has boxes of its own.
 #pragma once
 #include "contact/lane_boxes.hpp"
+#include "contact/particle_boxes.hpp"
 #include "core/bucket_order.hpp"
 
 #include <algorithm>
@@ -49,6 +50,8 @@ class TriangleTree {
 
   // Boxes hold every triangle at `start` and at `end` (linear motion between), grown by `margin_m`.
   void refit(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
+  // Boxes hold those of the particles.
+  void refit(const ParticleBoxes& particles);
 
   // Pairs (a, b) with a < b of this tree's triangles whose boxes overlap, sorted.  A pair that shares a particle is
   // kept: its other features may still be close.
@@ -83,13 +86,10 @@ class TriangleTree {
 
   Index triangle_count() const { return static_cast<Index>(triangles_ ? triangles_->size() : 0); }
   // Of the last refit: the box of the motion, grown by the margin.
-  const OuterBox& particle_box(Index particle) const { return particle_boxes_[static_cast<std::size_t>(particle)]; }
+  const ParticleBoxes& particle_boxes() const { return particle_boxes_; }
+  const OuterBox& particle_box(Index particle) const { return particle_boxes_[particle]; }
   const OuterBox& triangle_box(Index triangle) const { return triangle_boxes_[static_cast<std::size_t>(triangle)]; }
-  OuterBox edge_box(Index a, Index b) const {
-    OuterBox box = particle_box(a);
-    box.include(particle_box(b));
-    return box;
-  }
+  OuterBox edge_box(Index a, Index b) const { return particle_boxes_.edge(a, b); }
 
  private:
   static constexpr Index leaf_size = 4;
@@ -103,6 +103,7 @@ class TriangleTree {
 
   const Node& node(Index i) const { return nodes_[static_cast<std::size_t>(i)]; }
   Index build(std::span<const Vec3> centroids, std::span<Index> triangles);
+  void refit_triangles();
   template <class Visit, class Push>
   static void meet(const TriangleTree& first, const TriangleTree& second, TreeTask pair, Visit&& visit, Push&& push);
   template <class Visit, class Push>
@@ -110,7 +111,8 @@ class TriangleTree {
 
   std::vector<Node> nodes_;
   std::shared_ptr<const std::vector<Triangle>> triangles_;
-  std::vector<OuterBox> triangle_boxes_, particle_boxes_;
+  std::vector<OuterBox> triangle_boxes_;
+  ParticleBoxes particle_boxes_;
 };
 
 // ---------------------------------------------------------------------------------------------------------------------

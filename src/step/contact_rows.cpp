@@ -85,7 +85,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
     const Timed timed(cloth_seconds);
     find_acting_edges();
     find_cloth_contacts(topology_, tree_, state.x, {range, 0, options_.region_tolerance, acting_edges_}, workspace_,
-                        cloth_contacts_);
+                        cloth_contacts_, &near_);
     for (const ClothContact& contact : cloth_contacts_) {
       if (!pinched_.empty() && all_pinched(contact.particle, pinched_)) continue;
       const auto [full, r] = distance_.between(contact.kind, contact.particle);

@@ -65,10 +65,11 @@ class ContactRows {
   // [particle] From the next detect on pairs of which all is pinched get no rows, neither with layers nor with the body.  Empty: all do.
   void let_be(std::span<const Pinched> particles) { pinched_.assign(particles.begin(), particles.end()); }
 
-  // What the safe filter asks for: whose features touch, a hierarchy over the triangles (after detect), and the distance that neighbours
-  // keep, per particle: what it keeps of a gap is far less than either.
+  // What the safe filter asks for: whose features touch, a hierarchy over the triangles (after detect) and lists of near features, and the
+  // distance that neighbours keep, per particle: what it keeps of a gap is far less than either.
   const ClothTopology& topology() const { return topology_; }
   TriangleTree& tree() { return tree_; }
+  const FeaturePairs& near() const { return near_; }
   std::span<const double> contact_m() const { return distance_.of_neighbours_m(); }
 
   // How near layers lie at x, of cloth without open seams.  With the memory of `detect`, whose pairs it leaves alone.
@@ -132,6 +133,7 @@ class ContactRows {
   ClothTopology topology_;
   LayerDistance distance_;
   TriangleTree tree_;
+  FeaturePairs near_;
   ProximityWorkspace workspace_;
   std::vector<std::array<Index, 2>>
       acting_edges_;  // of rows of two edges that acted in the last accepted step and hardly slid

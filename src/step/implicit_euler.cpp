@@ -436,7 +436,7 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
   }
   report.filter = filter_(rows_.topology(), rows_.tree(), state.x, inverse_mass_, contact_m, limits.truncate,
                           candidate.x, guarded ? &guard : nullptr, before_body_,
-                          flypaper_.any() ? flypaper_.pinched() : std::span<const Pinched>());
+                          flypaper_.any() ? flypaper_.pinched() : std::span<const Pinched>(), &rows_.near());
   if (report.filter.hopeless || report.filter.left > 0 || (report.filter.body_left > 0 && !may_pierce(limits.pierce))) {
     report.status = StepStatus::passed_through;
     return;

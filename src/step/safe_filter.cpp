@@ -51,14 +51,15 @@ double counted_share(const Vec3& correction_m, const Vec3& v_m_per_s, double h_s
 FilterReport SafeFilter::operator()(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                                     std::span<const double> inverse_mass, std::span<const double> contact_m,
                                     bool truncate, std::span<Vec3> end, const BodyGuard* guard,
-                                    std::span<const double> before_body, std::span<const Pinched> pinched) {
+                                    std::span<const double> before_body, std::span<const Pinched> pinched,
+                                    const FeaturePairs* near) {
   FilterReport report;
   moved_.assign(start.size(), 0);
   impacts_.clear();
   body_impacts_.clear();
   const auto look = [&] {
     if (!contact_m.empty())
-      report.hopeless |= !find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_, pinched);
+      report.hopeless |= !find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_, pinched, near);
     if (guard && !report.hopeless)
       report.hopeless |= !find_body_impacts(cloth, tree, start, end, *guard, body_workspace_, body_impacts_);
   };
@@ -72,7 +73,7 @@ FilterReport SafeFilter::operator()(const ClothTopology& cloth, TriangleTree& tr
   report.left = static_cast<int>(impacts_.size());
   report.body_left = static_cast<int>(body_impacts_.size());
   if (!impacts_.empty() && truncate && !report.hopeless) {
-    cut_short(cloth, tree, start, inverse_mass, contact_m, pinched, end, report);
+    cut_short(cloth, tree, start, inverse_mass, contact_m, pinched, near, end, report);
     if (guard) report.hopeless |= !find_body_impacts(cloth, tree, start, end, *guard, body_workspace_, body_impacts_);
     report.body_left = static_cast<int>(body_impacts_.size());
   }
@@ -132,7 +133,8 @@ void SafeFilter::push_apart(std::span<const double> inverse_mass, std::span<cons
 
 void SafeFilter::cut_short(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                            std::span<const double> inverse_mass, std::span<const double> contact_m,
-                           std::span<const Pinched> pinched, std::span<Vec3> end, FilterReport& report) {
+                           std::span<const Pinched> pinched, const FeaturePairs* near, std::span<Vec3> end,
+                           FilterReport& report) {
   const std::size_t n = start.size();
   whole_.assign(end.begin(), end.end());
   zones_.reset(n);
@@ -177,7 +179,7 @@ void SafeFilter::cut_short(const ClothTopology& cloth, TriangleTree& tree, std::
       end[i] = start[i] + m + share[z] * (whole_[i] - start[i] - m);
       moved_[i] = 1;
     }
-    if (!find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_, pinched)) growth = most_growths;
+    if (!find_impacts(cloth, tree, start, end, contact_m, workspace_, impacts_, pinched, near)) growth = most_growths;
   }
   report.truncated = static_cast<int>(std::count(inside.begin(), inside.end(), 1));
   report.left = static_cast<int>(impacts_.size());

@@ -48,11 +48,12 @@ class SafeFilter {
   // Moves `end` where needed.  `inverse_mass` per particle in 1/kg, 0 where it is held; `contact_m` is r per particle
   // (0: not guarded; empty: none is).  With `truncate` the result is free of impacts of cloth with cloth, without it `left` may
   // be positive.  `before_body` are the inverse masses against the body; without a guard there is no body.
-  // `pinched` [particle], or empty: pairs that are let be are not looked at (contact/pinched.hpp).
+  // `pinched` [particle], or empty: pairs that are let be are not looked at (contact/pinched.hpp).  `near`: as find_impacts has it.
   FilterReport operator()(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                           std::span<const double> inverse_mass, std::span<const double> contact_m, bool truncate,
                           std::span<Vec3> end, const BodyGuard* guard = nullptr,
-                          std::span<const double> before_body = {}, std::span<const Pinched> pinched = {});
+                          std::span<const double> before_body = {}, std::span<const Pinched> pinched = {},
+                          const FeaturePairs* near = nullptr);
 
   // Of the last call without `truncate`: the impacts of cloth with cloth that are left.
   std::span<const Impact> left() const { return impacts_; }
@@ -66,7 +67,7 @@ class SafeFilter {
                   std::span<const Pinched> pinched, const BodyGuard* guard, std::span<Vec3> end);
   void cut_short(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                  std::span<const double> inverse_mass, std::span<const double> contact_m,
-                 std::span<const Pinched> pinched, std::span<Vec3> end, FilterReport& report);
+                 std::span<const Pinched> pinched, const FeaturePairs* near, std::span<Vec3> end, FilterReport& report);
 
   ImpactWorkspace workspace_;
   BodyImpactWorkspace body_workspace_;

@@ -1,0 +1,46 @@
+// contact/particle_boxes.hpp: the box of every particle of a mesh on a straight motion, and of what has particles for corners.
+//
+// Easily got wrong: boxes seen from the mean have it taken out.  They say which features of one mesh can meet, and nothing about where
+// they are: never hold them against boxes of something else.
+#pragma once
+#include "contact/lane_boxes.hpp"
+
+#include <span>
+#include <vector>
+
+namespace toile {
+
+class ParticleBoxes {
+ public:
+  // Box i holds start[i], end[i] and all between, grown by `margin_m`.
+  void set(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
+  // Likewise, as one sees it who moves as the mean of the particles does: what falls or walks as a whole has small boxes.
+  void set_seen_from_mean(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
+  // Grows box i by a length of its own.
+  template <class Length>
+  void grow(Length&& by_m) {
+    for (std::size_t i = 0; i < boxes_.size(); ++i) boxes_[i].grow(by_m(i));
+  }
+
+  std::size_t size() const { return boxes_.size(); }
+  const OuterBox& operator[](Index particle) const { return boxes_[static_cast<std::size_t>(particle)]; }
+  OuterBox edge(Index a, Index b) const {
+    OuterBox box = (*this)[a];
+    box.include((*this)[b]);
+    return box;
+  }
+  OuterBox triangle(const Triangle& corners) const {
+    OuterBox box = edge(corners[0], corners[1]);
+    box.include((*this)[corners[2]]);
+    return box;
+  }
+  // Is every box within that of the same particle in `other`?
+  bool within(const ParticleBoxes& other) const;
+
+ private:
+  void set(std::span<const Vec3> start, const Vec3& from, std::span<const Vec3> end, const Vec3& to, double margin_m);
+
+  std::vector<OuterBox> boxes_;
+};
+
+}  // namespace toile
