@@ -44,6 +44,8 @@ double arc_cosine(double x) {
 BodySurface::BodySurface(std::vector<Vec3> positions, std::vector<Triangle> triangles)
     : start_(std::move(positions)),
       end_(start_),
+      moved_(start_.size(), 1),
+      still_(start_.size(), 1),
       triangles_(std::move(triangles)),
       topology_(build_topology(static_cast<Index>(start_.size()), triangles_)),
       tree_(start_, triangles_),
@@ -59,13 +61,21 @@ void BodySurface::set_end(std::span<const Vec3> end) {
   end_.assign(end.begin(), end.end());
 }
 
-void BodySurface::set_motion(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m) {
+void BodySurface::set_motion(std::span<const Vec3> start, std::span<const Vec3> end) {
   if (start.size() != start_.size())
     throw InputError("", "body motion", std::to_string(start_.size()) + " vertices", std::to_string(start.size()));
   set_end(end);
+  bool any = false;
+  for (std::size_t i = 0; i < start_.size(); ++i) {
+    const bool still = end[i] == start[i], moved = !still || still_[i] == 0 || start[i] != start_[i];
+    still_[i] = static_cast<std::uint8_t>(still);
+    moved_[i] = static_cast<std::uint8_t>(moved);
+    any |= moved;
+  }
+  if (!any) return;
   start_.assign(start.begin(), start.end());
-  tree_.refit(start_, end_, margin_m);
-  tree_now_.refit(start_, start_, 0);
+  tree_.refit(start_, end_, 0, moved_);
+  tree_now_.refit(start_, start_, 0, moved_);
   update_normals();
 }
 
@@ -81,8 +91,12 @@ void BodySurface::update_normals() {
   const auto x = [&](Index i) -> const Vec3& { return start_[static_cast<std::size_t>(i)]; };
   face_normals_.resize(triangles_.size());
   corner_angles_.resize(3 * triangles_.size());
+  face_moved_.resize(triangles_.size());
   parallel_for(triangles_.size(), normal_grain, [&](std::size_t t) {
     const auto& [a, b, c] = triangles_[t];
+    const auto moved = [&](Index i) { return moved_[static_cast<std::size_t>(i)] != 0; };
+    face_moved_[t] = static_cast<std::uint8_t>(moved(a) || moved(b) || moved(c));
+    if (face_moved_[t] == 0) return;
     const Vec3 side[3] = {x(b) - x(a), x(c) - x(b), x(a) - x(c)};
     face_normals_[t] = unit_or_zero(side[0].cross(side[1]));
     const double length[3] = {side[0].norm(), side[1].norm(), side[2].norm()};
@@ -95,8 +109,13 @@ void BodySurface::update_normals() {
 
   edge_normals_.resize(topology_.edges.size());
   ridge_bend_.resize(topology_.edges.size());
+  edge_moved_.resize(topology_.edges.size());
+  const auto face_moved = [&](Index t) { return face_moved_[static_cast<std::size_t>(t)] != 0; };
   parallel_for(topology_.edges.size(), normal_grain, [&](std::size_t e) {
     const Edge& edge = topology_.edges[e];
+    edge_moved_[e] = static_cast<std::uint8_t>(face_moved(edge.triangle[0]) ||
+                                               (edge.triangle[1] >= 0 && face_moved(edge.triangle[1])));
+    if (edge_moved_[e] == 0) return;
     const Vec3& n = face_normal(edge.triangle[0]);
     ridge_bend_[e] = 0;
     edge_normals_[e] = n;
@@ -117,8 +136,10 @@ void BodySurface::update_normals() {
 
   vertex_normals_.resize(start_.size());
   parallel_for(start_.size(), normal_grain, [&](std::size_t i) {
+    const auto corners = corners_.row(static_cast<Index>(i));
+    if (std::none_of(corners.begin(), corners.end(), [&](Index at) { return face_moved(at / 3); })) return;
     Vec3 sum = Vec3::Zero(), away = Vec3::Zero();
-    for (const Index at : corners_.row(static_cast<Index>(i))) {
+    for (const Index at : corners) {
       const Index t = at / 3;
       sum += corner_angles_[static_cast<std::size_t>(at)] * face_normal(t);
       for (const Index j : triangle(t)) away -= x(j) - start_[i];
@@ -128,9 +149,12 @@ void BodySurface::update_normals() {
 
   owned_ridges_.resize(triangles_.size());
   parallel_for(triangles_.size(), normal_grain, [&](std::size_t t) {
+    const auto& edges = topology_.triangle_edges[t];
+    const auto edge_moved = [&](Index e) { return edge_moved_[static_cast<std::size_t>(e)] != 0; };
+    if (std::none_of(edges.begin(), edges.end(), edge_moved)) return;
     unsigned bits = owned_[t];
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!(ridge_bend(topology_.triangle_edges[t][k]) > 0)) bits &= ~(8u << k);
+      if (!(ridge_bend(edges[k]) > 0)) bits &= ~(8u << k);
     }
     owned_ridges_[t] = static_cast<std::uint8_t>(bits);
   });

@@ -32,9 +32,10 @@ class BodySurface {
   BodySurface() = default;
   BodySurface(std::vector<Vec3> positions, std::vector<Triangle> triangles);
 
-  // Moves the body to `end` over the coming step; `start` is where it is now.  Refits the tree with `margin_m`.
+  // Moves the body to `end` over the coming step; `start` is where it is now.  What stands still, and stood still over the motion before,
+  // costs a look at its vertices: a room around who walks in it.
   // Throws InputError when a length is not the number of vertices.
-  void set_motion(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
+  void set_motion(std::span<const Vec3> start, std::span<const Vec3> end);
   // A shorter step from the same start: only where it ends changes.  The trees are left as they are; tree() holds the
   // longer motion still, as long as the shorter one is a part of it.
   void set_end(std::span<const Vec3> end);
@@ -44,7 +45,7 @@ class BodySurface {
   std::span<const Triangle> triangles() const { return triangles_; }
   const Triangle& triangle(Index t) const { return triangles_[static_cast<std::size_t>(t)]; }
   const Topology& topology() const { return topology_; }
-  const TriangleTree& tree() const { return tree_; }          // boxes of the coming motion, grown by the margin
+  const TriangleTree& tree() const { return tree_; }          // boxes of the coming motion, nothing added
   const TriangleTree& tree_now() const { return tree_now_; }  // boxes of the present positions, nothing added
 
   // Nearest point of the body as it is now, within `reach_m`.
@@ -99,9 +100,12 @@ class BodySurface {
     return barycentric[0] * x[static_cast<std::size_t>(c[0])] + barycentric[1] * x[static_cast<std::size_t>(c[1])] +
            barycentric[2] * x[static_cast<std::size_t>(c[2])];
   }
+  // Those of faces with a vertex whose moved_ is not 0, and of their edges and vertices.
   void update_normals();
 
   std::vector<Vec3> start_, end_;
+  std::vector<std::uint8_t> moved_, still_;  // by vertex: since the last motion or in this one; not in this one
+  std::vector<std::uint8_t> face_moved_, edge_moved_;
   std::vector<Triangle> triangles_;
   Topology topology_;
   TriangleTree tree_, tree_now_;

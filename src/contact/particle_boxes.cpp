@@ -18,10 +18,28 @@ Vec3 mean(std::span<const Vec3> x) {
   return sum.allFinite() ? sum : Vec3::Zero();
 }
 
+OuterBox motion_box(const Vec3& start, const Vec3& end, double margin_m) {
+  OuterBox box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double a = start[static_cast<Eigen::Index>(k)], b = end[static_cast<Eigen::Index>(k)];
+    box.low[k] = OuterBox::below(std::min(a, b) - margin_m);
+    box.high[k] = OuterBox::above(std::max(a, b) + margin_m);
+  }
+  return box;
+}
+
 }  // namespace
 
 void ParticleBoxes::set(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m) {
   set(start, Vec3::Zero(), end, Vec3::Zero(), margin_m);
+}
+
+void ParticleBoxes::set(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m,
+                        std::span<const std::uint8_t> moved) {
+  TOILE_ASSERT(start.size() == size() && end.size() == size() && moved.size() == size());
+  parallel_for(size(), box_grain, [&](std::size_t i) {
+    if (moved[i] != 0) boxes_[i] = motion_box(start[i], end[i], margin_m);
+  });
 }
 
 void ParticleBoxes::set_seen_from_mean(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m) {
@@ -33,15 +51,8 @@ void ParticleBoxes::set(std::span<const Vec3> start, const Vec3& from, std::span
                         double margin_m) {
   TOILE_ASSERT(start.size() == end.size());
   boxes_.resize(start.size());
-  parallel_for(start.size(), box_grain, [&](std::size_t i) {
-    OuterBox& box = boxes_[i];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto c = static_cast<Eigen::Index>(k);
-      const double a = start[i][c] - from[c], b = end[i][c] - to[c];
-      box.low[k] = OuterBox::below(std::min(a, b) - margin_m);
-      box.high[k] = OuterBox::above(std::max(a, b) + margin_m);
-    }
-  });
+  parallel_for(start.size(), box_grain,
+               [&](std::size_t i) { boxes_[i] = motion_box(start[i] - from, end[i] - to, margin_m); });
 }
 
 bool ParticleBoxes::within(const ParticleBoxes& other) const {

@@ -5,6 +5,7 @@
 #pragma once
 #include "contact/lane_boxes.hpp"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,7 +15,10 @@ class ParticleBoxes {
  public:
   // Box i holds start[i], end[i] and all between, grown by `margin_m`.
   void set(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
-  // Likewise, as one sees it who moves as the mean of the particles does: what falls or walks as a whole has small boxes.
+  // Likewise those whose moved[i] is not 0; the others stay as they are.
+  void set(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m,
+           std::span<const std::uint8_t> moved);
+  // As the first, as one sees it who moves as the mean of the particles does: what falls or walks as a whole has small boxes.
   void set_seen_from_mean(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
   // Grows box i by a length of its own.
   template <class Length>

@@ -131,10 +131,40 @@ void TriangleTree::refit_triangles() {
   for (std::size_t i = nodes_.size(); i-- > 0;) {  // children stand after their parents
     Node& at = nodes_[i];
     for (int lane = 0; lane < 4; ++lane) {
-      const Index child = at.child[static_cast<std::size_t>(lane)];
-      if (child >= 0) at.boxes.set(lane, at.leaf() ? triangle_box(child) : node(child).boxes.whole());
+      if (at.child[static_cast<std::size_t>(lane)] >= 0) set_lane(at, lane);
     }
   }
+}
+
+void TriangleTree::refit(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m,
+                         std::span<const std::uint8_t> moved) {
+  particle_boxes_.set(start, end, margin_m, moved);
+  triangle_moved_.resize(triangle_boxes_.size());
+  parallel_for(triangle_boxes_.size(), box_grain, [&](std::size_t t) {
+    const Triangle& corners = (*triangles_)[t];
+    std::uint8_t any = 0;
+    for (const Index i : corners) any |= moved[static_cast<std::size_t>(i)];
+    triangle_moved_[t] = any;
+    if (any != 0) triangle_boxes_[t] = particle_boxes_.triangle(corners);
+  });
+  node_moved_.resize(nodes_.size());
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    Node& at = nodes_[i];
+    const std::vector<std::uint8_t>& below = at.leaf() ? triangle_moved_ : node_moved_;
+    std::uint8_t any = 0;
+    for (int lane = 0; lane < 4; ++lane) {
+      const Index child = at.child[static_cast<std::size_t>(lane)];
+      if (child < 0 || below[static_cast<std::size_t>(child)] == 0) continue;
+      set_lane(at, lane);
+      any = 1;
+    }
+    node_moved_[i] = any;
+  }
+}
+
+void TriangleTree::set_lane(Node& at, int lane) {
+  const Index child = at.child[static_cast<std::size_t>(lane)];
+  at.boxes.set(lane, at.leaf() ? triangle_box(child) : node(child).boxes.whole());
 }
 
 void TriangleTree::self_tasks(std::vector<TreeTask>& tasks) const {

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -50,6 +51,9 @@ class TriangleTree {
 
   // Boxes hold every triangle at `start` and at `end` (linear motion between), grown by `margin_m`.
   void refit(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
+  // Likewise, where only particles with moved[i] != 0 have other boxes than at the last refit: the others are left alone.
+  void refit(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m,
+             std::span<const std::uint8_t> moved);
   // Boxes hold those of the particles.
   void refit(const ParticleBoxes& particles);
 
@@ -104,6 +108,7 @@ class TriangleTree {
   const Node& node(Index i) const { return nodes_[static_cast<std::size_t>(i)]; }
   Index build(std::span<const Vec3> centroids, std::span<Index> triangles);
   void refit_triangles();
+  void set_lane(Node& at, int lane);
   template <class Visit, class Push>
   static void meet(const TriangleTree& first, const TriangleTree& second, TreeTask pair, Visit&& visit, Push&& push);
   template <class Visit, class Push>
@@ -112,6 +117,7 @@ class TriangleTree {
   std::vector<Node> nodes_;
   std::shared_ptr<const std::vector<Triangle>> triangles_;
   std::vector<OuterBox> triangle_boxes_;
+  std::vector<std::uint8_t> triangle_moved_, node_moved_;  // by refit
   ParticleBoxes particle_boxes_;
 };
 

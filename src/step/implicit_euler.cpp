@@ -60,7 +60,7 @@ void ImplicitEuler::move_body(double t_s, double h_s) {
   if (same_start) {
     world_->body->set_end(body_end_);
   } else {
-    world_->body->set_motion(body_start_, body_end_, 0);
+    world_->body->set_motion(body_start_, body_end_);
   }
 }
 

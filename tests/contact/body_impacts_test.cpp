@@ -78,7 +78,7 @@ TEST(BodyImpacts, AreThoseThatTryingEveryPairFinds) {
     for (Vec3& p : end) p += together + random.vector(seed % 2 == 0 ? 4e-3 : 0.02);
     for (Vec3& p : body_end) p += together + random.vector(1e-3);
     const Vec3s body_start(scene.body.positions().begin(), scene.body.positions().end());
-    scene.body.set_motion(body_start, body_end, 0);
+    scene.body.set_motion(body_start, body_end);
     const Names expected = scene.every_pair(end);
     EXPECT_EQ(scene.found(end), expected) << "seed " << seed;
     all += expected.size();

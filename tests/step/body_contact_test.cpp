@@ -210,7 +210,7 @@ void run_on_moving_slab(ClothRun& run, BodySurface& slab, const Vec3& speed, int
     const std::vector<Vec3> start(slab.next_positions().begin(), slab.next_positions().end());
     std::vector<Vec3> end = start;
     for (Vec3& p : end) p += speed / 60;
-    slab.set_motion(start, end, 0.01);
+    slab.set_motion(start, end);
     const FrameReport report = run.frame(1.0 / 60);
     ASSERT_EQ(report.steps, 1);
   }

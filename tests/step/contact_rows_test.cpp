@@ -416,7 +416,7 @@ TEST(ContactRows, ARowOfTheBodyKnowsHowFarTheBodyMoves) {
   const std::vector<Vec3> start(body.positions().begin(), body.positions().end());
   std::vector<Vec3> end = start;
   for (Vec3& p : end) p.y() += 2e-3;
-  body.set_motion(start, end, 0.01);
+  body.set_motion(start, end);
   const Fabric fabric;
   const ClothModel model = build_model(sheet.mesh, {&fabric, 1}, weightless());
   ContactRows rows(model, &body, {}, 2.5e-3, 0, {});

@@ -129,7 +129,7 @@ struct Crease {
 
 bool detects(Flypaper& flypaper, BodySurface& body, std::span<const Vec3> start, std::span<const Vec3> end,
              const Vec3& particle) {
-  body.set_motion(start, end, 0);
+  body.set_motion(start, end);
   const std::vector<BodyPoint> nearest{body.nearest(particle, 0.1)};
   flypaper.detect({{particle}, {Vec3::Zero()}}, nearest);
   return flypaper.any();
@@ -221,7 +221,7 @@ TEST(NearestOpposite, IsTheNearestOfTheFacesThatLookBackFromAbove) {
       test::sphere(Vec3::Zero(), 0.2, 3);  // seen from outside, and from within by faces that look out: none
   Jaws jaws(0.1);
   jaws.place(0, 0.03, jaws.x);
-  jaws.body.set_motion(jaws.x, jaws.x, 0);
+  jaws.body.set_motion(jaws.x, jaws.x);
   EXPECT_GE(jaws.body.nearest_opposite({0.33, 0.01, 0}, Vec3(0, 1, 0), 0.1).triangle, 0) << "56 degrees aside";
   EXPECT_LT(jaws.body.nearest_opposite({0.34, 0.01, 0}, Vec3(0, 1, 0), 0.1).triangle, 0) << "63 degrees aside";
   test::Random random(8);

@@ -31,7 +31,7 @@ struct Ball {
       run.frame(1.0 / 60);
       Vec3s now(body.positions().size());
       run.world.body_at(run.time_s, now);
-      body.set_motion(now, now, 0);
+      body.set_motion(now, now);
       (void)mark_through_body(cloth, tree, run.state.x, body, workspace, marked);
       most = std::max(most, static_cast<long>(std::count(marked.begin(), marked.end(), 1)));
     }
