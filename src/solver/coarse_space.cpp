@@ -1,5 +1,6 @@
 #include "solver/coarse_space.hpp"
 
+#include "core/denormals.hpp"
 #include "core/disjoint_sets.hpp"
 #include "core/parallel.hpp"
 #include "solver/sweep_kernels.hpp"
@@ -249,6 +250,7 @@ void CoarseSpace<T>::multiply_basis(const LinearSystem<T>& system) {
   const auto minus = [](const std::array<T, 3>& q) { return std::array<T, 3>{-q[0], -q[1], -q[2]}; };
   parallel_for(static_cast<std::size_t>(pattern.rows()), particles_per_block, [&](std::size_t row) {
     if (!stale_[row]) return;
+    const DenormalsAreZero here;
     const auto i = static_cast<Index>(row);
     const auto own = static_cast<std::size_t>(entry_begin_[row]), end = static_cast<std::size_t>(entry_begin_[row + 1]);
     Columns none;

@@ -1,5 +1,6 @@
 #include "solver/modified_pcg.hpp"
 
+#include "core/denormals.hpp"
 #include "core/parallel.hpp"
 #include "solver/paper_pcg.hpp"
 #include "solver/vector_kernels.hpp"
@@ -293,14 +294,17 @@ double ModifiedPcg<T>::find_target(const LinearSystem<T>& system, std::span<cons
 template <class T>
 PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const Vec3> b, std::span<const Vec3> reference,
                                 const PcgOptions& options, std::span<Vec3> dv) {
-  if (options.procedure == PcgProcedure::paper_1998)
+  if (options.procedure == PcgProcedure::paper_1998) {
+    const DenormalsAreZero here;
     return paper_pcg(system, b, options, PaperReading::inverse_everywhere, dv);
+  }
   const ParticleConstraints& constraints = system.constraints();
   PcgReport report;
   system.multiply_prescribed(work2_);
   team_ = &team_for(options);
   const int members = team_->members();
   const auto work = [&](int member) {
+    const DenormalsAreZero on_this_thread;
     Share share{member, members};
     PcgReport own;
     own.target = find_target(system, b, reference, options, share);

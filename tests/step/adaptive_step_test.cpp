@@ -2,6 +2,7 @@
 #include "support/bodies.hpp"
 #include "support/run_cloth.hpp"
 
+#include "core/denormals.hpp"
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
 
@@ -38,6 +39,12 @@ TEST(Determinism, OneTwoAndFiveThreadsGiveTheSameBits) {
   const std::string one = drop(1);
   EXPECT_EQ(drop(2), one);
   EXPECT_EQ(drop(5), one);
+}
+
+TEST(Determinism, AHostThatFlushesDenormalsGetsTheSameBits) {
+  const std::string usual = drop(2);
+  const DenormalsAreZero host;
+  EXPECT_EQ(drop(2), usual);
 }
 
 TEST(AdaptiveStep, LandsOnFrameBoundariesAndUsesTheLongestStepThatHolds) {
