@@ -59,14 +59,19 @@ void ReadStream::read_part(int member, std::size_t passes) {
 double ReadStream::seconds_per_byte(std::size_t bytes) {
   const std::size_t size = buffer_.size() * sizeof(CacheLine), passes = std::max<std::size_t>(1, bytes / size);
   double seconds = 0;
-  team_.run([&](int member) {
+  bool all_read = false;
+  const auto read = [&](int member, int present) {
+    if (present < team_.members()) return;  // with fewer readers it would be another limit
     read_part(member, 1);
     team_.barrier();  // all are awake
     const Stopwatch watch;
     read_part(member, passes);
     team_.barrier();
-    if (member == 0) seconds = watch.seconds();
-  });
+    if (member != 0) return;
+    seconds = watch.seconds();
+    all_read = true;
+  };
+  while (!all_read) team_.run(read);
   return seconds / static_cast<double>(passes * size);
 }
 

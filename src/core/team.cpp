@@ -1,11 +1,15 @@
 #include "core/team.hpp"
 
+#include <tbb/task_group.h>
+
 #include <algorithm>
+#include <thread>
 
 namespace toile {
 namespace {
 
 constexpr int spins = 4000;  // some tens of microseconds
+constexpr unsigned closed = 1u << 31;
 
 void pause() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -15,47 +19,54 @@ void pause() {
 
 }  // namespace
 
+struct Team::Tasks {
+  tbb::task_group group;
+};
+
 Team::Team(int members) : members_(std::max(members, 1)) {
-  for (int member = 1; member < members_; ++member) threads_.emplace_back([this, member] { serve(member); });
+  if (members_ > 1) tasks_ = std::make_unique<Tasks>();
 }
+Team::~Team() = default;
 
-Team::~Team() {
-  over_ = true;
-  started_.fetch_add(1, std::memory_order_release);
-  started_.notify_all();
-  for (std::thread& thread : threads_) thread.join();
-}
-
-void Team::serve(int member) {
-  for (unsigned run = 0;; ++run) {
-    started_.wait(run, std::memory_order_acquire);
-    if (over_) return;
-    (*work_)(member);
-    barrier();
-  }
-}
-
-void Team::run(const std::function<void(int)>& work) {
+void Team::run(const std::function<void(int, int)>& work) {
   if (members_ == 1) {
-    work(0);
+    work(0, 1);
     return;
   }
   work_ = &work;
-  started_.fetch_add(1, std::memory_order_release);
-  started_.notify_all();
-  work(0);
-  barrier();  // all have returned
+  came_.store(0, std::memory_order_release);
+  for (int other = 1; other < members_; ++other) tasks_->group.run([this] { join(); });
+  for (int k = 0; k < spins && came_.load(std::memory_order_relaxed) + 1 < static_cast<unsigned>(members_); ++k)
+    pause();
+  present_ = static_cast<int>(came_.fetch_or(closed, std::memory_order_acq_rel)) + 1;
+  begun_.fetch_add(1, std::memory_order_release);
+  work(0, present_);
+  barrier();            // all have returned
+  tasks_->group.wait();  // of those who came late there is nothing left
+}
+
+void Team::join() {
+  const unsigned begun = begun_.load(std::memory_order_relaxed);
+  const unsigned before = came_.fetch_add(1, std::memory_order_acq_rel);
+  if ((before & closed) != 0) return;
+  wait_until(begun_, begun);
+  (*work_)(static_cast<int>(before) + 1, present_);
+  barrier();
 }
 
 void Team::barrier() {
-  if (members_ == 1) return;
+  if (present_ == 1) return;
   const unsigned now = passed_.load(std::memory_order_relaxed);
-  if (arrived_.fetch_add(1, std::memory_order_acq_rel) == members_ - 1) {
+  if (arrived_.fetch_add(1, std::memory_order_acq_rel) == present_ - 1) {
     arrived_.store(0, std::memory_order_relaxed);
     passed_.store(now + 1, std::memory_order_release);
     return;
   }
-  for (int k = 0; passed_.load(std::memory_order_acquire) == now; ++k) {
+  wait_until(passed_, now);
+}
+
+void Team::wait_until(const std::atomic<unsigned>& value, unsigned differs_from) {
+  for (int k = 0; value.load(std::memory_order_acquire) == differs_from; ++k) {
     if (k < spins) {
       pause();
     } else {

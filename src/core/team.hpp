@@ -1,28 +1,30 @@
 // core/team.hpp: a few threads that work in step, for loops too short to be handed out as tasks.
 //
 // One iteration of the linear solver is some hundred microseconds with half a dozen places where all must have arrived; a
-// scheduler's fork and join at each would cost as much as the work.  Members wait by spinning, and give their core away
-// when the wait grows long: on a machine with other work a spinning member would keep the one it waits for from running.
+// scheduler's fork and join at each would cost as much as the work.  So its threads are taken once for a whole run, from the pool of
+// core/parallel.hpp: threads of its own would share a core with the pool's, which look for work for a while after every loop.
+// Members wait by spinning, and give their core away when the wait grows long: on a machine with other work a spinning member would
+// keep the one it waits for from running.
 #pragma once
 #include <atomic>
 #include <functional>
-#include <thread>
-#include <vector>
+#include <memory>
 
 namespace toile {
 
 class Team {
  public:
-  explicit Team(int members);  // the caller is member 0; starts members - 1 threads, which sleep between runs
+  explicit Team(int members);  // at most; the caller is member 0
   ~Team();
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
   int members() const { return members_; }
 
-  // work(member) on every member at once; returns when all have returned.  `work` must not throw, and all members must pass
-  // the same barriers.
-  void run(const std::function<void(int member)>& work);
+  // work(member, present) on every member that is present at once; returns when all have returned.  Threads of the pool that do not come
+  // soon have other work, and are left out: what is done must not depend on how many do it.  `work` must not throw, and all members
+  // must pass the same barriers.
+  void run(const std::function<void(int member, int present)>& work);
 
   // How often a member has waited so long that it gave its core away, since the last call.  Many: the machine has other work, and one
   // member alone would be faster.
@@ -32,16 +34,19 @@ class Team {
   void barrier();
 
  private:
-  void serve(int member);
+  struct Tasks;
+  void join();
+  void wait_until(const std::atomic<unsigned>& value, unsigned differs_from);
 
   int members_;
-  const std::function<void(int)>* work_ = nullptr;
-  std::atomic<unsigned> started_{0};  // runs begun; the members sleep on it
+  const std::function<void(int, int)>* work_ = nullptr;
+  std::unique_ptr<Tasks> tasks_;
+  std::atomic<unsigned> came_{0};  // of the others, to this run; with a bit that says that it has begun
+  int present_ = 1;                // in this run, with the caller
   std::atomic<int> arrived_{0};
   std::atomic<unsigned> passed_{0};  // barriers passed
+  std::atomic<unsigned> begun_{0};   // runs
   std::atomic<int> long_waits_{0};
-  bool over_ = false;
-  std::vector<std::thread> threads_;
 };
 
 }  // namespace toile

@@ -302,10 +302,9 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
   PcgReport report;
   system.multiply_prescribed(work2_);
   team_ = &team_for(options);
-  const int members = team_->members();
-  const auto work = [&](int member) {
+  const auto work = [&](int member, int present) {
     const DenormalsAreZero on_this_thread;
-    Share share{member, members};
+    Share share{member, present};
     PcgReport own;
     own.target = find_target(system, b, reference, options, share);
     for_own_particles(share, [&](std::size_t i) {  // dv_0 = z + S w_0
