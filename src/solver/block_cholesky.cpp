@@ -22,7 +22,6 @@ void BlockCholesky::begin(Index blocks, std::span<const std::pair<Index, Index>>
     blocks_ = blocks;
     was_coupled_.clear();
     slot_.assign(n * n, -1);
-    dead_.resize(n * side);
   }
   coupled_.assign(n * n, 0);
   for (const auto& [p, q] : couples) coupled_[index(p, q)] = 1;
@@ -64,7 +63,7 @@ void BlockCholesky::factorise() {
   for (std::size_t p = 0; p < static_cast<std::size_t>(blocks_); ++p) {
     const auto begin = static_cast<std::size_t>(row_begin_[p]), end = static_cast<std::size_t>(row_begin_[p + 1]);
     double* row = &value_[begin * entries];
-    finish_row(row, end - begin, nothing * largest, &dead_[p * side]);
+    finish_row(row, end - begin, nothing * largest);
     // What this row leaves of the rows of its columns.
     const std::size_t columns = end - begin - 1;
     const auto subtract = [&](std::size_t a) {
@@ -81,8 +80,7 @@ void BlockCholesky::factorise() {
 }
 
 void BlockCholesky::solve(std::span<double> x) const {
-  substitute_blocks({static_cast<std::size_t>(blocks_), row_begin_.data(), column_.data(), value_.data(), dead_.data()},
-                    x.data());
+  substitute_blocks({static_cast<std::size_t>(blocks_), row_begin_.data(), column_.data(), value_.data()}, x.data());
 }
 
 }  // namespace toile

@@ -41,7 +41,6 @@ class BlockCholesky {
   std::vector<Index> column_;                        // [slot] ascending in a row, the diagonal first
   std::vector<std::int32_t> slot_;                   // [p][q] of U
   std::vector<double> value_;                        // [slot] side * side each: of E, then of U
-  std::vector<std::uint8_t> dead_;                   // [direction]
 };
 
 }  // namespace toile

@@ -39,11 +39,10 @@ HWY_INLINE void subtract(Nine& from, double factor, const Nine& row) {
   from.last -= factor * row.last;
 }
 
-void finish(double* blocks, std::size_t count, double least, std::uint8_t* dead) {
+void finish(double* blocks, std::size_t count, double least) {
   for (std::size_t k = 0; k < side; ++k) {
     const double pivot = blocks[k * side + k];
-    dead[k] = !(pivot > least);
-    const double inverse = dead[k] ? 0 : 1 / std::sqrt(pivot);
+    const double inverse = pivot > least ? 1 / std::sqrt(pivot) : 0;
     double factor[side];  // of what row k takes from the rows below it
     for (std::size_t i = k + 1; i < side; ++i) factor[i] = blocks[k * side + i] * inverse;
     for (std::size_t b = 0; b < count; ++b) {
@@ -58,6 +57,7 @@ void finish(double* blocks, std::size_t count, double least, std::uint8_t* dead)
         store(below, block + i * side);
       }
     }
+    blocks[k * side + k] = inverse;
   }
 }
 
@@ -76,7 +76,7 @@ void substitute(const BlockFactor& factor, double* x) {
     const double* blocks = factor.value + static_cast<std::size_t>(factor.row_begin[p]) * entries;
     double* y = x + p * side;
     for (std::size_t k = 0; k < side; ++k) {
-      y[k] = factor.dead[p * side + k] ? 0 : y[k] / blocks[k * side + k];
+      y[k] *= blocks[k * side + k];
       for (std::size_t i = k + 1; i < side; ++i) y[i] -= y[k] * blocks[k * side + i];
     }
     for (auto slot = factor.row_begin[p] + 1; slot < factor.row_begin[p + 1]; ++slot) {
@@ -104,7 +104,7 @@ void substitute(const BlockFactor& factor, double* x) {
       const Eight& s = sum[k].most;
       double rest = y[k] - ((((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]))) + sum[k].last);
       for (std::size_t i = k + 1; i < side; ++i) rest -= diagonal[k * side + i] * y[i];
-      y[k] = factor.dead[p * side + k] ? 0 : rest / diagonal[k * side + k];
+      y[k] = rest * diagonal[k * side + k];
     }
   }
 }
@@ -121,9 +121,7 @@ HWY_EXPORT(product);
 HWY_EXPORT(substitute);
 }  // namespace
 
-void finish_row(double* blocks, std::size_t count, double least, std::uint8_t* dead) {
-  HWY_DYNAMIC_DISPATCH(finish)(blocks, count, least, dead);
-}
+void finish_row(double* blocks, std::size_t count, double least) { HWY_DYNAMIC_DISPATCH(finish)(blocks, count, least); }
 void subtract_product(const double* A, const double* B, double* C) { HWY_DYNAMIC_DISPATCH(product)(A, B, C); }
 void substitute_blocks(const BlockFactor& factor, double* x) { HWY_DYNAMIC_DISPATCH(substitute)(factor, x); }
 

@@ -9,17 +9,17 @@
 
 namespace toile {
 
-// U by rows of 9 x 9 blocks, each by rows; a row's first block is its diagonal one, of which the upper triangle counts.
+// U by rows of 9 x 9 blocks, each by rows; a row's first block is its diagonal one, of which the upper triangle counts, with the
+// reciprocals of the pivots on its diagonal: 0 where a direction is dead.
 struct BlockFactor {
   std::size_t blocks;
   const std::int32_t* row_begin;  // [row], and the end of the last
   const Index* column;            // [slot]
   const double* value;            // [slot] 81 numbers
-  const std::uint8_t* dead;       // [direction]: nothing may move in it
 };
 
 // Of the `count` blocks of a row, rows of the remaining matrix become rows of U; pivots below `least` are dead.
-void finish_row(double* blocks, std::size_t count, double least, std::uint8_t* dead);
+void finish_row(double* blocks, std::size_t count, double least);
 // C -= A^T B
 void subtract_product(const double* A, const double* B, double* C);
 // x <- (U^T U)^-1 x, zero where a direction is dead

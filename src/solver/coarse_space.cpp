@@ -4,6 +4,7 @@
 #include "core/disjoint_sets.hpp"
 #include "core/parallel.hpp"
 #include "solver/sweep_kernels.hpp"
+#include "solver/vector_kernels.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -121,10 +122,7 @@ CoarseSpace<T>::CoarseSpace(const ClothMesh& mesh) {
   members_.resize(static_cast<std::size_t>(aggregate_count_));
   for (std::size_t p = 0; p < particles; ++p)
     members_[static_cast<std::size_t>(aggregate_[p])].push_back(static_cast<Index>(p));
-  const auto n = static_cast<std::size_t>(dimension());
-  rhs_.resize(n);
-  y_.resize(n);
-  affine_.resize(n / 3);
+  rhs_.resize(static_cast<std::size_t>(dimension()));
 }
 
 // Which aggregates the row of a particle reaches.
@@ -387,58 +385,49 @@ void CoarseSpace<T>::factorise(const LinearSystem<T>& system) {
 template <class T>
 void CoarseSpace<T>::restrict(Index begin, Index end, std::span<const Lane<T>> r, std::span<const Lane<T>> At,
                               std::span<double> sum) const {
-  std::fill(sum.begin(), sum.end(), 0.0);
-  double run[3][4] = {};  // of neighbours in the order of particles, mostly of one aggregate; four for the registers
-  for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
-    const Lane<T> d = r[p] - At[p];  // S^T r = r, so it is left out
-    const double q[3] = {1, basis_[p][1], basis_[p][2]};
-    const double c[4] = {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2]), 0};
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t m = 0; m < 4; ++m) run[k][m] += q[k] * c[m];
-    }
-    if (p + 1 < static_cast<std::size_t>(end) && aggregate_[p + 1] == aggregate_[p]) continue;
-    double* y = &sum[static_cast<std::size_t>(aggregate_[p]) * 9];
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t m = 0; m < 3; ++m) y[3 * k + m] += run[k][m];
-      std::fill(run[k], run[k] + 4, 0.0);
-    }
-  }
+  std::fill(sum.begin(), sum.end(), 0.0);  // S^T r = r, so it is left out
+  add_moments(begin, end, r.data(), At.data(), basis_.data(), aggregate_.data(), sum.data());
 }
 
 template <class T>
-void CoarseSpace<T>::solve(std::span<const std::vector<double>> parts) {
-  std::fill(rhs_.begin(), rhs_.end(), 0.0);
+void CoarseSpace<T>::solve(std::span<const std::vector<double>> parts, Solution& solution) const {
+  const auto n = static_cast<std::size_t>(dimension());
+  std::vector<double>& rhs = solution.rhs;
+  rhs.assign(n, 0.0);
+  solution.y.resize(n);
+  solution.affine.resize(n / 3);
   for (const std::vector<double>& part : parts) {
-    for (std::size_t k = 0; k < rhs_.size(); ++k) rhs_[k] += part[k];
+    for (std::size_t k = 0; k < n; ++k) rhs[k] += part[k];
   }
-  E_.solve(rhs_);
-  for (std::size_t k = 0; k < rhs_.size(); ++k) {
-    const T y = static_cast<T>(rhs_[k]);
-    y_[k] = Lane<T>{y, y, y, 0};
+  E_.solve(rhs);
+  for (std::size_t k = 0; k < n; ++k) {
+    const T y = static_cast<T>(rhs[k]);
+    solution.y[k] = Lane<T>{y, y, y, 0};
   }
-  for (std::size_t k = 0; k < affine_.size(); ++k)
-    affine_[k] = Lane<T>{y_[3 * k][0], y_[3 * k + 1][0], y_[3 * k + 2][0], 0};
+  for (std::size_t k = 0; k < n / 3; ++k)
+    solution.affine[k] = Lane<T>{solution.y[3 * k][0], solution.y[3 * k + 1][0], solution.y[3 * k + 2][0], 0};
+}
+
+// a + u' b + v' c
+template <class T>
+void CoarseSpace<T>::prolong(const Solution& solution, Index begin, Index end, std::span<Lane<T>> Zy) const {
+  for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
+    const Lane<T>* abc = &solution.affine[static_cast<std::size_t>(aggregate_[p]) * 3];
+    Zy[p] = abc[0] + abc[1] * static_cast<T>(basis_[p][1]) + abc[2] * static_cast<T>(basis_[p][2]);
+  }
 }
 
 template <class T>
-void CoarseSpace<T>::prolong(const LinearSystem<T>& system, Index begin, Index end, std::span<Lane<T>> t,
-                             std::span<Lane<T>> At, std::span<Lane<T>> Zy) const {
-  const ParticleConstraints& constraints = system.constraints();
-  for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
-    // S_p (a + u' b + v' c)
-    const Lane<T>* abc = &affine_[static_cast<std::size_t>(aggregate_[p]) * 3];
-    Lane<T> z = abc[0] + abc[1] * static_cast<T>(basis_[p][1]) + abc[2] * static_cast<T>(basis_[p][2]);
-    if (!constraints.is_free(static_cast<Index>(p))) z = to_lane<T>(constraints.S(static_cast<Index>(p)) * to_vec3(z));
-    t[p] += z;
-    Zy[p] = z;
-  }
+void CoarseSpace<T>::add(const Solution& solution, Index begin, Index end, std::span<const Lane<T>> Zy,
+                         std::span<Lane<T>> t, std::span<Lane<T>> At) const {
   if constexpr (std::is_same_v<T, float>) {
-    add_coarse_columns({entry_begin_.data(), entry_aggregate_.data(), AZ_.data()->data(), y_.data()}, begin, end,
-                       At.data());
+    add_coarse_columns({entry_begin_.data(), entry_aggregate_.data(), AZ_.data()->data(), solution.y.data()}, begin,
+                       end, Zy.data(), t.data(), At.data());
   } else {
     for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
+      t[p] += Zy[p];
       for (auto e = static_cast<std::size_t>(entry_begin_[p]); e < static_cast<std::size_t>(entry_begin_[p + 1]); ++e) {
-        const Lane<T>* y = &y_[static_cast<std::size_t>(entry_aggregate_[e]) * 9];
+        const Lane<T>* y = &solution.y[static_cast<std::size_t>(entry_aggregate_[e]) * 9];
         for (std::size_t m = 0; m < 9; ++m) At[p] += AZ_[e][m] * y[m];
       }
     }
@@ -447,16 +436,17 @@ void CoarseSpace<T>::prolong(const LinearSystem<T>& system, Index begin, Index e
 
 template <class T>
 void CoarseSpace<T>::correct(const LinearSystem<T>& system, std::span<const Vec3> r, std::span<Vec3> dv) {
-  std::fill(rhs_.begin(), rhs_.end(), 0.0);
-  for (std::size_t p = 0; p < r.size(); ++p) {
-    Eigen::Map<Mat3> y(&rhs_[static_cast<std::size_t>(aggregate_[p]) * 9]);
-    y += r[p] * basis_[p].transpose();
-  }
+  parallel_for(members_.size(), 1, [&](std::size_t aggregate) {
+    Eigen::Map<Mat3> y(&rhs_[aggregate * 9]);
+    y.setZero();
+    for (const Index p : members_[aggregate])
+      y += r[static_cast<std::size_t>(p)] * basis_[static_cast<std::size_t>(p)].transpose();
+  });
   E_.solve(rhs_);
-  for (std::size_t p = 0; p < r.size(); ++p) {
+  parallel_for(r.size(), particles_per_block, [&](std::size_t p) {
     const Eigen::Map<const Mat3> y(&rhs_[static_cast<std::size_t>(aggregate_[p]) * 9]);
     dv[p] += system.constraints().S(static_cast<Index>(p)) * (y * basis_[p]);
-  }
+  });
 }
 
 template class CoarseSpace<float>;

@@ -37,13 +37,20 @@ class CoarseSpace {
   void factorise(const LinearSystem<T>& system);
   // t += Q (r - At) and At += A' Q (r - At) in three parts, for those who share the work; r and At in the range of S.
   //   restrict   sum = Z^T (r - At) of particles [begin, end): their part of `dimension()` numbers
-  //   solve      of all parts, added in their order: E^-1
-  //   prolong    t += Z y, and At += A' Z y without the rows; Zy keeps Z y, of which the caller adds the rows
+  //   solve      y = E^-1 of all parts, added in their order; cheaper for each to do than to wait for one
+  //   prolong    Zy = Z y but for S, which is the caller's,
+  //   add        t += Zy, and At += A' Z y without the rows, which are the caller's
+  struct Solution {
+    std::vector<double> rhs;
+    std::vector<Lane<T>> y;       // [coarse direction] each in all lanes
+    std::vector<Lane<T>> affine;  // [3 aggregate + l]: the same, three directions of basis function l in one
+  };
   void restrict(Index begin, Index end, std::span<const Lane<T>> r, std::span<const Lane<T>> At,
                 std::span<double> sum) const;
-  void solve(std::span<const std::vector<double>> parts);
-  void prolong(const LinearSystem<T>& system, Index begin, Index end, std::span<Lane<T>> t, std::span<Lane<T>> At,
-               std::span<Lane<T>> Zy) const;
+  void solve(std::span<const std::vector<double>> parts, Solution& solution) const;
+  void prolong(const Solution& solution, Index begin, Index end, std::span<Lane<T>> Zy) const;
+  void add(const Solution& solution, Index begin, Index end, std::span<const Lane<T>> Zy, std::span<Lane<T>> t,
+           std::span<Lane<T>> At) const;
   // dv += Q r in double; r must lie in the range of S.
   void correct(const LinearSystem<T>& system, std::span<const Vec3> r, std::span<Vec3> dv);
 
@@ -83,8 +90,6 @@ class CoarseSpace {
   std::vector<std::pair<Index, Index>> couples_;       // with those of the rows
   BlockCholesky E_;
   std::vector<double> rhs_;
-  std::vector<Lane<T>> y_;       // [coarse direction] E^-1 Z^T (r - At), each in all lanes
-  std::vector<Lane<T>> affine_;  // [3 aggregate + l]: the same, three directions of basis function l in one
 };
 
 extern template class CoarseSpace<float>;

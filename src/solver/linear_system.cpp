@@ -91,27 +91,32 @@ void LinearSystem<T>::multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y)
 }
 
 template <class T>
-void LinearSystem<T>::sum_rows(RowPart part, std::size_t begin, std::size_t end, std::span<const Lane<T>> x,
-                               std::span<T> sums) const {
-  for (std::size_t r = begin; r < end; ++r) {
-    const Row& row = fast_rows_[r];
-    sums[r] = 0;
-    if (row.single && part == RowPart::off_diagonal) continue;
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (row.particle[k] >= 0) sums[r] += row.part_of(k, x);
-    }
+void LinearSystem<T>::add_row(std::size_t index, unsigned ends, RowPart part, std::span<const Lane<T>> x,
+                              std::span<Lane<T>> y) const {
+  const Row& row = fast_rows_[index];
+  if (row.single && part == RowPart::off_diagonal) return;
+  std::array<T, 4> parts{};
+  T sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (row.particle[k] < 0) continue;
+    parts[k] = row.part_of(k, x);
+    sum += parts[k];
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    if ((ends >> k & 1u) == 0) continue;
+    const T others = part == RowPart::off_diagonal ? sum - parts[k] : sum;
+    y[static_cast<std::size_t>(row.particle[k])] += row.direction * (row.a * row.weight[k] * others);
   }
 }
 
 template <class T>
-void LinearSystem<T>::add_row(const RowEnd& row_end, RowPart part, std::span<const T> sums, std::span<const Lane<T>> x,
-                              std::span<Lane<T>> y) const {
-  const Row& row = fast_rows_[static_cast<std::size_t>(row_end.row)];
-  if (row.single && part == RowPart::off_diagonal) return;
-  const auto k = static_cast<std::size_t>(row_end.k);
-  T sum = sums[static_cast<std::size_t>(row_end.row)];
-  if (part == RowPart::off_diagonal) sum -= row.part_of(k, x);
-  y[static_cast<std::size_t>(row.particle[k])] += row.direction * (row.a * row.weight[k] * sum);
+void LinearSystem<T>::add_row(std::size_t index, unsigned ends, std::span<const Vec3> x, std::span<Vec3> y) const {
+  const ImplicitRow& row = rows_[index];
+  const double sum = dot(row, x);
+  for (std::size_t k = 0; k < 4; ++k) {
+    if ((ends >> k & 1u) != 0)
+      y[static_cast<std::size_t>(row.particle[k])] += (row.a * row.weight[k] * sum) * row.direction;
+  }
 }
 
 template <class T>

@@ -17,10 +17,6 @@ namespace toile {
 
 // Of R = sum a g g^T: all of it, or what lies off its block diagonal.
 enum class RowPart { whole, off_diagonal };
-struct RowEnd {  // the k-th particle of a row
-  std::int32_t row;
-  int k;
-};
 
 template <class T>
 class LinearSystem {
@@ -37,11 +33,10 @@ class LinearSystem {
 
   // y = A' x for x in the range of S.
   void multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
-  // The pieces of it, for those who share the work.  R x in two halves: sums[row] = g.x of rows [begin, end), then what each row
-  // gives to one of its particles;  y <- S y of the held particle at a position of ParticleConstraints::constrained.
-  void sum_rows(RowPart part, std::size_t begin, std::size_t end, std::span<const Lane<T>> x, std::span<T> sums) const;
-  void add_row(const RowEnd& row_end, RowPart part, std::span<const T> sums, std::span<const Lane<T>> x,
-               std::span<Lane<T>> y) const;
+  // The pieces of it, for those who share the work:  what a row of R x gives to those of its particles whose bit k is set in `ends`;  y <- S y
+  // of the held particle at a position of ParticleConstraints::constrained.
+  void add_row(std::size_t row, unsigned ends, RowPart part, std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
+  void add_row(std::size_t row, unsigned ends, std::span<const Vec3> x, std::span<Vec3> y) const;
   void filter_held(std::size_t held, std::span<Lane<T>> y) const;
   void filter(std::span<Lane<T>> y) const;  // all of them
   // y = (A + sum a g g^T) x, unfiltered, in double, and as much momentum as it must be.

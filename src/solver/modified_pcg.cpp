@@ -67,10 +67,10 @@ void ModifiedPcg<T>::prepare(const LinearSystem<T>& system, const PcgOptions& op
   if (options.procedure == PcgProcedure::paper_1998) return;
   domains_.cut(system.A().pattern());
   domains_.update(system);
-  row_sums_.resize(system.rows().size());
   parts_.resize(domains_.count());
   coarse_parts_.resize(domains_.count());
   for (auto& part : coarse_parts_) part.resize(static_cast<std::size_t>(coarse_.dimension()));
+  solutions_.resize(domains_.count());  // as many members at most
   if (options.preconditioner == Preconditioner::block_ssor_coarse) coarse_.factorise(system);
   if (options.preconditioner == Preconditioner::diagonal) {
     inverse_diagonal_.clear();
@@ -128,25 +128,13 @@ void ModifiedPcg<T>::precondition(const LinearSystem<T>& system, Preconditioner 
     return;
   }
   for_own_domains(share, [&](std::size_t d) { domains_.sweep(system, d, r_, s_, As_); });
-  add_rows(system, RowPart::off_diagonal, s_, As_, share);
+  team_->barrier();
   for_own_domains(share, [&](std::size_t d) {
-    domains_.add_between(system, d, s_, As_);
+    domains_.add_rows(system, d, RowPart::off_diagonal, s_, As_);
+    domains_.add_between(d, s_, As_);
     domains_.filter(system, d, As_);
   });
   if (kind == Preconditioner::block_ssor_coarse) deflate(system, share);
-}
-
-// y += R x.  All of x is complete when this returns, whoever made it.
-template <class T>
-void ModifiedPcg<T>::add_rows(const LinearSystem<T>& system, RowPart part, std::span<const Lane<T>> x,
-                              std::span<Lane<T>> y, const Share& share) {
-  team_->barrier();
-  if (row_sums_.empty()) return;
-  const std::size_t rows = row_sums_.size(), members = static_cast<std::size_t>(share.members),
-                    member = static_cast<std::size_t>(share.member);
-  system.sum_rows(part, rows * member / members, rows * (member + 1) / members, x, row_sums_);
-  team_->barrier();
-  for_own_domains(share, [&](std::size_t d) { domains_.add_rows(system, d, part, row_sums_, x, y); });
 }
 
 // s += Q (r - As),  As += A' Q (r - As): no residual is left in the coarse modes.
@@ -155,13 +143,19 @@ void ModifiedPcg<T>::deflate(const LinearSystem<T>& system, Share& share) {
   for_own_domains(
       share, [&](std::size_t d) { coarse_.restrict(domains_.begin(d), domains_.end(d), r_, As_, coarse_parts_[d]); });
   team_->barrier();
-  if (share.member == 0) coarse_.solve(coarse_parts_);
-  team_->barrier();
-  for_own_domains(share,
-                  [&](std::size_t d) { coarse_.prolong(system, domains_.begin(d), domains_.end(d), s_, As_, Zy_); });
-  if (row_sums_.empty()) return;
-  add_rows(system, RowPart::whole, Zy_, As_, share);
-  for_own_domains(share, [&](std::size_t d) { domains_.filter(system, d, As_); });
+  auto& solution = solutions_[static_cast<std::size_t>(share.member)];
+  coarse_.solve(coarse_parts_, solution);
+  for_own_domains(share, [&](std::size_t d) {
+    coarse_.prolong(solution, domains_.begin(d), domains_.end(d), Zy_);
+    domains_.filter(system, d, Zy_);
+    coarse_.add(solution, domains_.begin(d), domains_.end(d), Zy_, s_, As_);
+  });
+  team_->barrier();  // the parts may be written again, and Zy is complete
+  if (system.rows().empty()) return;
+  for_own_domains(share, [&](std::size_t d) {
+    domains_.add_rows(system, d, RowPart::whole, Zy_, As_);
+    domains_.filter(system, d, As_);
+  });
 }
 
 // w += Q r,  r -= A' Q r: the residual of the coarse modes goes.
@@ -187,18 +181,16 @@ template <class T>
 void ModifiedPcg<T>::true_residual(const LinearSystem<T>& system, std::span<const Vec3> b, const Share& share) {
   for_own_particles(share, [&](std::size_t i) { work_[i] = start_[i] + to_vec3(w_[i]); });
   team_->barrier();
-  for_own_domains(share,
-                  [&](std::size_t d) { system.A().multiply_rows(domains_.begin(d), domains_.end(d), work_, work2_); });
-  team_->barrier();
-  if (share.member == 0) system.add_rows(work_, work2_);
-  team_->barrier();
+  for_own_domains(share, [&](std::size_t d) {
+    system.A().multiply_rows(domains_.begin(d), domains_.end(d), work_, work2_);
+    domains_.add_rows(system, d, work_, work2_);
+  });
   const ParticleConstraints& constraints = system.constraints();
   for_own_particles(share, [&](std::size_t i) {
     const auto particle = static_cast<Index>(i);
     const Vec3 residual = b[i] - work2_[i];
     r_[i] = to_lane<T>(constraints.is_free(particle) ? residual : Vec3(constraints.S(particle) * residual));
   });
-  team_->barrier();
 }
 
 // What every member goes through.

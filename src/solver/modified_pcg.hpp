@@ -72,8 +72,6 @@ class ModifiedPcg {
                PcgReport& report);
   void precondition(const LinearSystem<T>& system, Preconditioner kind, Share& share);
   void deflate(const LinearSystem<T>& system, Share& share);
-  void add_rows(const LinearSystem<T>& system, RowPart part, std::span<const Lane<T>> x, std::span<Lane<T>> y,
-                const Share& share);
   void correct_coarse_modes(const LinearSystem<T>& system, Share& share);
   double residual_norm2(const LinearSystem<T>& system, Share& share);
   void true_residual(const LinearSystem<T>& system, std::span<const Vec3> b, const Share& share);
@@ -91,15 +89,15 @@ class ModifiedPcg {
   Team& team_for(const PcgOptions& options);
   std::unique_ptr<Team> alone_ = std::make_unique<Team>(1);
   std::unique_ptr<Team> all_;
-  Team* team_ = alone_.get();                      // of this solve
-  int solves_alone_ = 0;                           // to come
-  std::vector<std::array<double, 2>> parts_;       // [domain] of sums over particles
-  std::vector<std::vector<double>> coarse_parts_;  // [domain] of Z^T r
-  std::vector<Lane<T>> r_, c_, q_;                 // residual, direction, A' c
-  std::vector<Lane<T>> s_, As_, w_;                // M^-1 r, A' s, correction to the guess
-  std::vector<Lane<T>> Zy_;                        // the coarse part of s
-  std::vector<T> row_sums_;                        // [row]
-  std::vector<Lane<T>> inverse_diagonal_;          // of the diagonal preconditioner
+  Team* team_ = alone_.get();                                 // of this solve
+  int solves_alone_ = 0;                                      // to come
+  std::vector<std::array<double, 2>> parts_;                  // [domain] of sums over particles
+  std::vector<std::vector<double>> coarse_parts_;             // [domain] of Z^T r
+  std::vector<typename CoarseSpace<T>::Solution> solutions_;  // [member]
+  std::vector<Lane<T>> r_, c_, q_;                            // residual, direction, A' c
+  std::vector<Lane<T>> s_, As_, w_;                           // M^-1 r, A' s, correction to the guess
+  std::vector<Lane<T>> Zy_;                                   // the coarse part of s
+  std::vector<Lane<T>> inverse_diagonal_;                     // of the diagonal preconditioner
   Vec3s start_, work_, work2_;
 };
 

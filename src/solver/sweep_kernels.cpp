@@ -14,21 +14,21 @@ HWY_BEFORE_NAMESPACE();
 namespace toile::HWY_NAMESPACE {
 namespace {
 
-// A number of three lanes and a zero for each of two strips.  Nothing crosses from one strip to the other.
-#if HWY_MAX_BYTES >= 32
+// Lanes of two particles: three numbers and a zero each.  Nothing crosses from one to the other.
 namespace hn = hwy::HWY_NAMESPACE;
-using Tag = hn::FixedTag<float, 8>;
-using Two = hn::Vec<Tag>;
-constexpr Tag tag;
-constexpr hn::FixedTag<float, 4> half;
+#if HWY_MAX_BYTES >= 32
+using TwoTag = hn::FixedTag<float, 8>;
+using Two = hn::Vec<TwoTag>;
+constexpr TwoTag two;
+constexpr hn::FixedTag<float, 4> one;
 
-HWY_INLINE Two load(const float* a, const float* b) { return hn::Combine(tag, hn::Load(half, b), hn::Load(half, a)); }
-HWY_INLINE Two load(const Lane<float>* both) { return hn::LoadU(tag, reinterpret_cast<const float*>(both)); }
+HWY_INLINE Two load(const float* a, const float* b) { return hn::Combine(two, hn::Load(one, b), hn::Load(one, a)); }
+HWY_INLINE Two load_two(const Lane<float>* both) { return hn::LoadU(two, reinterpret_cast<const float*>(both)); }
 HWY_INLINE void store(Two v, float* a, float* b) {
-  hn::Store(hn::LowerHalf(half, v), half, a);
-  hn::Store(hn::UpperHalf(half, v), half, b);
+  hn::Store(hn::LowerHalf(one, v), one, a);
+  hn::Store(hn::UpperHalf(one, v), one, b);
 }
-HWY_INLINE Two zero() { return hn::Zero(tag); }
+HWY_INLINE Two no_two() { return hn::Zero(two); }
 HWY_INLINE Two add(Two a, Two b) { return hn::Add(a, b); }
 HWY_INLINE Two sub(Two a, Two b) { return hn::Sub(a, b); }
 HWY_INLINE Two mul(Two a, Two b) { return hn::Mul(a, b); }
@@ -38,20 +38,23 @@ HWY_INLINE Two all(Two v) {
 }
 HWY_INLINE Lane<float> halves(Two v) {  // their sum
   Lane<float> sum;
-  hn::Store(hn::Add(hn::LowerHalf(half, v), hn::UpperHalf(half, v)), half, reinterpret_cast<float*>(&sum));
+  hn::Store(hn::Add(hn::LowerHalf(one, v), hn::UpperHalf(one, v)), one, reinterpret_cast<float*>(&sum));
   return sum;
 }
-// (sum of a, sum of b, sum of c, 0) as Block::column_sums has it.
-HWY_INLINE Two sums(Two a, Two b, Two c) {
-  const hn::Repartition<double, Tag> twice;
-  const auto low = hn::BitCast(twice, hn::InterleaveLower(tag, a, b)),
-             high = hn::BitCast(twice, hn::InterleaveUpper(tag, a, b)),
-             low_c = hn::BitCast(twice, hn::InterleaveLower(tag, c, zero())),
-             high_c = hn::BitCast(twice, hn::InterleaveUpper(tag, c, zero()));
-  return hn::Add(hn::Add(hn::BitCast(tag, hn::InterleaveLower(twice, low, low_c)),
-                         hn::BitCast(tag, hn::InterleaveUpper(twice, low, low_c))),
-                 hn::BitCast(tag, hn::InterleaveLower(twice, high, high_c)));
+// (sum of a, sum of b, sum of c, 0) of each particle, as Block::column_sums has it.
+template <class Tag, class V>
+HWY_INLINE V sums_of(Tag tag, V a, V b, V c) {
+  const hn::Repartition<double, Tag> pairs;
+  const V zero = hn::Zero(tag);
+  const auto low = hn::BitCast(pairs, hn::InterleaveLower(tag, a, b)),
+             high = hn::BitCast(pairs, hn::InterleaveUpper(tag, a, b)),
+             low_c = hn::BitCast(pairs, hn::InterleaveLower(tag, c, zero)),
+             high_c = hn::BitCast(pairs, hn::InterleaveUpper(tag, c, zero));
+  return hn::Add(hn::Add(hn::BitCast(tag, hn::InterleaveLower(pairs, low, low_c)),
+                         hn::BitCast(tag, hn::InterleaveUpper(pairs, low, low_c))),
+                 hn::BitCast(tag, hn::InterleaveLower(pairs, high, high_c)));
 }
+HWY_INLINE Two sums(Two a, Two b, Two c) { return sums_of(two, a, b, c); }
 #else
 struct Two {
   Lane<float> a, b;
@@ -60,12 +63,12 @@ struct Two {
 HWY_INLINE Two load(const float* a, const float* b) {
   return {*reinterpret_cast<const Lane<float>*>(a), *reinterpret_cast<const Lane<float>*>(b)};
 }
-HWY_INLINE Two load(const Lane<float>* both) { return {both[0], both[1]}; }
+HWY_INLINE Two load_two(const Lane<float>* both) { return {both[0], both[1]}; }
 HWY_INLINE void store(const Two& v, float* a, float* b) {
   *reinterpret_cast<Lane<float>*>(a) = v.a;
   *reinterpret_cast<Lane<float>*>(b) = v.b;
 }
-HWY_INLINE Two zero() { return {Lane<float>{0, 0, 0, 0}, Lane<float>{0, 0, 0, 0}}; }
+HWY_INLINE Two no_two() { return {Lane<float>{0, 0, 0, 0}, Lane<float>{0, 0, 0, 0}}; }
 HWY_INLINE Two add(const Two& a, const Two& b) { return {a.a + b.a, a.b + b.b}; }
 HWY_INLINE Two sub(const Two& a, const Two& b) { return {a.a - b.a, a.b - b.b}; }
 HWY_INLINE Two mul(const Two& a, const Two& b) { return {a.a * b.a, a.b * b.b}; }
@@ -79,78 +82,151 @@ HWY_INLINE Two sums(const Two& a, const Two& b, const Two& c) {
 }
 #endif
 
-HWY_INLINE Two combine(const Two& c0, const Two& x0, const Two& c1, const Two& x1, const Two& c2, const Two& x2) {
+// Lanes of four particles, one of each strip: a register, or two of the above.
+#if HWY_MAX_BYTES >= 64
+using FourTag = hn::FixedTag<float, 16>;
+using Four = hn::Vec<FourTag>;
+constexpr FourTag four;
+
+HWY_INLINE Four load(const float* const (&at)[4], std::ptrdiff_t offset) {
+  return hn::Combine(four, load(at[2] + offset, at[3] + offset), load(at[0] + offset, at[1] + offset));
+}
+HWY_INLINE Four load(const float* base, const std::int32_t (&offset)[4]) {
+  return hn::Combine(four, load(base + offset[2], base + offset[3]), load(base + offset[0], base + offset[1]));
+}
+HWY_INLINE Four load(const Lane<float>* all) { return hn::Load(four, reinterpret_cast<const float*>(all)); }
+HWY_INLINE void store(Four v, float* const (&at)[4], std::ptrdiff_t offset) {
+  store(hn::LowerHalf(two, v), at[0] + offset, at[1] + offset);
+  store(hn::UpperHalf(two, v), at[2] + offset, at[3] + offset);
+}
+HWY_INLINE void store(Four v, float* base, const std::int32_t (&offset)[4]) {
+  store(hn::LowerHalf(two, v), base + offset[0], base + offset[1]);
+  store(hn::UpperHalf(two, v), base + offset[2], base + offset[3]);
+}
+HWY_INLINE Four no_four() { return hn::Zero(four); }
+HWY_INLINE Four add(Four a, Four b) { return hn::Add(a, b); }
+HWY_INLINE Four sub(Four a, Four b) { return hn::Sub(a, b); }
+HWY_INLINE Four mul(Four a, Four b) { return hn::Mul(a, b); }
+template <int k>
+HWY_INLINE Four all(Four v) {
+  return hn::Broadcast<k>(v);
+}
+HWY_INLINE Four sums(Four a, Four b, Four c) { return sums_of(four, a, b, c); }
+#else
+struct Four {
+  Two ab, cd;
+};
+
+HWY_INLINE Four load(const float* const (&at)[4], std::ptrdiff_t offset) {
+  return {load(at[0] + offset, at[1] + offset), load(at[2] + offset, at[3] + offset)};
+}
+HWY_INLINE Four load(const float* base, const std::int32_t (&offset)[4]) {
+  return {load(base + offset[0], base + offset[1]), load(base + offset[2], base + offset[3])};
+}
+HWY_INLINE Four load(const Lane<float>* all) { return {load_two(all), load_two(all + 2)}; }
+HWY_INLINE void store(const Four& v, float* const (&at)[4], std::ptrdiff_t offset) {
+  store(v.ab, at[0] + offset, at[1] + offset);
+  store(v.cd, at[2] + offset, at[3] + offset);
+}
+HWY_INLINE void store(const Four& v, float* base, const std::int32_t (&offset)[4]) {
+  store(v.ab, base + offset[0], base + offset[1]);
+  store(v.cd, base + offset[2], base + offset[3]);
+}
+HWY_INLINE Four no_four() { return {no_two(), no_two()}; }
+HWY_INLINE Four add(const Four& a, const Four& b) { return {add(a.ab, b.ab), add(a.cd, b.cd)}; }
+HWY_INLINE Four sub(const Four& a, const Four& b) { return {sub(a.ab, b.ab), sub(a.cd, b.cd)}; }
+HWY_INLINE Four mul(const Four& a, const Four& b) { return {mul(a.ab, b.ab), mul(a.cd, b.cd)}; }
+template <int k>
+HWY_INLINE Four all(const Four& v) {
+  return {all<k>(v.ab), all<k>(v.cd)};
+}
+HWY_INLINE Four sums(const Four& a, const Four& b, const Four& c) {
+  return {sums(a.ab, b.ab, c.ab), sums(a.cd, b.cd, c.cd)};
+}
+#endif
+
+HWY_INLINE Four combine(const Four& c0, const Four& x0, const Four& c1, const Four& x1, const Four& c2,
+                        const Four& x2) {
   return add(add(mul(c0, x0), mul(c1, x1)), mul(c2, x2));
 }
-HWY_INLINE Two times(const float* G_a, const float* G_b, const Two& x) {
-  return combine(load(G_a, G_b), all<0>(x), load(G_a + 4, G_b + 4), all<1>(x), load(G_a + 8, G_b + 8), all<2>(x));
+HWY_INLINE Four times(const float* const (&G)[4], std::ptrdiff_t offset, const Four& x) {
+  return combine(load(G, offset), all<0>(x), load(G, offset + 4), all<1>(x), load(G, offset + 8), all<2>(x));
 }
 
 //   forward    h = r - L y,  y = G h,      pushed from a row into later ones
 //   backward   s = y - G U s,              pulled;  As = h + L s is pushed while the blocks are at hand      [Eisenstat 1981]
-// A sweep is a chain of rows, and waiting for the row before would take longer than the work: so two rows that do not wait for
-// each other share a register.  A row pulls from its neighbour in the order of particles last, and pushes into it first.
-void sweep(const StripPair& strips, const Block<float>* G, const Lane<float>* r, Lane<float>* s_lanes,
+// A sweep is a chain of rows, and waiting for the row before would take longer than the work: so rows that do not wait for each other
+// go together.  A row pulls from its neighbour in the order of particles last, and pushes into it first.
+void sweep(const Strips& strips, const Block<float>* G, const Lane<float>* r, Lane<float>* s_lanes,
            Lane<float>* As_lanes) {
-  const Index first_a = strips.first[0], first_b = strips.first[1];
+  static_assert(strips_at_once == 4);
   float *s = reinterpret_cast<float*>(s_lanes), *As = reinterpret_cast<float*>(As_lanes);
-  const float *G_a = reinterpret_cast<const float*>(G + first_a), *G_b = reinterpret_cast<const float*>(G + first_b);
-  float *s_a = s + 4 * first_a, *s_b = s + 4 * first_b, *As_a = As + 4 * first_a, *As_b = As + 4 * first_b;
+  const float* of_G[4];
+  float *of_s[4], *of_As[4];
+  for (int strip = 0; strip < 4; ++strip) {
+    const std::ptrdiff_t first = strips.first[strip];
+    of_G[strip] = reinterpret_cast<const float*>(G + first);
+    of_s[strip] = s + 4 * first;
+    of_As[strip] = As + 4 * first;
+    std::copy(r + first, r + first + strips.rows + (strip < strips.longer ? 1 : 0), As_lanes + first);
+  }
   // By value: of what `strips` refers to, no store can change it.
-  const Index pairs = strips.pairs;
+  const Index rows = strips.rows;
   const std::int32_t* begin = strips.begin;
-  const PairedColumn* column = strips.column;
-  const PairedBlock* blocks = strips.block;
-  std::copy(r + first_a, r + first_a + strips.pairs + (strips.single ? 1 : 0), As_lanes + first_a);
-  std::copy(r + first_b, r + first_b + strips.pairs, As_lanes + first_b);
-  for (Index k = 0; k < pairs; ++k) {
-    const Two y = times(G_a + 12 * k, G_b + 12 * k, load(As_a + 4 * k, As_b + 4 * k));
-    store(y, s_a + 4 * k, s_b + 4 * k);
-    const Two y0 = all<0>(y), y1 = all<1>(y), y2 = all<2>(y);
+  const StripColumn* column = strips.column;
+  const StripBlock* blocks = strips.block;
+  const float* const(&const_s)[4] = {of_s[0], of_s[1], of_s[2], of_s[3]};
+  const float* const(&const_As)[4] = {of_As[0], of_As[1], of_As[2], of_As[3]};
+  for (Index k = 0; k < rows; ++k) {
+    const Four y = times(of_G, 12 * k, load(const_As, 4 * k));
+    store(y, of_s, 4 * k);
+    const Four y0 = all<0>(y), y1 = all<1>(y), y2 = all<2>(y);
     for (std::int32_t n = begin[k]; n < begin[k + 1]; ++n) {
-      const Lane<float>* block = blocks[n].row[0];
-      float *to_a = As + column[n].offset[0], *to_b = As + column[n].offset[1];
-      store(sub(load(to_a, to_b), combine(load(block), y0, load(block + 2), y1, load(block + 4), y2)), to_a, to_b);
+      const StripBlock& block = blocks[n];
+      const Four pushed = combine(load(block.row[0]), y0, load(block.row[1]), y1, load(block.row[2]), y2);
+      store(sub(load(As, column[n].offset), pushed), As, column[n].offset);
     }
   }
-  if (strips.single) {  // the last row has no later one
-    const std::size_t last = static_cast<std::size_t>(strips.first[0] + pairs);
+  for (int strip = 0; strip < strips.longer; ++strip) {  // a last row has no later one
+    const auto last = static_cast<std::size_t>(strips.first[strip] + rows);
     s_lanes[last] = G[last].times(As_lanes[last]);
   }
-  for (Index k = pairs; k-- > 0;) {
-    Two sum0 = zero(), sum1 = zero(), sum2 = zero();
+  for (Index k = rows; k-- > 0;) {
+    Four sum0 = no_four(), sum1 = no_four(), sum2 = no_four();
     for (std::int32_t n = begin[k + 1]; n-- > begin[k];) {
-      const Lane<float>* block = blocks[n].row[0];
-      const Two x = load(s + column[n].offset[0], s + column[n].offset[1]);
-      sum0 = add(sum0, mul(load(block), x));
-      sum1 = add(sum1, mul(load(block + 2), x));
-      sum2 = add(sum2, mul(load(block + 4), x));
+      const StripBlock& block = blocks[n];
+      const Four x = load(s, column[n].offset);
+      sum0 = add(sum0, mul(load(block.row[0]), x));
+      sum1 = add(sum1, mul(load(block.row[1]), x));
+      sum2 = add(sum2, mul(load(block.row[2]), x));
     }
-    const Two x = sub(load(s_a + 4 * k, s_b + 4 * k), times(G_a + 12 * k, G_b + 12 * k, sums(sum0, sum1, sum2)));
-    store(x, s_a + 4 * k, s_b + 4 * k);
-    const Two x0 = all<0>(x), x1 = all<1>(x), x2 = all<2>(x);
+    const Four x = sub(load(const_s, 4 * k), times(of_G, 12 * k, sums(sum0, sum1, sum2)));
+    store(x, of_s, 4 * k);
+    const Four x0 = all<0>(x), x1 = all<1>(x), x2 = all<2>(x);
     for (std::int32_t n = begin[k]; n < begin[k + 1]; ++n) {
-      const Lane<float>* block = blocks[n].row[0];
-      float *to_a = As + column[n].offset[0], *to_b = As + column[n].offset[1];
-      store(add(load(to_a, to_b), combine(load(block), x0, load(block + 2), x1, load(block + 4), x2)), to_a, to_b);
+      const StripBlock& block = blocks[n];
+      const Four pushed = combine(load(block.row[0]), x0, load(block.row[1]), x1, load(block.row[2]), x2);
+      store(add(load(As, column[n].offset), pushed), As, column[n].offset);
     }
   }
 }
 
 // Columns 0, 2, 4, 6 of a particle's entries add up in one half, 1, 3, 5, 7 in the other, 8 on its own.
-void add_columns(const CoarseColumns& coarse, Index begin, Index end, Lane<float>* sum) {
+void add_columns(const CoarseColumns& coarse, Index begin, Index end, const Lane<float>* Zy, Lane<float>* t,
+                 Lane<float>* At) {
   const std::int32_t* entry_begin = coarse.entry_begin;
   const Index* aggregate = coarse.aggregate;
   const Lane<float>*column = coarse.column, *y = coarse.y;
   for (Index p = begin; p < end; ++p) {
-    Two pairs = zero();
+    Two pairs = no_two();
     Lane<float> last{0, 0, 0, 0};
     for (std::int32_t e = entry_begin[p]; e < entry_begin[p + 1]; ++e) {
       const Lane<float>*c = column + 9 * static_cast<std::ptrdiff_t>(e), *y_e = y + 9 * aggregate[e];
-      for (int m = 0; m < 8; m += 2) pairs = add(pairs, mul(load(c + m), load(y_e + m)));
+      for (int m = 0; m < 8; m += 2) pairs = add(pairs, mul(load_two(c + m), load_two(y_e + m)));
       last += c[8] * y_e[8];
     }
-    sum[p] += halves(pairs) + last;
+    t[p] += Zy[p];
+    At[p] += halves(pairs) + last;
   }
 }
 
@@ -165,13 +241,13 @@ HWY_EXPORT(sweep);
 HWY_EXPORT(add_columns);
 }  // namespace
 
-void sweep_strips(const StripPair& strips, const Block<float>* G, const Lane<float>* r, Lane<float>* s,
-                  Lane<float>* As) {
+void sweep_strips(const Strips& strips, const Block<float>* G, const Lane<float>* r, Lane<float>* s, Lane<float>* As) {
   HWY_DYNAMIC_DISPATCH(sweep)(strips, G, r, s, As);
 }
 
-void add_coarse_columns(const CoarseColumns& coarse, Index begin, Index end, Lane<float>* sum) {
-  HWY_DYNAMIC_DISPATCH(add_columns)(coarse, begin, end, sum);
+void add_coarse_columns(const CoarseColumns& coarse, Index begin, Index end, const Lane<float>* Zy, Lane<float>* t,
+                        Lane<float>* At) {
+  HWY_DYNAMIC_DISPATCH(add_columns)(coarse, begin, end, Zy, t, At);
 }
 
 }  // namespace toile

@@ -10,35 +10,38 @@
 
 namespace toile {
 
-// The blocks of two rows, one of each strip:  the rows of A_ij, j > i, beside those of A_i'j', each padded by a zero.
-struct alignas(32) PairedBlock {
-  Lane<float> row[3][2];
-};
-struct PairedColumn {
-  std::int32_t offset[2];  // of the floats of particles j and j'
-};
+// Rows of as many strips are swept side by side: lanes of each fill the widest registers.
+constexpr std::size_t strips_at_once = 4;
 
-// Two strips of rows, no block between them, so that row k of one is swept beside row k of the other.
-struct StripPair {
-  Index first[2];              // particle of row 0
-  Index pairs;                 // rows that both have
-  bool single;                 // strip 0 has one more
-  const std::int32_t* begin;   // [row] of its blocks, and the end of the last
-  const PairedColumn* column;  // ascending in a row
-  const PairedBlock* block;
+// A block of a row of each strip: the rows of its A_ij, j later than i, side by side, each padded by a zero.
+struct alignas(64) StripBlock {
+  Lane<float> row[3][strips_at_once];
+};
+struct StripColumn {
+  std::int32_t offset[strips_at_once];  // of the floats of particle j of each
 };
 
-// (D + L) D^-1 (D + U) s = r and As = (L + D + U) s on both strips, with G = D^-1.  Vectors begin with particle 0.
-void sweep_strips(const StripPair& strips, const Block<float>* G, const Lane<float>* r, Lane<float>* s,
-                  Lane<float>* As);
+// Strips of rows, of which row k of each is swept at the same time: no block couples these, and the four columns of a StripColumn differ.
+struct Strips {
+  Index first[strips_at_once];  // particle of row 0
+  Index rows;                   // that all have
+  int longer;                   // strips 0 ... longer - 1 have one more
+  const std::int32_t* begin;    // [row] of its blocks, and the end of the last
+  const StripColumn* column;
+  const StripBlock* block;
+};
 
-// A' Z, sparse (solver/coarse_space.hpp), and y of the coarse directions, each in all lanes.
+// (D + L) D^-1 (D + U) s = r and As = (L + D + U) s on these strips, with G = D^-1 and U the blocks of rows with later ones.  Vectors begin with particle 0.
+void sweep_strips(const Strips& strips, const Block<float>* G, const Lane<float>* r, Lane<float>* s, Lane<float>* As);
+
+// y of the coarse directions (solver/coarse_space.hpp), and what makes A' Z y and Z y of it.
 struct CoarseColumns {
   const std::int32_t* entry_begin;  // [particle], and the end of the last
-  const Index* aggregate;           // [entry]
-  const Lane<float>*column, *y;     // [entry][9], [aggregate][9]
+  const Index* aggregate;           // [entry]; the first of a particle is its own
+  const Lane<float>*column, *y;     // A' Z [entry][9], y [aggregate][9] in all lanes
 };
-// sum += A' Z y of particles [begin, end).  `sum` begins with particle 0.
-void add_coarse_columns(const CoarseColumns& coarse, Index begin, Index end, Lane<float>* sum);
+// t += Zy and At += A' Z y of particles [begin, end).  Vectors begin with particle 0.
+void add_coarse_columns(const CoarseColumns& coarse, Index begin, Index end, const Lane<float>* Zy, Lane<float>* t,
+                        Lane<float>* At);
 
 }  // namespace toile

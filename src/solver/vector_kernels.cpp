@@ -145,6 +145,30 @@ double norm2(Index begin, Index end, const Block<float>* G, const Lane<float>* r
   return sum(even, odd);
 }
 
+using Numbers [[gnu::vector_size(32)]] = double;  // three and one that does not matter
+
+HWY_INLINE void add_three(const Numbers& v, double* to) {
+  for (int m = 0; m < 3; ++m) to[m] += v[m];
+}
+
+void moments(Index begin, Index end, const Lane<float>* r, const Lane<float>* At, const Vec3* basis,
+             const Index* aggregate, double* sum) {
+  for (Index p = begin; p < end;) {
+    const Index of = aggregate[p];
+    Numbers constant{}, along_u{}, along_v{};
+    for (; p < end && aggregate[p] == of; ++p) {
+      const Numbers d = __builtin_convertvector(r[p] - At[p], Numbers);
+      constant += d;
+      along_u += basis[p][1] * d;
+      along_v += basis[p][2] * d;
+    }
+    double* y = sum + 9 * static_cast<std::ptrdiff_t>(of);
+    add_three(constant, y);
+    add_three(along_u, y + 3);
+    add_three(along_v, y + 6);
+  }
+}
+
 }  // namespace
 }  // namespace toile::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -156,6 +180,7 @@ HWY_EXPORT(dot);
 HWY_EXPORT(direction);
 HWY_EXPORT(residual);
 HWY_EXPORT(norm2);
+HWY_EXPORT(moments);
 }  // namespace
 
 double dot_lanes(Index begin, Index end, const Lane<float>* a, const Lane<float>* b) {
@@ -171,6 +196,10 @@ double next_residual(Index begin, Index end, float alpha, const Lane<float>* c, 
 }
 double residual_norm2(Index begin, Index end, const Block<float>* G, const Lane<float>* r) {
   return HWY_DYNAMIC_DISPATCH(norm2)(begin, end, G, r);
+}
+void add_moments(Index begin, Index end, const Lane<float>* r, const Lane<float>* At, const Vec3* basis,
+                 const Index* aggregate, double* sum) {
+  HWY_DYNAMIC_DISPATCH(moments)(begin, end, r, At, basis, aggregate, sum);
 }
 
 double dot_lanes(Index begin, Index end, const Lane<double>* a, const Lane<double>* b) {
@@ -202,6 +231,17 @@ double residual_norm2(Index begin, Index end, const Block<double>* G, const Lane
   double sum = 0;
   for (Index i = begin; i < end; ++i) sum += dot(r[i], G[i].times(r[i]));
   return sum;
+}
+
+void add_moments(Index begin, Index end, const Lane<double>* r, const Lane<double>* At, const Vec3* basis,
+                 const Index* aggregate, double* sum) {
+  for (Index p = begin; p < end; ++p) {
+    const Lane<double> d = r[p] - At[p];
+    for (Eigen::Index l = 0; l < 3; ++l) {
+      for (std::size_t c = 0; c < 3; ++c)
+        sum[9 * static_cast<std::size_t>(aggregate[p]) + 3 * static_cast<std::size_t>(l) + c] += basis[p][l] * d[c];
+    }
+  }
 }
 
 }  // namespace toile

@@ -17,6 +17,10 @@ double next_residual(Index begin, Index end, float alpha, const Lane<float>* c, 
                      const Block<float>* G, Lane<float>* w, Lane<float>* r);
 // r.G r
 double residual_norm2(Index begin, Index end, const Block<float>* G, const Lane<float>* r);
+// sum[9 aggregate + 3 l + c] += of the particles of each aggregate, basis function l times (r - At)_c; `basis` is (1, u, v).  Added up over
+// neighbours in the order of particles, which are mostly of one aggregate.
+void add_moments(Index begin, Index end, const Lane<float>* r, const Lane<float>* At, const Vec3* basis,
+                 const Index* aggregate, double* sum);
 
 // The same in double, one particle after the other, for tests and references.
 double dot_lanes(Index begin, Index end, const Lane<double>* a, const Lane<double>* b);
@@ -25,5 +29,7 @@ double next_direction(Index begin, Index end, bool first, double beta, const Lan
 double next_residual(Index begin, Index end, double alpha, const Lane<double>* c, const Lane<double>* q,
                      const Block<double>* G, Lane<double>* w, Lane<double>* r);
 double residual_norm2(Index begin, Index end, const Block<double>* G, const Lane<double>* r);
+void add_moments(Index begin, Index end, const Lane<double>* r, const Lane<double>* At, const Vec3* basis,
+                 const Index* aggregate, double* sum);
 
 }  // namespace toile

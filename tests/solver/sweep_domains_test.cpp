@@ -1,4 +1,4 @@
-// The sweeps against a dense solve with the same strips, and against themselves on every instruction set there is.
+// The sweeps against a dense solve in the same order, and against themselves on every instruction set there is.
 #include "solver/sweep_domains.hpp"
 
 #include "solver/coarse_space.hpp"
@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <numeric>
 
 namespace toile {
 namespace {
@@ -42,7 +44,7 @@ struct Swept : Problem<T> {
     domains.update(this->system);
     for (std::size_t d = 0; d < domains.count(); ++d) domains.sweep(this->system, d, r, s, As);
     for (std::size_t d = 0; d < domains.count(); ++d) {
-      domains.add_between(this->system, d, s, As);
+      domains.add_between(d, s, As);
       domains.filter(this->system, d, As);
     }
   }
@@ -58,24 +60,35 @@ void expect_the_dense_sweep(double tolerance) {
   p.sweep();
   const Index n = p.A.rows();
   ASSERT_EQ(p.domains.count(), 1u);
-  const Index middle = (n + 1) / 2;  // where the second strip begins
+  // Row k of each of four strips, of which the first may have a row more, at the same time k.
+  const auto time = [n](Index i) {
+    Index begin = 0;
+    for (Index strip = 0;; ++strip) {
+      const Index rows = n / 4 + (strip < n % 4 ? 1 : 0);
+      if (i < begin + rows) return i - begin;
+      begin += rows;
+    }
+  };
+  std::vector<Index> order(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](Index i, Index j) { return time(i) < time(j); });
   const Eigen::MatrixXd dense = p.A.to_dense();
   Eigen::MatrixXd S = Eigen::MatrixXd::Identity(3 * n, 3 * n);
   for (Index i = 0; i < n; ++i) S.block<3, 3>(3 * i, 3 * i) = p.constraints.S(i);
-  // y_i = G_i (r_i - sum_{j < i} A_ij y_j),  s_i = y_i - G_i sum_{j > i} A_ij s_j,  j in the strip of i
-  const auto near = [&](Index i, Index j) { return (i < middle) == (j < middle); };
+  // y_i = G_i (r_i - sum A_ij y_j) over earlier j,  s_i = y_i - G_i sum A_ij s_j over later ones
   Eigen::VectorXd y(3 * n), s(3 * n), r(3 * n);
-  for (Index i = 0; i < n; ++i) {
+  for (const Index i : order) {
     r.segment<3>(3 * i) = to_vec3(p.r[static_cast<std::size_t>(i)]);
     Vec3 left = r.segment<3>(3 * i);
-    for (Index j = 0; j < i; ++j)
-      if (near(i, j)) left -= dense.block<3, 3>(3 * i, 3 * j) * y.segment<3>(3 * j);
+    for (Index j = 0; j < n; ++j)
+      if (time(j) < time(i)) left -= dense.block<3, 3>(3 * i, 3 * j) * y.segment<3>(3 * j);
     y.segment<3>(3 * i) = p.system.filtered_inverse(i) * left;
   }
-  for (Index i = n; i-- > 0;) {
+  for (auto row = order.rbegin(); row != order.rend(); ++row) {
+    const Index i = *row;
     Vec3 sum = Vec3::Zero();
-    for (Index j = i + 1; j < n; ++j)
-      if (near(i, j)) sum += dense.block<3, 3>(3 * i, 3 * j) * s.segment<3>(3 * j);
+    for (Index j = 0; j < n; ++j)
+      if (time(j) > time(i)) sum += dense.block<3, 3>(3 * i, 3 * j) * s.segment<3>(3 * j);
     s.segment<3>(3 * i) = y.segment<3>(3 * i) - p.system.filtered_inverse(i) * sum;
   }
   const Eigen::VectorXd As = S * (dense * s);
@@ -119,9 +132,11 @@ TEST(SweepDomains, GiveTheSameBitsOnEveryInstructionSet) {
     const Lanes<float> s = p.s, As = p.As;
     std::vector<std::vector<double>> part(1, std::vector<double>(static_cast<std::size_t>(coarse.dimension())));
     coarse.restrict(0, p.A.rows(), p.r, As, part[0]);
-    coarse.solve(part);
+    CoarseSpace<float>::Solution solution;
+    coarse.solve(part, solution);
     Lanes<float> t = s, At = As, Zy(s.size());
-    coarse.prolong(p.system, 0, p.A.rows(), t, At, Zy);
+    coarse.prolong(solution, 0, p.A.rows(), Zy);
+    coarse.add(solution, 0, p.A.rows(), Zy, t, At);
     const auto same = [](const Lanes<float>& a, const Lanes<float>& b) {
       return std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
     };
@@ -131,8 +146,12 @@ TEST(SweepDomains, GiveTheSameBitsOnEveryInstructionSet) {
       p.sweep();
       EXPECT_TRUE(same(p.s, s)) << name;
       EXPECT_TRUE(same(p.As, As)) << name;
-      coarse.solve(part);
-      coarse.prolong(p.system, 0, p.A.rows(), p.s, p.As, Zy);
+      std::vector<std::vector<double>> again(1, std::vector<double>(part[0].size()));
+      coarse.restrict(0, p.A.rows(), p.r, p.As, again[0]);
+      EXPECT_EQ(again, part) << name;
+      coarse.solve(again, solution);
+      coarse.prolong(solution, 0, p.A.rows(), Zy);
+      coarse.add(solution, 0, p.A.rows(), Zy, p.s, p.As);
       EXPECT_TRUE(same(p.s, t)) << name;
       EXPECT_TRUE(same(p.As, At)) << name;
     });

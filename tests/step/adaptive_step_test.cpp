@@ -215,9 +215,9 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "9f3e7112578c37e3");
-  EXPECT_EQ(folding(), "a88fd148e7e5f81d");
-  EXPECT_EQ(drop(1), "0d5c6a3d6056e02d");
+  EXPECT_EQ(hanging(), "811775b34cd06d5b");
+  EXPECT_EQ(folding(), "adce80099d9a28c9");
+  EXPECT_EQ(drop(1), "d57fada10b484586");
 }
 
 }  // namespace

@@ -1,0 +1,90 @@
+#include "solver/strip_rows.hpp"
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+#include <algorithm>
+
+namespace toile {
+
+Index StripRows::time(Index row) const { return row - *(std::upper_bound(begin_.begin(), begin_.end(), row) - 1); }
+
+void StripRows::arrange(const BlockPattern& pattern, std::span<const Index, strips_at_once + 1> begin) {
+  std::copy(begin.begin(), begin.end(), begin_.begin());
+  row_begin_.assign(1, 0);
+  column_.clear();
+  source_.clear();
+  const Index rows = begin[strips_at_once] - begin[strips_at_once - 1];
+  for (std::size_t strip = 0; strip < strips_at_once; ++strip)
+    TOILE_ASSERT(begin[strip + 1] - begin[strip] - rows <= 1 && begin[strip + 1] - begin[strip] >= rows);
+  std::array<std::vector<std::pair<Index, Source>>, strips_at_once> blocks;
+  for (Index k = 0; k < rows; ++k) {
+    for (std::size_t strip = 0; strip < strips_at_once; ++strip) {
+      const Index row = begin[strip] + k;
+      blocks[strip].clear();
+      const auto add = [&](Index column, Slot slot) {
+        if (column >= begin[0] && column < begin[strips_at_once] && time(column) > k)
+          blocks[strip].push_back({column, {slot, column < row}});
+      };
+      for (Slot slot = pattern.first_slot(row); slot < pattern.end_slot(row); ++slot) add(pattern.column(slot), slot);
+      for (const auto& above : pattern.above(row)) add(above.row, above.slot);
+    }
+    pair_up(blocks, k);
+    row_begin_.push_back(static_cast<std::int32_t>(source_.size()));
+  }
+  block_.assign(source_.size(), StripBlock{});
+}
+
+// A block of each strip, as long as there are any.  Those that go together have columns of their own, because all add to them at once.
+void StripRows::pair_up(std::span<std::vector<std::pair<Index, Source>>, strips_at_once> blocks, Index row) {
+  const auto any = [](const auto& of_strip) { return !of_strip.empty(); };
+  while (std::any_of(blocks.begin(), blocks.end(), any)) {
+    StripColumn column{};
+    std::array<Source, strips_at_once> source{};
+    std::array<Index, strips_at_once> taken;
+    taken.fill(-1);
+    for (std::size_t strip = 0; strip < strips_at_once; ++strip) {
+      const auto found = std::find_if(blocks[strip].begin(), blocks[strip].end(), [&](const auto& block) {
+        return std::find(taken.begin(), taken.end(), block.first) == taken.end();
+      });
+      column.offset[strip] = 4 * (begin_[strip] + row);
+      if (found == blocks[strip].end()) continue;
+      taken[strip] = found->first;
+      column.offset[strip] = 4 * found->first;
+      source[strip] = found->second;
+      blocks[strip].erase(found);
+    }
+    column_.push_back(column);
+    source_.push_back(source);
+  }
+}
+
+void StripRows::copy(const BlockMatrix<float>& A) {
+  constexpr std::size_t grain = 1024;
+  parallel_for(source_.size(), grain, [&](std::size_t n) {
+    for (std::size_t strip = 0; strip < strips_at_once; ++strip) {
+      const Source source = source_[n][strip];
+      if (source.slot < 0) continue;
+      const Block<float>& stored = A.below(source.slot);  // its columns are the rows of the block above the diagonal
+      const Block<float> block = source.below_diagonal ? stored.transpose() : stored;
+      block_[n].row[0][strip] = block.c0;
+      block_[n].row[1][strip] = block.c1;
+      block_[n].row[2][strip] = block.c2;
+    }
+  });
+}
+
+Strips StripRows::strips() const {
+  Strips strips{};
+  strips.rows = begin_[strips_at_once] - begin_[strips_at_once - 1];
+  for (std::size_t strip = 0; strip < strips_at_once; ++strip) {
+    strips.first[strip] = begin_[strip];
+    if (begin_[strip + 1] - begin_[strip] > strips.rows) strips.longer = static_cast<int>(strip) + 1;
+  }
+  strips.begin = row_begin_.data();
+  strips.column = column_.data();
+  strips.block = block_.data();
+  return strips;
+}
+
+}  // namespace toile
