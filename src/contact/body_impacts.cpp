@@ -15,7 +15,7 @@ namespace {
 using Mover = BodyImpactWorkspace::Mover;
 
 constexpr double separation_share = 0.1;  // of r: the largest xi
-constexpr std::size_t grain = 2048;
+constexpr std::size_t grain = 512;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 

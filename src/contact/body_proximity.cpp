@@ -8,7 +8,7 @@
 namespace toile {
 namespace {
 
-constexpr std::size_t triangle_grain = 4096, feature_grain = 1024;
+constexpr std::size_t triangle_grain = 1024, feature_grain = 1024;
 constexpr double touching_m = 1e-9;  // nearer than this the body's own normal is the direction
 
 using Memory = ProximityWorkspace::Memory;

@@ -14,7 +14,7 @@
 namespace toile {
 namespace {
 
-constexpr std::size_t normal_grain = 2048;
+constexpr std::size_t normal_grain = 1024;
 constexpr double touching_m = 1e-9;  // nearer than this the direction to the body is rounding
 constexpr double flat_bend = 1e-3;
 constexpr double farthest_m = 1e6;

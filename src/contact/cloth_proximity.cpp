@@ -12,7 +12,7 @@
 namespace toile {
 namespace {
 
-constexpr std::size_t query_grain = 512, triangle_grain = 4096;
+constexpr std::size_t query_grain = 512, triangle_grain = 1024;
 constexpr double touching_m = 1e-12;  // nearer than this the direction between two points is rounding
 
 using Memory = ProximityWorkspace::Memory;

@@ -8,7 +8,7 @@
 namespace toile {
 namespace {
 
-constexpr std::size_t box_grain = 4096;
+constexpr std::size_t box_grain = 1024;
 
 // Of finite positions; else the origin, which is as good: any point will do, as long as it is the same for all.
 Vec3 mean(std::span<const Vec3> x) {

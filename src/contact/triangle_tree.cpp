@@ -10,8 +10,9 @@
 namespace toile {
 namespace {
 
-constexpr Index task_size = 512;  // a task's nodes hold at most this many triangles
-constexpr std::size_t box_grain = 4096;
+constexpr Index task_size = 512;    // a task's nodes hold at most this many triangles
+constexpr Index refit_size = 1024;  // likewise, when boxes are made anew
+constexpr std::size_t box_grain = 1024;
 
 // Replaces every task with a node above task_size by its children; `descend` knows how.
 template <class Big, class Split>
@@ -80,6 +81,7 @@ TriangleTree::TriangleTree(std::span<const Vec3> positions, std::span<const Tria
   std::iota(order.begin(), order.end(), 0);
   nodes_.reserve(triangles.size() / 2 + 1);
   if (!order.empty()) build(centroids, order);
+  find_subtrees();
   triangle_boxes_.resize(triangles.size());
   refit(positions, positions, 0);
 }
@@ -124,16 +126,40 @@ void TriangleTree::refit(const ParticleBoxes& particles) {
   refit_triangles();
 }
 
+// Largest subtrees that are one task when boxes are made anew, and the nodes above them.
+void TriangleTree::find_subtrees() {
+  const auto end_of = [&](Index i) {  // of the nodes below
+    while (!node(i).leaf()) i = *std::max_element(node(i).child.begin(), node(i).child.end());
+    return i + 1;
+  };
+  for (Index i = 0; i < static_cast<Index>(nodes_.size());) {
+    if (node(i).count > refit_size) {
+      upper_nodes_.push_back(i++);
+    } else {
+      subtrees_.push_back({i, end_of(i)});
+      i = subtrees_.back().end;
+    }
+  }
+}
+
+// work(node) for all, children before their parents, which stand before them.
+template <class Work>
+void TriangleTree::for_nodes_upwards(const Work& work) {
+  parallel_for(subtrees_.size(), 1, [&](std::size_t subtree) {
+    for (Index i = subtrees_[subtree].end; i-- > subtrees_[subtree].begin;) work(static_cast<std::size_t>(i));
+  });
+  for (std::size_t k = upper_nodes_.size(); k-- > 0;) work(static_cast<std::size_t>(upper_nodes_[k]));
+}
+
 void TriangleTree::refit_triangles() {
-  if (nodes_.empty()) return;
   parallel_for(triangle_boxes_.size(), box_grain,
                [&](std::size_t t) { triangle_boxes_[t] = particle_boxes_.triangle((*triangles_)[t]); });
-  for (std::size_t i = nodes_.size(); i-- > 0;) {  // children stand after their parents
+  for_nodes_upwards([&](std::size_t i) {
     Node& at = nodes_[i];
     for (int lane = 0; lane < 4; ++lane) {
       if (at.child[static_cast<std::size_t>(lane)] >= 0) set_lane(at, lane);
     }
-  }
+  });
 }
 
 void TriangleTree::refit(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m,
@@ -148,7 +174,7 @@ void TriangleTree::refit(std::span<const Vec3> start, std::span<const Vec3> end,
     if (any != 0) triangle_boxes_[t] = particle_boxes_.triangle(corners);
   });
   node_moved_.resize(nodes_.size());
-  for (std::size_t i = nodes_.size(); i-- > 0;) {
+  for_nodes_upwards([&](std::size_t i) {
     Node& at = nodes_[i];
     const std::vector<std::uint8_t>& below = at.leaf() ? triangle_moved_ : node_moved_;
     std::uint8_t any = 0;
@@ -159,7 +185,7 @@ void TriangleTree::refit(std::span<const Vec3> start, std::span<const Vec3> end,
       any = 1;
     }
     node_moved_[i] = any;
-  }
+  });
 }
 
 void TriangleTree::set_lane(Node& at, int lane) {

@@ -107,6 +107,9 @@ class TriangleTree {
 
   const Node& node(Index i) const { return nodes_[static_cast<std::size_t>(i)]; }
   Index build(std::span<const Vec3> centroids, std::span<Index> triangles);
+  void find_subtrees();
+  template <class Work>
+  void for_nodes_upwards(const Work& work);
   void refit_triangles();
   void set_lane(Node& at, int lane);
   template <class Visit, class Push>
@@ -114,7 +117,13 @@ class TriangleTree {
   template <class Visit, class Push>
   void meet_itself(Index a, Visit&& visit, Push&& push) const;
 
+  struct Subtree {
+    Index begin, end;  // nodes
+  };
+
   std::vector<Node> nodes_;
+  std::vector<Subtree> subtrees_;
+  std::vector<Index> upper_nodes_;  // the others, ascending
   std::shared_ptr<const std::vector<Triangle>> triangles_;
   std::vector<OuterBox> triangle_boxes_;
   std::vector<std::uint8_t> triangle_moved_, node_moved_;  // by refit
