@@ -41,7 +41,7 @@ void Team::run(const std::function<void(int, int)>& work) {
   present_ = static_cast<int>(came_.fetch_or(closed, std::memory_order_acq_rel)) + 1;
   begun_.fetch_add(1, std::memory_order_release);
   work(0, present_);
-  barrier();            // all have returned
+  barrier();             // all have returned
   tasks_->group.wait();  // of those who came late there is nothing left
 }
 

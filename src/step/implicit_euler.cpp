@@ -1,9 +1,11 @@
 #include "step/implicit_euler.hpp"
 
+#include "core/parallel.hpp"
 #include "core/stopwatch.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace toile {
 namespace {
@@ -13,6 +15,7 @@ constexpr double loose_passes = 3;  // times the residual at which the last pass
 constexpr int contact_passes = 2;
 constexpr double most_made = 0.1;           // in threads by a solve that does not know of it, of the kinetic energy
 constexpr double shortest_part = 1.0 / 16;  // of the way that a solve about an end leads
+constexpr std::size_t stretch_grain = 1024;
 
 }  // namespace
 
@@ -333,10 +336,11 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
     }
     const bool last = pcg_options.loosen == options_.pcg.loosen;
     // A few particles that begin to slip, leave the body or end a little below the offset, or rows that come and go, can wait for
-    // the next step; cloth that would end near the body's surface cannot.
+    // the next step; cloth that would end near the body's surface cannot.  Where cloth lies on a body rows are few beside what touches it.
+    const int rows = change.active + body.touching / 5;
     const bool settled = body.deep == 0 && 50 * (body.released + body.added) <= body.touching &&
-                         20 * body.slipped <= body.touching && 20 * (change.added + change.dropped) <= change.active &&
-                         20 * change.turned_back <= change.active;
+                         20 * body.slipped <= body.touching && 20 * (change.added + change.dropped) <= rows &&
+                         20 * change.turned_back <= rows;
     const int passes_left = options_.max_passes + report.relinearised - pass;
     if ((settled && last) || passes_left <= 0) return true;
     if (settled || passes_left == 1) pcg_options.loosen = options_.pcg.loosen;
@@ -380,25 +384,48 @@ void ImplicitEuler::judge_strain(const StretchChange& largest, StepReport& repor
   report.strain_limit = model_->stiffness_of(static_cast<std::size_t>(largest.beyond)).strain_limit;
 }
 
-// Only changes away from the rest length count: a thread that relaxes is not diverging, however fast.  One that is pushed together
-// counts by its energy, k c C^2 / 2: a squeeze of s is as much as a stretch of sqrt(c) s.
 ImplicitEuler::StretchChange ImplicitEuler::largest_stretch_change(const ClothState& candidate) {
   elements_.stretch(candidate.x, stretch_candidate_);
+  largest_of_.resize((stretch_.size() + stretch_grain - 1) / stretch_grain);
+  const auto block = [&](std::size_t begin, std::size_t end) {
+    largest_of_[begin / stretch_grain] = largest_stretch_change(begin, end);
+  };
+  parallel_blocks(stretch_.size(), stretch_grain, std::cref(block));  // by reference: no copy of the lambda on the heap
   StretchChange largest;
-  double farthest = 1;  // of the limit
-  for (std::size_t t = 0; t < stretch_.size(); ++t) {
+  for (const StretchChange& of_block : largest_of_) {
+    if (of_block.farthest > largest.farthest) {
+      largest.farthest = of_block.farthest;
+      largest.beyond = of_block.beyond;
+      largest.strain = of_block.strain;
+    }
+    if (of_block.change > largest.change) {
+      largest.change = of_block.change;
+      largest.triangle = of_block.triangle;
+    }
+  }
+  return largest;
+}
+
+// Of triangles [begin, end).  Only changes away from the rest length count: a thread that relaxes is not diverging, however fast.  One that
+// is pushed together counts by its energy, k c C^2 / 2: a squeeze of s is as much as a stretch of sqrt(c) s.
+ImplicitEuler::StretchChange ImplicitEuler::largest_stretch_change(std::size_t begin, std::size_t end) const {
+  StretchChange largest;
+  for (std::size_t t = begin; t < end; ++t) {
+    const MembraneStiffness& stiffness = model_->stiffness_of(t);
     const std::array<double, 2> rest{model_->membrane[t].b_u, model_->membrane[t].b_v};
-    const double limit = model_->stiffness_of(t).strain_limit;
+    const double limit = stiffness.strain_limit;
     for (Eigen::Index k = 0; k < 2; ++k) {
       const double b = rest[static_cast<std::size_t>(k)], before = stretch_[t][k], after = stretch_candidate_[t][k];
-      if (const double from = limited_from(b); limit > 0 && after > before && after - from > farthest * limit * from) {
-        farthest = (after - from) / (limit * from);
+      if (const double from = limited_from(b);
+          limit > 0 && after > before && after - from > largest.farthest * limit * from) {
+        largest.farthest = (after - from) / (limit * from);
         largest.beyond = static_cast<Index>(t);
         largest.strain = after / from - 1;
       }
       if (std::abs(after - b) <= std::abs(before - b)) continue;
       double change = std::abs(after - before);
-      if (after < b) change *= std::sqrt(model_->stiffness_of(t).compression);
+      if (change <= largest.change) continue;  // a squeeze counts for no more than itself
+      if (after < b) change *= std::sqrt(stiffness.compression);
       if (change <= largest.change) continue;
       largest.change = change;
       largest.triangle = static_cast<Index>(t);

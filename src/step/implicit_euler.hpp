@@ -120,10 +120,12 @@ class ImplicitEuler {
   struct StretchChange {
     double change = 0;
     Index triangle = -1;
-    Index beyond = -1;  // of those that got longer beyond their strain limit, the one farthest beyond
-    double strain = 0;  // of it
+    Index beyond = -1;    // of those that got longer beyond their strain limit, the one farthest beyond
+    double strain = 0;    // of it
+    double farthest = 1;  // it is at that many times its limit
   };
   StretchChange largest_stretch_change(const ClothState& candidate);
+  StretchChange largest_stretch_change(std::size_t begin, std::size_t end) const;
   void judge(const StepLimits& limits, const ClothState& candidate, StepReport& report);
   void judge_speed(const ClothState& candidate, StepReport& report) const;
   void judge_strain(const StretchChange& largest, StepReport& report) const;
@@ -155,6 +157,7 @@ class ImplicitEuler {
   Vec3s force_, b_, y_, y_known_, y_linearised_, linearised_, displacement_, force_linearised_, x_linearised_, moved_,
       reference_, dv_, dv_last_, dv_linearised_, way_, e_;
   std::vector<Vec2> stretch_, stretch_candidate_;
+  std::vector<StretchChange> largest_of_;     // [block of triangles]
   Vec3s body_start_, body_end_;               // world_->body_at at the two ends of the step
   double body_start_s_ = 0, body_end_s_ = 0;  // the times of the two
   MotionHistory history_;
