@@ -87,6 +87,7 @@ BenchRow measure(BenchRuns& runs, const Row1998& row, int frames, std::string& t
     Scene scene = embedded_scene(row.scene);
     set_frames(scene, frames);
     if (!scene.step_max_s) scene.step_max_s = 1e-3 * row.step_max_ms;
+    if (runs.line().step_max_ms) scene.step_max_s = 1e-3 * *runs.line().step_max_ms;
     const Report report = runs.run(scene, "row-" + std::to_string(row.row));
     if (!reached_its_end(report) && !report.verdict.reasons.empty())
       trouble = report.verdict.reasons.front().code + ": " + report.verdict.reasons.front().detail;

@@ -61,6 +61,8 @@ CLI::App* add_bench(CLI::App& app, CommandLine& line) {
   micro->add_option("--limits", line.limit_sizes, "Particles of the table of limits, 2602,8800,100000 (the default)")
       ->delimiter(',')
       ->check(CLI::Range(50, 1000000));
+  paper->add_option("--step-max-ms", line.step_max_ms, "Longest step (default: each row's own, which is the paper's)")
+      ->check(CLI::Range(0.01, 1000.0));
   CLI::App* torture = bench->add_subcommand("torture", "Scenes that break cloth simulators: which hold");
   torture->add_option("--scenes", line.rows, "By their numbers, 01,12 (default: all)")->delimiter(',');
   torture->add_option("--size", line.torture_size, "S, M or L")->check(CLI::IsMember({"S", "M", "L"}));

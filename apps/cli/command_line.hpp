@@ -31,6 +31,7 @@ struct CommandLine {
   std::vector<int> limit_sizes;   // of the table of limits in `bench micro`
   std::vector<std::string> rows;  // of paper, scenes of torture; empty: all
   std::optional<int> bench_frames;
+  std::optional<double> step_max_ms;  // of paper, instead of each row's own
   std::string torture_size = "S";
   int starts = 1, first_start = 0;
 };

@@ -144,6 +144,18 @@ TEST(Bench, ARowThatCannotBeginDoesNotStopTheOthers) {
   EXPECT_EQ(rows[1].at("verdict").string(), "pass");
 }
 
+TEST(Bench, PaperTakesAnotherLongestStep) {
+  const Scratch scratch;
+  const auto longest_ms = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"paper", "--rows", "2", "--frames", "2"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Json json = bench(scratch, words);
+    return json.at("rows").array()[0].at("step_max_ms").number();
+  };
+  EXPECT_NEAR(longest_ms({}), 1000.0 / 30, 1e-9);
+  EXPECT_NEAR(longest_ms({"--step-max-ms", "12"}), 1000.0 / 90, 1e-9) << "a frame's third";
+}
+
 TEST(Bench, ClaimsCountIterationsOfThePaperAndOfOurs) {
   const Scratch scratch;
   const Json json = bench(scratch, {"paper", "--rows", "cg", "--frames", "3"});
@@ -277,6 +289,8 @@ TEST(Bench, OptionsThatMeanNothingAreUsageErrors) {
                                              {"bench", "torture", "--size", "XL"},
                                              {"bench", "torture", "--scenes", "99"},
                                              {"bench", "paper", "--starts", "2"},
+                                             {"bench", "paper", "--step-max-ms", "0"},
+                                             {"bench", "scaling", "--step-max-ms", "10"},
                                              {"bench", "stiffness", "--size", "100,200"},
                                              {"bench", "scaling", "--repeat", "0"},
                                              {"bench", "scaling", "--csv", "--json"},
