@@ -336,11 +336,10 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
     }
     const bool last = pcg_options.loosen == options_.pcg.loosen;
     // A few particles that begin to slip, leave the body or end a little below the offset, or rows that come and go, can wait for
-    // the next step; cloth that would end near the body's surface cannot.  Where cloth lies on a body rows are few beside what touches it.
-    const int rows = change.active + body.touching / 5;
+    // the next step; cloth that would end near the body's surface cannot.
     const bool settled = body.deep == 0 && 50 * (body.released + body.added) <= body.touching &&
-                         20 * body.slipped <= body.touching && 20 * (change.added + change.dropped) <= rows &&
-                         20 * change.turned_back <= rows;
+                         20 * body.slipped <= body.touching && 20 * (change.added + change.dropped) <= change.active &&
+                         20 * change.turned_back <= change.active;
     const int passes_left = options_.max_passes + report.relinearised - pass;
     if ((settled && last) || passes_left <= 0) return true;
     if (settled || passes_left == 1) pcg_options.loosen = options_.pcg.loosen;
