@@ -29,11 +29,21 @@ HWY_INLINE void store(Two v, float* a, float* b) {
   hn::Store(hn::UpperHalf(one, v), one, b);
 }
 HWY_INLINE Two no_two() { return hn::Zero(two); }
-HWY_INLINE Two add(Two a, Two b) { return hn::Add(a, b); }
-HWY_INLINE Two sub(Two a, Two b) { return hn::Sub(a, b); }
-HWY_INLINE Two mul(Two a, Two b) { return hn::Mul(a, b); }
-template <int k>
-HWY_INLINE Two all(Two v) {
+// Of registers of any width.
+template <class V>
+HWY_INLINE V add(V a, V b) {
+  return hn::Add(a, b);
+}
+template <class V>
+HWY_INLINE V sub(V a, V b) {
+  return hn::Sub(a, b);
+}
+template <class V>
+HWY_INLINE V mul(V a, V b) {
+  return hn::Mul(a, b);
+}
+template <int k, class V>
+HWY_INLINE V all(V v) {
   return hn::Broadcast<k>(v);
 }
 HWY_INLINE Lane<float> halves(Two v) {  // their sum
@@ -42,9 +52,10 @@ HWY_INLINE Lane<float> halves(Two v) {  // their sum
   return sum;
 }
 // (sum of a, sum of b, sum of c, 0) of each particle, as Block::column_sums has it.
-template <class Tag, class V>
-HWY_INLINE V sums_of(Tag tag, V a, V b, V c) {
-  const hn::Repartition<double, Tag> pairs;
+template <class V>
+HWY_INLINE V sums(V a, V b, V c) {
+  const hn::DFromV<V> tag;
+  const hn::Repartition<double, hn::DFromV<V>> pairs;
   const V zero = hn::Zero(tag);
   const auto low = hn::BitCast(pairs, hn::InterleaveLower(tag, a, b)),
              high = hn::BitCast(pairs, hn::InterleaveUpper(tag, a, b)),
@@ -54,7 +65,6 @@ HWY_INLINE V sums_of(Tag tag, V a, V b, V c) {
                          hn::BitCast(tag, hn::InterleaveUpper(pairs, low, low_c))),
                  hn::BitCast(tag, hn::InterleaveLower(pairs, high, high_c)));
 }
-HWY_INLINE Two sums(Two a, Two b, Two c) { return sums_of(two, a, b, c); }
 #else
 struct Two {
   Lane<float> a, b;
@@ -104,14 +114,6 @@ HWY_INLINE void store(Four v, float* base, const std::int32_t (&offset)[4]) {
   store(hn::UpperHalf(two, v), base + offset[2], base + offset[3]);
 }
 HWY_INLINE Four no_four() { return hn::Zero(four); }
-HWY_INLINE Four add(Four a, Four b) { return hn::Add(a, b); }
-HWY_INLINE Four sub(Four a, Four b) { return hn::Sub(a, b); }
-HWY_INLINE Four mul(Four a, Four b) { return hn::Mul(a, b); }
-template <int k>
-HWY_INLINE Four all(Four v) {
-  return hn::Broadcast<k>(v);
-}
-HWY_INLINE Four sums(Four a, Four b, Four c) { return sums_of(four, a, b, c); }
 #else
 struct Four {
   Two ab, cd;

@@ -16,7 +16,10 @@ template <class T>
 struct Vectors {
   std::vector<Lane<T>> s, As, c, q, w, r;
   std::vector<Block<T>> G;
+  Vec3s basis;                   // (1, u, v)
+  std::vector<Index> aggregate;  // neighbours in runs of three, of four aggregates again and again
   std::array<double, 5> sums{};
+  std::array<double, 36> moments{};
 
   Vectors(Index size, std::uint64_t seed) {
     test::Random random(seed);
@@ -31,8 +34,14 @@ struct Vectors {
       m << random.vector(1), random.vector(1), random.vector(1);
       G.push_back(Block<T>::from(m.cast<float>().cast<double>()));
     }
+    for (Index i = 0; i < size; ++i) {
+      const Vec3 uv = random.vector(1);
+      basis.emplace_back(1, uv.x(), uv.y());
+      aggregate.push_back(i / 3 % 4);
+    }
   }
   void iterate(Index begin, Index end) {
+    add_moments(begin, end, r.data(), As.data(), basis.data(), aggregate.data(), moments.data());
     sums[0] = residual_norm2(begin, end, G.data(), r.data());
     sums[1] = dot_lanes(begin, end, r.data(), s.data());
     sums[2] = next_direction(begin, end, true, T(0.5), s.data(), As.data(), c.data(), q.data());
@@ -51,6 +60,8 @@ TEST(VectorKernels, DoInFloatWhatTheReferenceDoesInDouble) {
     wanted.iterate(begin, end);
     for (std::size_t k = 0; k < got.sums.size(); ++k)
       EXPECT_NEAR(got.sums[k], wanted.sums[k], 2e-6 * (1 + size)) << size << ", sum " << k;
+    for (std::size_t k = 0; k < got.moments.size(); ++k)
+      EXPECT_NEAR(got.moments[k], wanted.moments[k], 1e-6) << size << ", moment " << k;
     const auto expect_near = [&](const std::vector<Lane<float>>& a, const std::vector<Lane<double>>& b) {
       for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LT((to_vec3(a[i]) - to_vec3(b[i])).norm(), 1e-6) << size << i;
     };
@@ -69,6 +80,7 @@ TEST(VectorKernels, GiveTheSameBitsOnEveryInstructionSet) {
     Vectors<float> v = start;
     v.iterate(2, 101);
     EXPECT_EQ(v.sums, widest.sums) << name;
+    EXPECT_EQ(v.moments, widest.moments) << name;
     EXPECT_EQ(std::memcmp(v.r.data(), widest.r.data(), v.r.size() * sizeof v.r[0]), 0) << name;
     EXPECT_EQ(std::memcmp(v.w.data(), widest.w.data(), v.w.size() * sizeof v.w[0]), 0) << name;
   });
