@@ -31,9 +31,9 @@ Lanes<T> some_residual(const Problem<T>& p) {
 // Few particles in one domain, or 2,900 in two.
 template <class T>
 struct Swept : Problem<T> {
-  explicit Swept(bool large)
-      : Problem<T>(large ? test::equilateral_sheet(1, 1, 0.02) : test::equilateral_sheet(0.16, 0.16, 0.02), 1.0 / 60,
-                   0.002),
+  explicit Swept(bool large) : Swept(large ? 1.0 : 0.16, large ? 1.0 : 0.16) {}
+  Swept(double width_m, double height_m)
+      : Problem<T>(test::equilateral_sheet(width_m, height_m, 0.02), 1.0 / 60, 0.002),
         r(some_residual<T>(*this)),
         s(r.size()),
         As(r.size()) {
@@ -53,8 +53,8 @@ struct Swept : Problem<T> {
 };
 
 template <class T>
-void expect_the_dense_sweep(double tolerance) {
-  Swept<T> p(false);
+void expect_the_dense_sweep(double width_m, double height_m, double tolerance) {
+  Swept<T> p(width_m, height_m);
   p.rows.clear();
   p.system.update(p.rows, p.constraints);
   p.sweep();
@@ -101,9 +101,65 @@ void expect_the_dense_sweep(double tolerance) {
   EXPECT_LT(std::sqrt(As_error), tolerance * As.norm());
 }
 
+// A square, and bands of which four strips are shorter than the matrix is wide, so that blocks couple rows of one time.
 TEST(SweepDomains, SweepsAsADenseMatrixWould) {
-  expect_the_dense_sweep<double>(1e-12);
-  expect_the_dense_sweep<float>(1e-5);
+  for (const auto& [width_m, height_m] : {std::pair(0.16, 0.16), std::pair(0.5, 0.06), std::pair(0.06, 0.5)}) {
+    SCOPED_TRACE(width_m);
+    expect_the_dense_sweep<double>(width_m, height_m, 1e-12);
+    expect_the_dense_sweep<float>(width_m, height_m, 1e-5);
+  }
+}
+
+// Of patterns without any order, from a single row on: each block of two times once, at the earlier of its rows, and none twice at once.
+TEST(StripRows, HoldEveryBlockOnceAndNeverAddToAParticleTwiceAtATime) {
+  test::Random random(7);
+  for (Index n = 1; n <= 45; ++n) {
+    std::vector<std::pair<Index, Index>> links;
+    const auto any = [&] { return std::min(n - 1, static_cast<Index>((0.5 + random.vector(0.5).x()) * n)); };
+    for (Index k = 0; k < 4 * n; ++k) {
+      const Index i = any(), j = any();
+      if (i != j) links.emplace_back(i, j);
+    }
+    BlockMatrix<float> A(std::make_shared<const BlockPattern>(n, links));
+    for (Slot slot = 0; slot < A.pattern().block_count(); ++slot) {
+      Mat3 block;
+      block << random.vector(1), random.vector(1), random.vector(1);
+      A.below(slot) = Block<float>::from(block);
+    }
+    std::array<Index, strips_at_once + 1> begin{};
+    for (Index strip = 0; strip < 4; ++strip)
+      begin[static_cast<std::size_t>(strip) + 1] =
+          begin[static_cast<std::size_t>(strip)] + n / 4 + (strip < n % 4 ? 1 : 0);
+    StripRows rows;
+    rows.arrange(A.pattern(), begin);
+    rows.copy(A);
+    const Strips strips = rows.strips();
+    std::vector<std::pair<Index, Index>> held;
+    for (Index k = 0; k < strips.rows; ++k) {
+      for (std::int32_t at = strips.begin[k]; at < strips.begin[k + 1]; ++at) {
+        const auto& to = strips.column[at].offset;
+        for (std::size_t strip = 0; strip < strips_at_once; ++strip) {
+          const Index i = strips.first[strip] + k, j = to[strip] / 4;
+          EXPECT_EQ(std::count(std::begin(to), std::end(to), to[strip]), 1) << n << ": " << i << ", " << j;
+          if (i == j) continue;  // none
+          EXPECT_LT(k, rows.time(j));
+          held.emplace_back(std::min(i, j), std::max(i, j));
+          const Block<float>& below = A.below(A.pattern().slot(std::min(i, j), std::max(i, j)));
+          const Block<float> wanted = i < j ? below : below.transpose();
+          const Lane<float> columns[3] = {wanted.c0, wanted.c1, wanted.c2};
+          for (std::size_t r = 0; r < 3; ++r)
+            EXPECT_EQ(to_vec3(strips.block[at].row[r][strip]), to_vec3(columns[r])) << n << ": " << i << ", " << j;
+        }
+      }
+    }
+    std::vector<std::pair<Index, Index>> wanted;
+    for (Index i = 0; i < n; ++i) {
+      for (Slot slot = A.pattern().first_slot(i); slot < A.pattern().end_slot(i); ++slot)
+        if (rows.time(i) != rows.time(A.pattern().column(slot))) wanted.emplace_back(i, A.pattern().column(slot));
+    }
+    std::sort(held.begin(), held.end());
+    EXPECT_EQ(held, wanted) << n;
+  }
 }
 
 TEST(SweepDomains, ReadTheBlocksAgainWhenTheyHaveChanged) {

@@ -141,6 +141,27 @@ TEST(Relinearise, SlowTurningIsBrakedUnlessSlowMotionCounts) {
   EXPECT_LT(made_slow, 0.01);
 }
 
+// Among more triangles than one thread looks through at a time, at either end and in the middle of them.
+TEST(Relinearise, TheThreadThatChangesMostIsFoundWhereverItIs) {
+  for (const double part : {0.0, 0.5, 1.0}) {
+    ClothRun run(test::equilateral_sheet(0.8, 0.8, 0.02), test::linear_cotton(), weightless());
+    const std::vector<Triangle>& triangles = run.model.mesh.triangles;
+    ASSERT_GT(triangles.size(), 3000u);
+    const auto t = static_cast<std::size_t>(part * static_cast<double>(triangles.size() - 1));
+    const Index corner = triangles[t][0];
+    run.state.v[static_cast<std::size_t>(corner)] = Vec3(0, 60, 0);
+    const End end = attempt(run, 1.0 / 60, 0);
+    EXPECT_EQ(end.report.status, StepStatus::stretched) << part;
+    ASSERT_GE(end.report.worst_triangle, 0) << part;
+    const Triangle& worst = triangles[static_cast<std::size_t>(end.report.worst_triangle)];
+    double nearest_m = 1;
+    for (const Index i : worst)
+      nearest_m = std::min(
+          nearest_m, (run.state.x[static_cast<std::size_t>(i)] - run.state.x[static_cast<std::size_t>(corner)]).norm());
+    EXPECT_LT(nearest_m, 0.03) << part;
+  }
+}
+
 // Threads pushed together by 3 % and drawn apart at 9 /s: by the stiffness they had while slack they would pass their length by as much
 // as 12 %; taut they stop at it.
 TEST(Relinearise, AThreadThatIsDrawnTautStopsAtItsLength) {
