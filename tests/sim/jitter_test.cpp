@@ -48,7 +48,8 @@ Scene on_a_twisting_head(const std::string& aside_m) {
                      "s.json");
 }
 
-// Of single starts one in five is over it, however exactly steps are solved: a corner snaps over.
+// Of single starts one in five to three is over it, however exactly steps are solved: a corner snaps over.  Solved to 0.1 instead of 0.01
+// the median is 88.
 TEST(JitterOfARun, IsSmallInTheMedianOfSevenStarts) {
   std::vector<double> p99;
   for (const char* aside_m : {"-0.006", "-0.004", "-0.002", "0", "0.002", "0.004", "0.006"}) {
