@@ -1,7 +1,6 @@
 #include "assembly/block_matrix.hpp"
 
 #include "assembly/block_kernels.hpp"
-#include "core/error.hpp"
 #include "core/parallel.hpp"
 
 #include <algorithm>
@@ -20,62 +19,6 @@ std::uint64_t next_version() {
 }
 
 }  // namespace
-
-BlockPattern::BlockPattern(Index particle_count, std::vector<std::pair<Index, Index>> links) {
-  for (auto& [a, b] : links) {
-    if (a > b) std::swap(a, b);
-  }
-  std::sort(links.begin(), links.end());
-  links.erase(std::unique(links.begin(), links.end()), links.end());
-  row_begin_.assign(static_cast<std::size_t>(particle_count) + 1, 0);
-  column_.reserve(links.size());
-  for (const auto& [a, b] : links) {
-    if (a == b) continue;
-    ++row_begin_[static_cast<std::size_t>(a) + 1];
-    column_.push_back(b);
-  }
-  for (std::size_t i = 1; i < row_begin_.size(); ++i) row_begin_[i] += row_begin_[i - 1];
-
-  above_begin_.assign(row_begin_.size(), 0);
-  for (const Index j : column_) ++above_begin_[static_cast<std::size_t>(j) + 1];
-  for (std::size_t i = 1; i < above_begin_.size(); ++i) above_begin_[i] += above_begin_[i - 1];
-  above_.resize(column_.size());
-  std::vector<std::int32_t> next(above_begin_.begin(), above_begin_.end() - 1);
-  for (Index i = 0; i < rows(); ++i) {
-    for (Slot s = first_slot(i); s < end_slot(i); ++s)
-      above_[static_cast<std::size_t>(next[static_cast<std::size_t>(column(s))]++)] = {i, s};
-  }
-  find_pieces();
-}
-
-void BlockPattern::find_pieces() {
-  piece_.assign(static_cast<std::size_t>(rows()), -1);
-  std::vector<Index> reached;
-  const auto reach = [&](Index i) {
-    if (piece_[static_cast<std::size_t>(i)] >= 0) return;
-    piece_[static_cast<std::size_t>(i)] = static_cast<Index>(piece_size_.size()) - 1;
-    ++piece_size_.back();
-    reached.push_back(i);
-  };
-  for (Index start = 0; start < rows(); ++start) {
-    if (piece(start) >= 0) continue;
-    piece_size_.push_back(0);
-    reach(start);
-    while (!reached.empty()) {
-      const Index i = reached.back();
-      reached.pop_back();
-      for (const Above& above : this->above(i)) reach(above.row);
-      for (Slot s = first_slot(i); s < end_slot(i); ++s) reach(column(s));
-    }
-  }
-}
-
-Slot BlockPattern::slot(Index row, Index column) const {
-  const auto begin = column_.begin() + first_slot(row), end = column_.begin() + end_slot(row);
-  const auto found = std::lower_bound(begin, end, column);
-  TOILE_ASSERT(found != end && *found == column);
-  return static_cast<Slot>(found - column_.begin());
-}
 
 template <class T>
 BlockMatrix<T>::BlockMatrix(std::shared_ptr<const BlockPattern> pattern)

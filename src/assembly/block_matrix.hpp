@@ -13,6 +13,7 @@
 // with G_i the part that knows where it is in the world (mass, drag, attachments).  In float, a stiff A_ii x_i + sum A_ij x_j
 // would lose a translation in cancellation (about 1e-3 of the mass term at 3000 N/m); like this it is exact.
 #pragma once
+#include "assembly/block_pattern.hpp"
 #include "assembly/lane.hpp"
 
 #include <Eigen/Core>
@@ -20,46 +21,9 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace toile {
-
-using Slot = std::int32_t;  // position of a block in the value array
-
-class BlockPattern {
- public:
-  // `links` are unordered particle pairs that share an element; duplicates are fine.
-  BlockPattern(Index particle_count, std::vector<std::pair<Index, Index>> links);
-
-  Index rows() const { return static_cast<Index>(row_begin_.size()) - 1; }
-  Slot block_count() const { return static_cast<Slot>(column_.size()); }
-  Slot first_slot(Index row) const { return row_begin_[static_cast<std::size_t>(row)]; }
-  Slot end_slot(Index row) const { return row_begin_[static_cast<std::size_t>(row) + 1]; }
-  Index column(Slot slot) const { return column_[static_cast<std::size_t>(slot)]; }
-  Slot slot(Index row, Index column) const;  // row < column; asserts that the block exists
-  // The stored blocks of column i, rows ascending: what a gather over the rows of the whole matrix needs besides row i.
-  struct Above {
-    Index row;
-    Slot slot;
-  };
-  std::span<const Above> above(Index i) const {
-    const auto first = static_cast<std::size_t>(above_begin_[static_cast<std::size_t>(i)]);
-    return {above_.data() + first, static_cast<std::size_t>(above_begin_[static_cast<std::size_t>(i) + 1]) - first};
-  }
-  // Numbers of the pieces of cloth that no element connects, from 0.
-  Index piece(Index row) const { return piece_[static_cast<std::size_t>(row)]; }
-  std::span<const Index> piece_sizes() const { return piece_size_; }
-
- private:
-  void find_pieces();
-
-  std::vector<Slot> row_begin_;
-  std::vector<Index> column_;
-  std::vector<std::int32_t> above_begin_;
-  std::vector<Above> above_;
-  std::vector<Index> piece_, piece_size_;
-};
 
 // Of a matrix in single precision, for those who walk along its rows (assembly/block_kernels.hpp).
 struct BlockRows {

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 namespace toile {
@@ -80,6 +81,33 @@ PlanarMesh triangulate(std::span<const Vec2> outline, double edge_m) {
   return result;
 }
 
+namespace {
+
+// Point by point across the longer axis, row after row along it: neighbours have numbers near each other.
+void number_by_rows(PlanarMesh& mesh, Eigen::Index longer_axis, double row_m) {
+  const auto row = [&](const Vec2& p) { return std::lround(p[longer_axis] / row_m); };
+  const auto before = [&](Index a, Index b) {
+    const Vec2 &p = mesh.points[at(a)], &q = mesh.points[at(b)];
+    if (row(p) != row(q)) return row(p) < row(q);
+    return p[1 - longer_axis] != q[1 - longer_axis] ? p[1 - longer_axis] < q[1 - longer_axis] : a < b;
+  };
+  std::vector<Index> order(mesh.points.size()), number(mesh.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), before);
+  std::vector<Vec2> points;
+  points.reserve(order.size());
+  for (const Index i : order) {
+    number[at(i)] = static_cast<Index>(points.size());
+    points.push_back(mesh.points[at(i)]);
+  }
+  mesh.points = std::move(points);
+  for (Triangle& t : mesh.triangles) {
+    for (Index& corner : t) corner = number[at(corner)];
+  }
+}
+
+}  // namespace
+
 PlanarMesh equilateral_sheet(double width_m, double height_m, double edge_m) {
   const auto check = [](double value, const char* name) {
     if (!(value > 0) || !std::isfinite(value))
@@ -97,7 +125,9 @@ PlanarMesh equilateral_sheet(double width_m, double height_m, double edge_m) {
   for (int i = 0; i < ny; ++i) outline.emplace_back(width_m, height_m * i / ny);
   for (int i = nx; i > 0; --i) outline.emplace_back(width_m * i / nx, height_m);
   for (int i = ny; i > 0; --i) outline.emplace_back(0.0, height_m * i / ny);
-  return triangulate(outline, edge_m);
+  PlanarMesh mesh = triangulate(outline, edge_m);
+  number_by_rows(mesh, width_m > height_m ? 0 : 1, edge_m * std::sqrt(0.75));
+  return mesh;
 }
 
 PlanarQuality planar_quality(const PlanarMesh& mesh) {

@@ -69,6 +69,7 @@ class OutfitRun {
   bool settled() const;
   PhaseSeconds seconds() const { return stepper_->integrator().seconds(); }
   const ClothModel& model() const { return model_; }
+  double stored_in_contacts_J() const { return stepper_->integrator().contact_rows().stored_J(); }
   LayerGap layer_gap() { return stepper_->integrator().contact_rows().layer_gap(outfit_->state.x); }
   std::span<const Pin> pins() const { return world_.pins; }  // of the last frame
 

@@ -125,7 +125,7 @@ CoarseSpace<T>::CoarseSpace(const ClothMesh& mesh) {
   rhs_.resize(static_cast<std::size_t>(dimension()));
 }
 
-// Which aggregates the row of a particle reaches.
+// Which aggregates the row of a particle reaches, in the order of places.
 template <class T>
 void CoarseSpace<T>::find_entries(const BlockPattern& pattern) {
   pattern_ = &pattern;
@@ -133,7 +133,15 @@ void CoarseSpace<T>::find_entries(const BlockPattern& pattern) {
   entry_begin_.assign(1, 0);
   entry_begin_.reserve(n + 1);
   entry_aggregate_.clear();
-  for (Index i = 0; i < pattern.rows(); ++i) {
+  for (std::vector<Index>& members : members_) {  // in the order in which their entries lie
+    std::sort(members.begin(), members.end(), [&](Index a, Index b) { return pattern.place(a) < pattern.place(b); });
+  }
+  basis_at_.resize(n);
+  aggregate_at_.resize(n);
+  for (Index place = 0; place < pattern.rows(); ++place) {
+    const Index i = pattern.row_at(place);
+    basis_at_[static_cast<std::size_t>(place)] = basis_[static_cast<std::size_t>(i)];
+    aggregate_at_[static_cast<std::size_t>(place)] = aggregate_[static_cast<std::size_t>(i)];
     const auto reach = [&](Index particle) {
       const Index aggregate = aggregate_[static_cast<std::size_t>(particle)];
       const auto first = entry_aggregate_.begin() + entry_begin_.back();
@@ -146,7 +154,7 @@ void CoarseSpace<T>::find_entries(const BlockPattern& pattern) {
     entry_begin_.push_back(static_cast<std::int32_t>(entry_aggregate_.size()));
   }
   const auto entry = [&](Index i, Index aggregate) {
-    std::int32_t e = entry_begin_[static_cast<std::size_t>(i)];
+    std::int32_t e = entry_begin_[static_cast<std::size_t>(pattern.place(i))];
     while (entry_aggregate_[static_cast<std::size_t>(e)] != aggregate) ++e;
     return e;
   };
@@ -173,8 +181,8 @@ void CoarseSpace<T>::find_blocks() {
   for (Index aggregate = 0; aggregate < aggregate_count_; ++aggregate) {
     const auto first = static_cast<std::ptrdiff_t>(couples_of_A_.size());
     for (const Index member : members_[static_cast<std::size_t>(aggregate)]) {
-      const auto i = static_cast<std::size_t>(member);
-      for (auto e = static_cast<std::size_t>(entry_begin_[i]); e < static_cast<std::size_t>(entry_begin_[i + 1]); ++e) {
+      const auto p = static_cast<std::size_t>(pattern_->place(member));
+      for (auto e = static_cast<std::size_t>(entry_begin_[p]); e < static_cast<std::size_t>(entry_begin_[p + 1]); ++e) {
         if (entry_aggregate_[e] > aggregate) continue;
         const std::pair<Index, Index> couple{entry_aggregate_[e], aggregate};
         const auto found = std::find(couples_of_A_.begin() + first, couples_of_A_.end(), couple);
@@ -250,10 +258,12 @@ void CoarseSpace<T>::multiply_basis(const LinearSystem<T>& system) {
     if (!stale_[row]) return;
     const DenormalsAreZero here;
     const auto i = static_cast<Index>(row);
-    const auto own = static_cast<std::size_t>(entry_begin_[row]), end = static_cast<std::size_t>(entry_begin_[row + 1]);
+    const auto place = static_cast<std::size_t>(pattern.place(i));
+    const auto own = static_cast<std::size_t>(entry_begin_[place]),
+               end = static_cast<std::size_t>(entry_begin_[place + 1]);
     Columns none;
     none.fill(to_lane<T>(Vec3::Zero()));
-    std::fill(AZ_.begin() + entry_begin_[row], AZ_.begin() + entry_begin_[row + 1], none);
+    std::fill(AZ_.begin() + entry_begin_[place], AZ_.begin() + entry_begin_[place + 1], none);
     const std::array<T, 3> q_i = q_of(i);
     const bool i_free = constraints.is_free(i);
     const Block<T> S_i = Block<T>::from(constraints.S(i));
@@ -293,9 +303,9 @@ void CoarseSpace<T>::sum_columns(std::size_t aggregate) {
   std::fill(E_of_A_.begin() + couple_begin_[aggregate], E_of_A_.begin() + couple_begin_[aggregate + 1],
             std::array<double, 81>{});
   for (const Index member : members) {
-    const auto i = static_cast<std::size_t>(member);
-    const double q[3] = {basis_[i][0], basis_[i][1], basis_[i][2]};
-    for (auto e = static_cast<std::size_t>(entry_begin_[i]); e < static_cast<std::size_t>(entry_begin_[i + 1]); ++e) {
+    const auto p = static_cast<std::size_t>(pattern_->place(member));
+    const double q[3] = {basis_at_[p][0], basis_at_[p][1], basis_at_[p][2]};
+    for (auto e = static_cast<std::size_t>(entry_begin_[p]); e < static_cast<std::size_t>(entry_begin_[p + 1]); ++e) {
       if (entry_couple_[e] < 0) continue;
       std::array<double, 81>& block = E_of_A_[static_cast<std::size_t>(entry_couple_[e])];
       for (std::size_t m = 0; m < 9; ++m) {
@@ -386,7 +396,7 @@ template <class T>
 void CoarseSpace<T>::restrict(Index begin, Index end, std::span<const Lane<T>> r, std::span<const Lane<T>> At,
                               std::span<double> sum) const {
   std::fill(sum.begin(), sum.end(), 0.0);  // S^T r = r, so it is left out
-  add_moments(begin, end, r.data(), At.data(), basis_.data(), aggregate_.data(), sum.data());
+  add_moments(begin, end, r.data(), At.data(), basis_at_.data(), aggregate_at_.data(), sum.data());
 }
 
 template <class T>
@@ -412,8 +422,8 @@ void CoarseSpace<T>::solve(std::span<const std::vector<double>> parts, Solution&
 template <class T>
 void CoarseSpace<T>::prolong(const Solution& solution, Index begin, Index end, std::span<Lane<T>> Zy) const {
   for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
-    const Lane<T>* abc = &solution.affine[static_cast<std::size_t>(aggregate_[p]) * 3];
-    Zy[p] = abc[0] + abc[1] * static_cast<T>(basis_[p][1]) + abc[2] * static_cast<T>(basis_[p][2]);
+    const Lane<T>* abc = &solution.affine[static_cast<std::size_t>(aggregate_at_[p]) * 3];
+    Zy[p] = abc[0] + abc[1] * static_cast<T>(basis_at_[p][1]) + abc[2] * static_cast<T>(basis_at_[p][2]);
   }
 }
 

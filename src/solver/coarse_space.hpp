@@ -35,8 +35,8 @@ class CoarseSpace {
 
   // A' Z and the factor of E.  Call when A, the rows or the constraints have changed.
   void factorise(const LinearSystem<T>& system);
-  // t += Q (r - At) and At += A' Q (r - At) in three parts, for those who share the work; r and At in the range of S.
-  //   restrict   sum = Z^T (r - At) of particles [begin, end): their part of `dimension()` numbers
+  // t += Q (r - At) and At += A' Q (r - At) in parts, for those who share the work; r and At in the range of S, all in the order of places.
+  //   restrict   sum = Z^T (r - At) of places [begin, end): their part of `dimension()` numbers
   //   solve      y = E^-1 of all parts, added in their order; cheaper for each to do than to wait for one
   //   prolong    Zy = Z y but for S, which is the caller's,
   //   add        t += Zy, and At += A' Z y without the rows, which are the caller's
@@ -51,7 +51,7 @@ class CoarseSpace {
   void prolong(const Solution& solution, Index begin, Index end, std::span<Lane<T>> Zy) const;
   void add(const Solution& solution, Index begin, Index end, std::span<const Lane<T>> Zy, std::span<Lane<T>> t,
            std::span<Lane<T>> At) const;
-  // dv += Q r in double; r must lie in the range of S.
+  // dv += Q r in double, by particles; r must lie in the range of S.
   void correct(const LinearSystem<T>& system, std::span<const Vec3> r, std::span<Vec3> dv);
 
  private:
@@ -69,10 +69,12 @@ class CoarseSpace {
 
   int aggregate_count_ = 0;
   std::vector<Index> aggregate_;             // [particle]
-  std::vector<std::vector<Index>> members_;  // [aggregate] particles, ascending
+  std::vector<std::vector<Index>> members_;  // [aggregate] particles, their places ascending
   std::vector<Vec3> basis_;                  // [particle] (1, u', v')
+  std::vector<Index> aggregate_at_;          // both [place]
+  std::vector<Vec3> basis_at_;
   const BlockPattern* pattern_ = nullptr;
-  std::vector<std::int32_t> entry_begin_;                // [particle] the first entry is that of its own aggregate
+  std::vector<std::int32_t> entry_begin_;                // [place] the first entry is that of its own aggregate
   std::vector<Index> entry_aggregate_;                   // [entry]
   std::vector<std::array<std::int32_t, 2>> slot_entry_;  // [slot (i, j)] entry of i for j's aggregate, of j for i's
   std::vector<Columns> AZ_;                              // [entry]

@@ -26,17 +26,16 @@ void LinearSystem<T>::update(std::span<const ImplicitRow> rows, const ParticleCo
   rows_ = rows;
   constraints_ = &constraints;
   const auto n = static_cast<std::size_t>(size());
-  inverse_block_.resize(n);
+  inverse_at_.resize(n);
   inverse_.assign(A_->diagonals().begin(), A_->diagonals().end());
   add_diagonals(inverse_);
   fast_rows_.clear();
   for (const ImplicitRow& row : rows) {
-    Row fast{row.particle,
-             {},
-             to_lane<T>(row.direction),
-             static_cast<T>(row.a),
-             row.particle[1] < 0 && row.particle[2] < 0 && row.particle[3] < 0};
-    for (std::size_t k = 0; k < 4; ++k) fast.weight[k] = static_cast<T>(row.weight[k]);
+    Row fast{row.particle, row.particle, {}, to_lane<T>(row.direction), static_cast<T>(row.a)};
+    for (std::size_t k = 0; k < 4; ++k) {
+      fast.weight[k] = static_cast<T>(row.weight[k]);
+      if (row.particle[k] >= 0) fast.place[k] = A_->pattern().place(row.particle[k]);
+    }
     fast_rows_.push_back(fast);
   }
   parallel_for(n, 1024, [&](std::size_t i) {
@@ -50,7 +49,7 @@ void LinearSystem<T>::update(std::span<const ImplicitRow> rows, const ParticleCo
       const Mat3 D = S * diagonal * S + sigma * (Mat3::Identity() - S);
       inverse_[i] = S * D.inverse() * S;
     }
-    inverse_block_[i] = Block<T>::from(inverse_[i]);
+    inverse_at_[static_cast<std::size_t>(A_->pattern().place(particle))] = Block<T>::from(inverse_[i]);
   });
   filter_.clear();
   for (const Index i : constraints.constrained()) filter_.push_back(Block<T>::from(constraints.S(i)));
@@ -75,37 +74,36 @@ std::vector<Mat3> LinearSystem<T>::diagonals() const {
 }
 
 template <class T>
+T LinearSystem<T>::pull(const Row& row, const std::array<Index, 4>& at, std::span<const Lane<T>> x) {
+  T sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (at[k] < 0) continue;
+    const Lane<T> product = x[static_cast<std::size_t>(at[k])] * row.direction;
+    sum += row.weight[k] * (product[0] + product[1] + product[2]);
+  }
+  return row.a * sum;
+}
+
+template <class T>
 void LinearSystem<T>::multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const {
   A_->multiply(x, y);
   for (const Row& row : fast_rows_) {
-    T sum = 0;
+    const T pulled = pull(row, row.particle, x);
     for (std::size_t k = 0; k < 4; ++k) {
-      if (row.particle[k] >= 0) sum += row.part_of(k, x);
-    }
-    sum *= row.a;
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (row.particle[k] >= 0) y[static_cast<std::size_t>(row.particle[k])] += row.direction * (row.weight[k] * sum);
+      if (row.particle[k] >= 0)
+        y[static_cast<std::size_t>(row.particle[k])] += row.direction * (row.weight[k] * pulled);
     }
   }
   filter(y);
 }
 
 template <class T>
-void LinearSystem<T>::add_row(std::size_t index, unsigned ends, RowPart part, std::span<const Lane<T>> x,
-                              std::span<Lane<T>> y) const {
+void LinearSystem<T>::add_row_by_place(std::size_t index, unsigned ends, std::span<const Lane<T>> x,
+                                       std::span<Lane<T>> y) const {
   const Row& row = fast_rows_[index];
-  if (row.single && part == RowPart::off_diagonal) return;
-  std::array<T, 4> parts{};
-  T sum = 0;
+  const T pulled = pull(row, row.place, x);
   for (std::size_t k = 0; k < 4; ++k) {
-    if (row.particle[k] < 0) continue;
-    parts[k] = row.part_of(k, x);
-    sum += parts[k];
-  }
-  for (std::size_t k = 0; k < 4; ++k) {
-    if ((ends >> k & 1u) == 0) continue;
-    const T others = part == RowPart::off_diagonal ? sum - parts[k] : sum;
-    y[static_cast<std::size_t>(row.particle[k])] += row.direction * (row.a * row.weight[k] * others);
+    if ((ends >> k & 1u) != 0) y[static_cast<std::size_t>(row.place[k])] += row.direction * (row.weight[k] * pulled);
   }
 }
 
@@ -120,14 +118,11 @@ void LinearSystem<T>::add_row(std::size_t index, unsigned ends, std::span<const 
 }
 
 template <class T>
-void LinearSystem<T>::filter_held(std::size_t held, std::span<Lane<T>> y) const {
-  Lane<T>& y_i = y[static_cast<std::size_t>(constraints_->constrained()[held])];
-  y_i = filter_[held].times(y_i);
-}
-
-template <class T>
 void LinearSystem<T>::filter(std::span<Lane<T>> y) const {
-  for (std::size_t held = 0; held < filter_.size(); ++held) filter_held(held, y);
+  for (std::size_t held = 0; held < filter_.size(); ++held) {
+    Lane<T>& y_i = y[static_cast<std::size_t>(constraints_->constrained()[held])];
+    y_i = filtered(held, y_i);
+  }
 }
 
 template <class T>

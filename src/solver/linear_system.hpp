@@ -4,7 +4,8 @@
 //
 // A' is an ordinary symmetric positive definite matrix, so every preconditioner works on it.  A itself is never overwritten:
 // a held particle needs all of its row for its constraint force (I - S)(A dv - b)/h.  sigma_i = trace(A_ii)/3 keeps the spectrum.
-// All vectors of the iteration stay in the range of S.
+// All vectors of the iteration stay in the range of S.  Those of single precision that sweeps work on are in the order of the pattern's places;
+// all others in that of particles.
 #pragma once
 #include "assembly/block_matrix.hpp"
 #include "assembly/implicit_row.hpp"
@@ -14,9 +15,6 @@
 #include <vector>
 
 namespace toile {
-
-// Of R = sum a g g^T: all of it, or what lies off its block diagonal.
-enum class RowPart { whole, off_diagonal };
 
 template <class T>
 class LinearSystem {
@@ -31,14 +29,14 @@ class LinearSystem {
   const ParticleConstraints& constraints() const { return *constraints_; }
   Index size() const { return A_->rows(); }
 
-  // y = A' x for x in the range of S.
+  // y = A' x for x in the range of S, and y <- S y.
   void multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
-  // The pieces of it, for those who share the work:  what a row of R x gives to those of its particles whose bit k is set in `ends`;  y <- S y
-  // of the held particle at a position of ParticleConstraints::constrained.
-  void add_row(std::size_t row, unsigned ends, RowPart part, std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
+  void filter(std::span<Lane<T>> y) const;
+  // For those who share the work: what a row of sum a g g^T x gives to those of its particles whose bit k is set in `ends`.
   void add_row(std::size_t row, unsigned ends, std::span<const Vec3> x, std::span<Vec3> y) const;
-  void filter_held(std::size_t held, std::span<Lane<T>> y) const;
-  void filter(std::span<Lane<T>> y) const;  // all of them
+  void add_row_by_place(std::size_t row, unsigned ends, std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
+  // S y of the held particle at a position of ParticleConstraints::constrained.
+  Lane<T> filtered(std::size_t held, const Lane<T>& y) const { return filter_[held].times(y); }
   // y = (A + sum a g g^T) x, unfiltered, in double, and as much momentum as it must be.
   void multiply_unfiltered(std::span<const Vec3> x, std::span<Vec3> y) const;
   // y = (A + sum a g g^T) z of the constraints' z, which only held particles have.
@@ -48,9 +46,9 @@ class LinearSystem {
   // y += sum a g g^T x, its part of the rows.
   void add_rows(std::span<const Vec3> x, std::span<Vec3> y) const;
 
-  // G_i = S_i D_i^-1 S_i with D_i the diagonal block of A', in double and in T.
+  // G_i = S_i D_i^-1 S_i with D_i the diagonal block of A', in double, and in T by places.
   const Mat3& filtered_inverse(Index i) const { return inverse_[static_cast<std::size_t>(i)]; }
-  const Block<T>& filtered_inverse_block(Index i) const { return inverse_block_[static_cast<std::size_t>(i)]; }
+  std::span<const Block<T>> filtered_inverses_by_place() const { return inverse_at_; }
   // A_ii + rows, before filtering; made when asked for.
   std::vector<Mat3> diagonals() const;
 
@@ -58,24 +56,21 @@ class LinearSystem {
 
  private:
   struct Row {  // an ImplicitRow in the precision of the iteration
-    std::array<Index, 4> particle;
+    std::array<Index, 4> particle, place;
     std::array<T, 4> weight;
     Lane<T> direction;
     T a;
-    bool single;  // all of it is on the diagonal
-    T part_of(std::size_t k, std::span<const Lane<T>> x) const {
-      const Lane<T> product = x[static_cast<std::size_t>(particle[k])] * direction;
-      return weight[k] * (product[0] + product[1] + product[2]);
-    }
   };
+  // a g^T x, with x of the row's particles at those positions.
+  static T pull(const Row& row, const std::array<Index, 4>& at, std::span<const Lane<T>> x);
   const BlockMatrix<T>* A_;
   std::span<const ImplicitRow> rows_;
   std::vector<Row> fast_rows_;
   const ParticleConstraints* constraints_ = nullptr;
   void add_diagonals(std::span<Mat3> of_particles) const;  // of the rows
   std::vector<Mat3> inverse_;
-  std::vector<Block<T>> inverse_block_;
-  std::vector<Block<T>> filter_;  // S of the constrained particles, in their order
+  std::vector<Block<T>> inverse_at_;  // [place]
+  std::vector<Block<T>> filter_;      // S of the constrained particles, in their order
 };
 
 extern template class LinearSystem<float>;

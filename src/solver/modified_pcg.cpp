@@ -74,8 +74,11 @@ void ModifiedPcg<T>::prepare(const LinearSystem<T>& system, const PcgOptions& op
   if (options.preconditioner == Preconditioner::block_ssor_coarse) coarse_.factorise(system);
   if (options.preconditioner == Preconditioner::diagonal) {
     inverse_diagonal_.clear();
-    for (const Mat3& D : system.diagonals())
+    const std::vector<Mat3> diagonals = system.diagonals();
+    for (Index place = 0; place < system.size(); ++place) {
+      const Mat3& D = diagonals[static_cast<std::size_t>(system.A().pattern().row_at(place))];
       inverse_diagonal_.push_back(to_lane<T>(Vec3(1 / D(0, 0), 1 / D(1, 1), 1 / D(2, 2))));
+    }
   }
 }
 
@@ -88,12 +91,13 @@ void ModifiedPcg<T>::for_own_domains(const Share& share, const Work& work) const
     work(d);
 }
 
-// work(particle) for the particles of one member.
+// work(particle, place) for the particles of one member.
 template <class T>
 template <class Work>
 void ModifiedPcg<T>::for_own_particles(const Share& share, const Work& work) const {
   for_own_domains(share, [&](std::size_t d) {
-    for (Index i = domains_.begin(d); i < domains_.end(d); ++i) work(static_cast<std::size_t>(i));
+    for (Index place = domains_.begin(d); place < domains_.end(d); ++place)
+      work(static_cast<std::size_t>(domains_.particle_at(place)), static_cast<std::size_t>(place));
   });
 }
 
@@ -114,27 +118,51 @@ double ModifiedPcg<T>::sum_over_domains(Share& share, const Part& part) {
 template <class T>
 void ModifiedPcg<T>::precondition(const LinearSystem<T>& system, Preconditioner kind, Share& share) {
   const std::size_t n = r_.size();
-  if (kind == Preconditioner::diagonal || kind == Preconditioner::block_jacobi) {  // by one member
-    if (kind == Preconditioner::diagonal) {
-      for (std::size_t i = 0; i < n; ++i) s_[i] = inverse_diagonal_[i] * r_[i];
-      for (const Index i : system.constraints().constrained()) {
-        Lane<T>& s_i = s_[static_cast<std::size_t>(i)];
-        s_i = to_lane<T>(system.constraints().S(i) * to_vec3(s_i));
-      }
-    } else {
-      for (std::size_t i = 0; i < n; ++i) s_[i] = system.filtered_inverse_block(static_cast<Index>(i)).times(r_[i]);
-    }
-    system.multiply(s_, As_);
-    return;
+  switch (kind) {
+    case Preconditioner::diagonal:  // by one member, like the next
+      for (std::size_t p = 0; p < n; ++p) s_[p] = inverse_diagonal_[p] * r_[p];
+      for (std::size_t d = 0; d < domains_.count(); ++d) domains_.filter(system, d, s_);
+      return multiply(system, s_, As_);
+    case Preconditioner::block_jacobi:
+      for (std::size_t p = 0; p < n; ++p) s_[p] = system.filtered_inverses_by_place()[p].times(r_[p]);
+      return multiply(system, s_, As_);
+    case Preconditioner::block_ssor:
+      return sweep(system, share);
+    case Preconditioner::block_ssor_coarse:
+      sweep(system, share);
+      return deflate(system, share);
   }
-  for_own_domains(share, [&](std::size_t d) { domains_.sweep(system, d, r_, s_, As_); });
-  team_->barrier();
+}
+
+// y = A' x in the order of places.
+template <class T>
+void ModifiedPcg<T>::multiply(const LinearSystem<T>& system, std::span<const Lane<T>> x, std::span<Lane<T>> y) {
+  of_particles_.resize(x.size());
+  product_.resize(x.size());
+  const BlockPattern& pattern = system.A().pattern();
+  const auto place = [&](std::size_t i) { return static_cast<std::size_t>(pattern.place(static_cast<Index>(i))); };
+  for (std::size_t i = 0; i < x.size(); ++i) of_particles_[i] = x[place(i)];
+  system.multiply(of_particles_, product_);
+  for (std::size_t i = 0; i < x.size(); ++i) y[place(i)] = product_[i];
+}
+
+template <class T>
+void ModifiedPcg<T>::sweep(const LinearSystem<T>& system, Share& share) {
+  const std::size_t last = domains_.epochs() - 1;
   for_own_domains(share, [&](std::size_t d) {
-    domains_.add_rows(system, d, RowPart::off_diagonal, s_, As_);
-    domains_.add_between(d, s_, As_);
-    domains_.filter(system, d, As_);
+    std::copy(r_.begin() + domains_.begin(d), r_.begin() + domains_.end(d), As_.begin() + domains_.begin(d));
   });
-  if (kind == Preconditioner::block_ssor_coarse) deflate(system, share);
+  for (std::size_t epoch = 0;; ++epoch) {
+    for_own_domains(share, [&](std::size_t d) { domains_.forward(system, d, epoch, s_, As_); });
+    if (epoch == last) break;
+    team_->barrier();
+  }
+  for (std::size_t epoch = last;; --epoch) {
+    for_own_domains(share, [&](std::size_t d) { domains_.backward(system, d, epoch, s_, As_); });
+    team_->barrier();
+    if (epoch == 0) break;
+  }
+  for_own_domains(share, [&](std::size_t d) { domains_.finish(system, d, s_, As_); });
 }
 
 // s += Q (r - As),  As += A' Q (r - As): no residual is left in the coarse modes.
@@ -153,7 +181,7 @@ void ModifiedPcg<T>::deflate(const LinearSystem<T>& system, Share& share) {
   team_->barrier();  // the parts may be written again, and Zy is complete
   if (system.rows().empty()) return;
   for_own_domains(share, [&](std::size_t d) {
-    domains_.add_rows(system, d, RowPart::whole, Zy_, As_);
+    domains_.add_rows(system, d, Zy_, As_);
     domains_.filter(system, d, As_);
   });
 }
@@ -161,35 +189,37 @@ void ModifiedPcg<T>::deflate(const LinearSystem<T>& system, Share& share) {
 // w += Q r,  r -= A' Q r: the residual of the coarse modes goes.
 template <class T>
 void ModifiedPcg<T>::correct_coarse_modes(const LinearSystem<T>& system, Share& share) {
-  for_own_particles(share, [&](std::size_t i) { s_[i] = As_[i] = Lane<T>{0, 0, 0, 0}; });
+  for_own_particles(share, [&](std::size_t, std::size_t p) { s_[p] = As_[p] = Lane<T>{0, 0, 0, 0}; });
   deflate(system, share);
-  for_own_particles(share, [&](std::size_t i) {
-    w_[i] += s_[i];
-    r_[i] -= As_[i];
+  for_own_particles(share, [&](std::size_t, std::size_t p) {
+    w_[p] += s_[p];
+    r_[p] -= As_[p];
   });
 }
 
 template <class T>
 double ModifiedPcg<T>::residual_norm2(const LinearSystem<T>& system, Share& share) {
   return sum_over_domains(share, [&](Index begin, Index end) {
-    return toile::residual_norm2(begin, end, &system.filtered_inverse_block(0), r_.data());
+    return toile::residual_norm2(begin, end, system.filtered_inverses_by_place().data(), r_.data());
   });
 }
 
 // r = S (b - A (start + w)), with the product in double.
 template <class T>
 void ModifiedPcg<T>::true_residual(const LinearSystem<T>& system, std::span<const Vec3> b, const Share& share) {
-  for_own_particles(share, [&](std::size_t i) { work_[i] = start_[i] + to_vec3(w_[i]); });
+  for_own_particles(share, [&](std::size_t i, std::size_t p) { work_[i] = start_[i] + to_vec3(w_[p]); });
   team_->barrier();
-  for_own_domains(share, [&](std::size_t d) {
-    system.A().multiply_rows(domains_.begin(d), domains_.end(d), work_, work2_);
-    domains_.add_rows(system, d, work_, work2_);
-  });
+  const auto part = [&](int member) {  // as the matrix is stored
+    return static_cast<Index>(static_cast<std::int64_t>(system.size()) * member / share.members);
+  };
+  system.A().multiply_rows(part(share.member), part(share.member + 1), work_, work2_);
+  team_->barrier();
+  for_own_domains(share, [&](std::size_t d) { domains_.add_rows(system, d, work_, work2_); });
   const ParticleConstraints& constraints = system.constraints();
-  for_own_particles(share, [&](std::size_t i) {
+  for_own_particles(share, [&](std::size_t i, std::size_t p) {
     const auto particle = static_cast<Index>(i);
     const Vec3 residual = b[i] - work2_[i];
-    r_[i] = to_lane<T>(constraints.is_free(particle) ? residual : Vec3(constraints.S(particle) * residual));
+    r_[p] = to_lane<T>(constraints.is_free(particle) ? residual : Vec3(constraints.S(particle) * residual));
   });
 }
 
@@ -232,8 +262,8 @@ void ModifiedPcg<T>::iterate(const LinearSystem<T>& system, std::span<const Vec3
     }
     const T alpha = static_cast<T>(delta / curvature);
     residual2 = sum_over_domains(share, [&](Index begin, Index end) {
-      return next_residual(begin, end, alpha, c_.data(), q_.data(), &system.filtered_inverse_block(0), w_.data(),
-                           r_.data());
+      return next_residual(begin, end, alpha, c_.data(), q_.data(), system.filtered_inverses_by_place().data(),
+                           w_.data(), r_.data());
     });
     ++report.iterations;
     if (report.iterations % 50 == 0) {  // rounding of the recurrence is thrown away
@@ -260,7 +290,8 @@ double ModifiedPcg<T>::find_target(const LinearSystem<T>& system, std::span<cons
                                    std::span<const Vec3> reference, const PcgOptions& options, const Share& share) {
   for_own_domains(share, [&](std::size_t d) {
     parts_[d] = {0, 0};
-    for (auto i = static_cast<std::size_t>(domains_.begin(d)); i < static_cast<std::size_t>(domains_.end(d)); ++i) {
+    for (Index place = domains_.begin(d); place < domains_.end(d); ++place) {
+      const auto i = static_cast<std::size_t>(domains_.particle_at(place));
       const Mat3& G = system.filtered_inverse(static_cast<Index>(i));  // |S a|^2 in D^-1
       const Vec3 a = b[i] - work2_[i];
       parts_[d][0] += a.dot(G * a);
@@ -299,16 +330,16 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
     Share share{member, present};
     PcgReport own;
     own.target = find_target(system, b, reference, options, share);
-    for_own_particles(share, [&](std::size_t i) {  // dv_0 = z + S w_0
+    for_own_particles(share, [&](std::size_t i, std::size_t p) {  // dv_0 = z + S w_0
       const auto particle = static_cast<Index>(i);
       start_[i] =
           constraints.is_free(particle) ? dv[i] : Vec3(constraints.z(particle) + constraints.S(particle) * dv[i]);
-      w_[i] = Lane<T>{0, 0, 0, 0};
+      w_[p] = Lane<T>{0, 0, 0, 0};
     });
     iterate(system, b, options, share, own);
-    for_own_particles(share, [&](std::size_t i) {
+    for_own_particles(share, [&](std::size_t i, std::size_t p) {
       const auto particle = static_cast<Index>(i);
-      const Vec3 w = to_vec3(w_[i]);
+      const Vec3 w = to_vec3(w_[p]);
       dv[i] = start_[i] + (constraints.is_free(particle) ? w : Vec3(constraints.S(particle) * w));
     });
     if (member == 0) report = own;

@@ -79,6 +79,8 @@ class ModifiedPcg {
   void for_own_domains(const Share& share, const Work& work) const;
   template <class Work>
   void for_own_particles(const Share& share, const Work& work) const;
+  void sweep(const LinearSystem<T>& system, Share& share);
+  void multiply(const LinearSystem<T>& system, std::span<const Lane<T>> x, std::span<Lane<T>> y);
   template <class Part>
   double sum_over_domains(Share& share, const Part& part);
 
@@ -96,8 +98,9 @@ class ModifiedPcg {
   std::vector<typename CoarseSpace<T>::Solution> solutions_;  // [member]
   std::vector<Lane<T>> r_, c_, q_;                            // residual, direction, A' c
   std::vector<Lane<T>> s_, As_, w_;                           // M^-1 r, A' s, correction to the guess
-  std::vector<Lane<T>> Zy_;                                   // the coarse part of s
-  std::vector<Lane<T>> inverse_diagonal_;                     // of the diagonal preconditioner
+  std::vector<Lane<T>> Zy_;                      // the coarse part of s; all of these in the order of places
+  std::vector<Lane<T>> inverse_diagonal_;        // [place] of the diagonal preconditioner
+  std::vector<Lane<T>> of_particles_, product_;  // of those that do not sweep
   Vec3s start_, work_, work2_;
 };
 

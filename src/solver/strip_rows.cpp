@@ -7,7 +7,9 @@
 
 namespace toile {
 
-Index StripRows::time(Index row) const { return row - *(std::upper_bound(begin_.begin(), begin_.end(), row) - 1); }
+Index StripRows::time(Index place) const {
+  return place - *(std::upper_bound(begin_.begin(), begin_.end(), place) - 1);
+}
 
 void StripRows::arrange(const BlockPattern& pattern, std::span<const Index, strips_at_once + 1> begin) {
   std::copy(begin.begin(), begin.end(), begin_.begin());
@@ -20,14 +22,17 @@ void StripRows::arrange(const BlockPattern& pattern, std::span<const Index, stri
   std::array<std::vector<std::pair<Index, Source>>, strips_at_once> blocks;
   for (Index k = 0; k < rows; ++k) {
     for (std::size_t strip = 0; strip < strips_at_once; ++strip) {
-      const Index row = begin[strip] + k;
+      const Index row = pattern.row_at(begin[strip] + k);
       blocks[strip].clear();
       const auto add = [&](Index column, Slot slot) {
-        if (column >= begin[0] && column < begin[strips_at_once] && time(column) > k)
-          blocks[strip].push_back({column, {slot, column < row}});
+        const Index place = pattern.place(column);
+        if (place >= begin[0] && place < begin[strips_at_once] && time(place) > k)
+          blocks[strip].push_back({place, {slot, column < row}});
       };
       for (Slot slot = pattern.first_slot(row); slot < pattern.end_slot(row); ++slot) add(pattern.column(slot), slot);
       for (const auto& above : pattern.above(row)) add(above.row, above.slot);
+      std::sort(blocks[strip].begin(), blocks[strip].end(),
+                [](const auto& a, const auto& b) { return a.first < b.first; });
     }
     pair_up(blocks, k);
     row_begin_.push_back(static_cast<std::int32_t>(source_.size()));

@@ -3,7 +3,6 @@
 #include "core/parallel.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <type_traits>
 
 namespace toile {
@@ -11,52 +10,122 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-// Two for up to 16,000 particles, then more: a domain costs a few iterations, and below a thousand particles waiting costs more
-// than is gained.
-std::size_t wanted_domains(std::size_t particles) {
+// Two for up to 16,000 particles, then more; below a thousand particles waiting costs more than is gained.  Few enough that a band does not
+// reach over most of a strip: what it couples would be of one epoch.
+std::size_t wanted_domains(const BlockPattern& pattern) {
+  const std::size_t particles = at(pattern.rows());
   std::size_t domains = particles < 2000 ? 1 : 2;
   while (domains < 16 && particles / domains > 8000) domains *= 2;
+  while (domains > 2 && 4 * at(pattern.bandwidth()) > 3 * particles / (domains * strips_at_once)) domains /= 2;
   return domains;
+}
+
+// The ends of neighbouring domains meet at the end of one's time and the beginning of the other's.
+std::size_t wanted_epochs(std::size_t domains, const BlockPattern& pattern) {
+  if (domains == 1) return 1;
+  return 2 * at(pattern.bandwidth()) <= at(pattern.rows()) / (domains * strips_at_once) ? 2 : 4;
+}
+
+constexpr Index times_between_stops = 8;
+
+bool same_contact(const ImplicitRow& a, const ImplicitRow& b) {
+  return a.particle == b.particle && a.weight == b.weight;
 }
 
 }  // namespace
 
 template <class T>
-std::size_t SweepDomains<T>::domain_of(Index particle) const {
-  const auto strip = std::upper_bound(strip_begin_.begin(), strip_begin_.end(), particle) - strip_begin_.begin() - 1;
+void SweepDomains<T>::Couplings::clear() {
+  earlier.clear();
+  later.clear();
+  together.clear();
+}
+
+template <class T>
+void SweepDomains<T>::Couplings::sort() {
+  const auto sooner = [](const Coupling& a, const Coupling& b) { return a.time < b.time; };
+  std::stable_sort(earlier.begin(), earlier.end(), sooner);
+  std::stable_sort(later.begin(), later.end(), sooner);
+}
+
+template <class T>
+std::size_t SweepDomains<T>::domain_of(Index place) const {
+  const auto strip = std::upper_bound(strip_begin_.begin(), strip_begin_.end(), place) - strip_begin_.begin() - 1;
   return static_cast<std::size_t>(strip) / strips_at_once;
 }
 
 template <class T>
+std::size_t SweepDomains<T>::epoch_of(Index time) const {
+  return static_cast<std::size_t>(std::upper_bound(epoch_begin_.begin(), epoch_begin_.end(), time) -
+                                  epoch_begin_.begin()) -
+         1;
+}
+
+template <class T>
+void SweepDomains<T>::add(Coupling coupling, std::vector<Couplings>& to) const {
+  const std::size_t domain = domain_of(coupling.own);
+  const Index own = time_[at(coupling.own)], other = time_[at(coupling.other)];
+  if (domain == domain_of(coupling.other)) {
+    // Together with others, if that is neither before one row is known nor after the other is needed.
+    if (other < own) {
+      coupling.time = own - own % times_between_stops > other ? own - own % times_between_stops : own;
+      to[domain].earlier.push_back(coupling);
+    } else if (other > own) {
+      const Index last = own - own % times_between_stops + times_between_stops - 1;
+      coupling.time = last < other ? last : own;
+      to[domain].later.push_back(coupling);
+    } else {
+      to[domain].together.push_back(coupling);
+    }
+    return;
+  }
+  const std::size_t own_epoch = epoch_of(own), other_epoch = epoch_of(other);
+  if (other_epoch < own_epoch) {
+    coupling.time = epoch_begin_[own_epoch];
+    to[domain].earlier.push_back(coupling);
+  } else if (other_epoch > own_epoch) {
+    coupling.time = epoch_begin_[own_epoch + 1] - 1;
+    to[domain].later.push_back(coupling);
+  } else {
+    to[domain].together.push_back(coupling);
+  }
+}
+
+template <class T>
 void SweepDomains<T>::cut(const BlockPattern& pattern) {
-  if (pattern_ == &pattern && particles_ == pattern.rows()) return;
+  if (pattern_ == &pattern && time_.size() == at(pattern.rows())) return;
   pattern_ = &pattern;
-  particles_ = pattern.rows();
-  const std::size_t n = at(particles_), domains = wanted_domains(n);
+  const std::size_t n = at(pattern.rows()), domains = wanted_domains(pattern);
   strip_begin_.assign(1, 0);
+  time_.clear();
   inner_.resize(domains);
   for (std::size_t d = 0; d < domains; ++d) {
     const std::size_t rows = n * (d + 1) / domains - n * d / domains;
     for (std::size_t strip = 0; strip < strips_at_once; ++strip) {
-      const std::size_t longer = strip < rows % strips_at_once ? 1 : 0;
-      strip_begin_.push_back(strip_begin_.back() + static_cast<Index>(rows / strips_at_once + longer));
+      const std::size_t length = rows / strips_at_once + (strip < rows % strips_at_once ? 1 : 0);
+      strip_begin_.push_back(strip_begin_.back() + static_cast<Index>(length));
+      for (std::size_t time = 0; time < length; ++time) time_.push_back(static_cast<Index>(time));
     }
     const std::span<const Index> begin = strip_begin_;
     inner_[d].arrange(pattern, begin.template last<strips_at_once + 1>());
   }
-  between_.assign(domains, {});
+  const std::size_t epochs = wanted_epochs(domains, pattern), times = (n / domains + 1) / strips_at_once + 1;
+  epoch_begin_.clear();
+  for (std::size_t epoch = 0; epoch <= epochs; ++epoch)
+    epoch_begin_.push_back(static_cast<Index>(times * epoch / epochs));
+  of_A_.assign(domains, {});
+  of_contacts_.assign(domains, {});
   rows_.assign(domains, {});
   held_.assign(domains, {});
-  for (Index i = 0; i < particles_; ++i) {
-    const std::size_t domain = domain_of(i);
+  for (Index i = 0; i < pattern.rows(); ++i) {
     for (Slot slot = pattern.first_slot(i); slot < pattern.end_slot(i); ++slot) {
-      const Index j = pattern.column(slot);
-      const std::size_t other = domain_of(j);
-      if (domain == other && inner_[domain].time(i) != inner_[domain].time(j)) continue;
-      between_[domain].push_back(Between{Block<T>{}, i, j, slot, false});
-      between_[other].push_back(Between{Block<T>{}, j, i, slot, true});
+      const Index p = pattern.place(i), q = pattern.place(pattern.column(slot));
+      if (domain_of(p) == domain_of(q) && time_[at(p)] != time_[at(q)]) continue;
+      add({Block<T>{}, p, q, slot, false}, of_A_);
+      add({Block<T>{}, q, p, slot, true}, of_A_);
     }
   }
+  for (Couplings& couplings : of_A_) couplings.sort();
   version_ = 0;
 }
 
@@ -65,10 +134,12 @@ void SweepDomains<T>::update(const LinearSystem<T>& system) {
   sort_rows(system);
   if (version_ == system.A().version()) return;  // passes of the active set change the rows only
   version_ = system.A().version();
-  parallel_for(between_.size(), 1, [&](std::size_t d) {
-    for (Between& between : between_[d]) {
-      const Block<T>& below = system.A().below(between.slot);
-      between.block = between.below ? below : below.transpose();
+  parallel_for(of_A_.size(), 1, [&](std::size_t d) {
+    for (auto* couplings : {&of_A_[d].earlier, &of_A_[d].later, &of_A_[d].together}) {
+      for (Coupling& coupling : *couplings) {
+        const Block<T>& below = system.A().below(coupling.slot);
+        coupling.block = coupling.below ? below : below.transpose();
+      }
     }
   });
   if constexpr (std::is_same_v<T, float>) {
@@ -80,72 +151,150 @@ template <class T>
 void SweepDomains<T>::sort_rows(const LinearSystem<T>& system) {
   for (auto& rows : rows_) rows.clear();
   for (auto& held : held_) held.clear();
+  for (Couplings& couplings : of_contacts_) couplings.clear();
   const std::span<const ImplicitRow> rows = system.rows();
   for (std::size_t row = 0; row < rows.size(); ++row) {
     for (unsigned k = 0; k < 4; ++k) {
       if (rows[row].particle[k] < 0) continue;
-      std::vector<OwnEnds>& own = rows_[domain_of(rows[row].particle[k])];
+      std::vector<OwnEnds>& own = rows_[domain_of(pattern_->place(rows[row].particle[k]))];
       if (own.empty() || own.back().row != static_cast<std::int32_t>(row))
         own.push_back({static_cast<std::int32_t>(row), 0});
       own.back().ends |= 1u << k;
     }
   }
+  for (std::size_t first = 0, end = 0; first < rows.size(); first = end) {
+    while (end < rows.size() && same_contact(rows[first], rows[end])) ++end;
+    couple(rows.subspan(first, end - first));
+  }
+  for (Couplings& couplings : of_contacts_) couplings.sort();
   const std::span<const Index> constrained = system.constraints().constrained();
-  for (std::size_t c = 0; c < constrained.size(); ++c) held_[domain_of(constrained[c])].push_back(c);
+  for (std::size_t c = 0; c < constrained.size(); ++c) {
+    const Index place = pattern_->place(constrained[c]);
+    held_[domain_of(place)].push_back({c, place});
+  }
 }
 
-// (D + L) D^-1 (D + U) s = r with A' = L + D + U inside a domain: rows and other domains enter the sweeps through D only.
+// The blocks off the diagonal of rows along several directions between the same particles.
+template <class T>
+void SweepDomains<T>::couple(std::span<const ImplicitRow> rows) {
+  const ImplicitRow& first = rows.front();
+  if (std::count_if(first.particle.begin(), first.particle.end(), [](Index i) { return i >= 0; }) < 2) return;
+  Mat3 K = Mat3::Zero();
+  for (const ImplicitRow& row : rows) K += row.a * row.direction * row.direction.transpose();
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t l = 0; l < 4; ++l) {
+      if (k == l || first.particle[k] < 0 || first.particle[l] < 0) continue;
+      const Index own = pattern_->place(first.particle[k]), other = pattern_->place(first.particle[l]);
+      add({Block<T>::from(first.weight[k] * first.weight[l] * K), own, other, -1, false}, of_contacts_);
+    }
+  }
+}
+
+// (D + L) D^-1 (D + U) s = r with A' = L + D + U in the order of the sweep.
 //   forward    y = (D + L)^-1 r        h = r - L y = D y
 //   backward   D s + U s = h,          so that A' s = h + L s: L s is pushed while the row of U is at hand, and no product with A'
 //              is made at all                                                                          [Eisenstat 1981]
 template <class T>
-void SweepDomains<T>::sweep(const LinearSystem<T>& system, std::size_t domain, std::span<const Lane<T>> r,
-                            std::span<Lane<T>> s, std::span<Lane<T>> As) const {
-  if constexpr (std::is_same_v<T, float>) {
-    sweep_strips(inner_[domain].strips(), &system.filtered_inverse_block(0), r.data(), s.data(), As.data());
-  } else {  // the same as it is written in books, for tests and references
-    const StripRows& inner = inner_[domain];
-    std::vector<Index> order(at(end(domain) - begin(domain)));
-    std::iota(order.begin(), order.end(), begin(domain));
-    std::stable_sort(order.begin(), order.end(), [&](Index i, Index j) { return inner.time(i) < inner.time(j); });
-    // work(j, A_ji, A_ij) of the later rows j.
-    const auto for_later = [&](Index i, const auto& work) {
-      const auto is_later = [&](Index j) {
-        return j >= begin(domain) && j < end(domain) && inner.time(j) > inner.time(i);
-      };
-      for (Slot slot = pattern_->first_slot(i); slot < pattern_->end_slot(i); ++slot) {
-        const Block<T>& below = system.A().below(slot);
-        if (is_later(pattern_->column(slot))) work(at(pattern_->column(slot)), below, below.transpose());
-      }
-      for (const auto& above : pattern_->above(i)) {
-        const Block<T>& below = system.A().below(above.slot);
-        if (is_later(above.row)) work(at(above.row), below.transpose(), below);
-      }
-    };
-    std::copy(r.begin() + begin(domain), r.begin() + end(domain), As.begin() + begin(domain));
-    for (const Index i : order) {
-      s[at(i)] = system.filtered_inverse_block(i).times(As[at(i)]);
-      for_later(i, [&](std::size_t j, const Block<T>& A_ji, const Block<T>&) { As[j] -= A_ji.times(s[at(i)]); });
+void SweepDomains<T>::forward(const LinearSystem<T>& system, std::size_t domain, std::size_t epoch,
+                              std::span<Lane<T>> s, std::span<Lane<T>> As) const {
+  const Index begin = epoch_begin_[epoch], end = epoch_begin_[epoch + 1];
+  const auto from_begin = [begin](const std::vector<Coupling>& couplings) {
+    const auto before = [](const Coupling& coupling, Index time) { return coupling.time < time; };
+    return std::lower_bound(couplings.begin(), couplings.end(), begin, before);
+  };
+  const std::array lists{&of_A_[domain].earlier, &of_contacts_[domain].earlier};
+  std::array next{from_begin(*lists[0]), from_begin(*lists[1])};
+  for (Index time = begin; time < end;) {
+    Index stop = end;
+    for (std::size_t list = 0; list < lists.size(); ++list) {
+      for (; next[list] != lists[list]->end() && next[list]->time == time; ++next[list])
+        As[at(next[list]->own)] -= next[list]->block.times(s[at(next[list]->other)]);
+      if (next[list] != lists[list]->end()) stop = std::min(stop, next[list]->time);
     }
-    for (auto row = order.rbegin(); row != order.rend(); ++row) {
-      const Index i = *row;
-      Lane<T> sum{0, 0, 0, 0};
-      for_later(i, [&](std::size_t j, const Block<T>&, const Block<T>& A_ij) { sum += A_ij.times(s[j]); });
-      s[at(i)] -= system.filtered_inverse_block(i).times(sum);
-      for_later(i, [&](std::size_t j, const Block<T>& A_ji, const Block<T>&) { As[j] += A_ji.times(s[at(i)]); });
+    forward_rows(system, domain, time, stop, s, As);
+    time = stop;
+  }
+}
+
+template <class T>
+void SweepDomains<T>::backward(const LinearSystem<T>& system, std::size_t domain, std::size_t epoch,
+                               std::span<Lane<T>> s, std::span<Lane<T>> As) const {
+  const Index begin = epoch_begin_[epoch], end = epoch_begin_[epoch + 1];
+  const auto from_end = [end](const std::vector<Coupling>& couplings) {
+    const auto before = [](const Coupling& coupling, Index time) { return coupling.time < time; };
+    return std::make_reverse_iterator(std::lower_bound(couplings.begin(), couplings.end(), end, before));
+  };
+  const std::span<const Block<T>> G = system.filtered_inverses_by_place();
+  const std::array lists{&of_A_[domain].later, &of_contacts_[domain].later};
+  std::array next{from_end(*lists[0]), from_end(*lists[1])};
+  for (Index time = end; time > begin;) {  // the first that is done
+    Index stop = begin;
+    for (std::size_t list = 0; list < lists.size(); ++list) {
+      for (; next[list] != lists[list]->rend() && next[list]->time == time - 1; ++next[list]) {
+        const std::size_t own = at(next[list]->own);
+        s[own] -= G[own].times(next[list]->block.times(s[at(next[list]->other)]));
+      }
+      if (next[list] != lists[list]->rend()) stop = std::max(stop, next[list]->time + 1);
+    }
+    backward_rows(system, domain, stop, time, s, As);
+    time = stop;
+  }
+}
+
+// L s of what is not in the strips, and both ways what is in no sweep.
+template <class T>
+void SweepDomains<T>::finish(const LinearSystem<T>& system, std::size_t domain, std::span<const Lane<T>> s,
+                             std::span<Lane<T>> As) const {
+  for (const Couplings* couplings : {&of_A_[domain], &of_contacts_[domain]}) {
+    for (const auto* list : {&couplings->earlier, &couplings->together}) {
+      for (const Coupling& coupling : *list) As[at(coupling.own)] += coupling.block.times(s[at(coupling.other)]);
+    }
+  }
+  filter(system, domain, As);
+}
+
+// Rows of times [begin, end) of a domain, all by what is in the strips; in double as it is written in books, for tests and references.
+template <class T>
+void SweepDomains<T>::forward_rows(const LinearSystem<T>& system, std::size_t domain, Index begin, Index end,
+                                   std::span<Lane<T>> s, std::span<Lane<T>> As) const {
+  const std::span<const Block<T>> G = system.filtered_inverses_by_place();
+  if constexpr (std::is_same_v<T, float>) {
+    sweep_forward(inner_[domain].strips(), begin, end, G.data(), s.data(), As.data());
+  } else {
+    for (Index time = begin; time < end; ++time) {
+      inner_[domain].for_rows_at(time, [&](Index p) {
+        s[at(p)] = G[at(p)].times(As[at(p)]);
+        inner_[domain].for_later(
+            system.A(), p, [&](Index q, const Block<T>& A_qp, const Block<T>&) { As[at(q)] -= A_qp.times(s[at(p)]); });
+      });
     }
   }
 }
 
 template <class T>
-void SweepDomains<T>::add_between(std::size_t domain, std::span<const Lane<T>> s, std::span<Lane<T>> As) const {
-  for (const Between& between : between_[domain]) As[at(between.own)] += between.block.times(s[at(between.other)]);
+void SweepDomains<T>::backward_rows(const LinearSystem<T>& system, std::size_t domain, Index begin, Index end,
+                                    std::span<Lane<T>> s, std::span<Lane<T>> As) const {
+  const std::span<const Block<T>> G = system.filtered_inverses_by_place();
+  if constexpr (std::is_same_v<T, float>) {
+    sweep_backward(inner_[domain].strips(), begin, end, G.data(), s.data(), As.data());
+  } else {
+    for (Index time = end; time-- > begin;) {
+      inner_[domain].for_rows_at(time, [&](Index p) {
+        Lane<T> sum{0, 0, 0, 0};
+        inner_[domain].for_later(system.A(), p,
+                                 [&](Index q, const Block<T>&, const Block<T>& A_pq) { sum += A_pq.times(s[at(q)]); });
+        s[at(p)] -= G[at(p)].times(sum);
+        inner_[domain].for_later(
+            system.A(), p, [&](Index q, const Block<T>& A_qp, const Block<T>&) { As[at(q)] += A_qp.times(s[at(p)]); });
+      });
+    }
+  }
 }
 
 template <class T>
-void SweepDomains<T>::add_rows(const LinearSystem<T>& system, std::size_t domain, RowPart part,
-                               std::span<const Lane<T>> x, std::span<Lane<T>> y) const {
-  for (const OwnEnds& own : rows_[domain]) system.add_row(static_cast<std::size_t>(own.row), own.ends, part, x, y);
+void SweepDomains<T>::add_rows(const LinearSystem<T>& system, std::size_t domain, std::span<const Lane<T>> x,
+                               std::span<Lane<T>> y) const {
+  for (const OwnEnds& own : rows_[domain]) system.add_row_by_place(static_cast<std::size_t>(own.row), own.ends, x, y);
 }
 
 template <class T>
@@ -156,7 +305,7 @@ void SweepDomains<T>::add_rows(const LinearSystem<T>& system, std::size_t domain
 
 template <class T>
 void SweepDomains<T>::filter(const LinearSystem<T>& system, std::size_t domain, std::span<Lane<T>> y) const {
-  for (const std::size_t held : held_[domain]) system.filter_held(held, y);
+  for (const Held& held : held_[domain]) y[at(held.place)] = system.filtered(held.held, y[at(held.place)]);
 }
 
 template class SweepDomains<float>;

@@ -1,14 +1,17 @@
 // solver/sweep_domains.hpp: the particles cut into ranges that are swept side by side.
 //
-// A Gauss-Seidel sweep is a chain: every row needs the ones before it.  The rows are therefore cut into domains, one thread's work,
-// and each of them into four strips, the quarters of a vector register, which are swept side by side (strip_rows.hpp).  A domain is
-// swept as if it stood alone:  M = SSOR of the blocks inside domains, in the order of the sweep; blocks between two of them, and the
-// few between two rows that are swept at the same time, appear in A' only.  The cut depends on the number of particles and never on
-// the number of threads or the width of registers, so that the result does not either.
+// A Gauss-Seidel sweep is a chain: every row needs the ones before it.  The rows, in the order of the pattern's places, are therefore cut
+// into domains, one thread's work, and each of them into four strips, the quarters of a vector register, which are swept side by side
+// (strip_rows.hpp): row k of each strip of each domain at the same time k.  A block, of A or of a contact, belongs to the earlier of its
+// rows.  Blocks in other domains are read where they are finished: a sweep goes in epochs, between which all wait for each other.
+//   M = SSOR of all blocks in this order, but for those of two rows of one time, or of one epoch in two domains; they are in A' only.
+// Of neighbours along the cloth there are none as long as a strip is longer than the band is wide.  The cut depends on the pattern and never
+// on the number of threads or the width of registers, so that the result does not either.  All vectors are in the order of places.
 #pragma once
 #include "solver/linear_system.hpp"
 #include "solver/strip_rows.hpp"
 
+#include <array>
 #include <vector>
 
 namespace toile {
@@ -24,41 +27,67 @@ class SweepDomains {
   std::size_t count() const { return strip_begin_.size() / strips_at_once; }
   Index begin(std::size_t domain) const { return strip_begin_[strips_at_once * domain]; }
   Index end(std::size_t domain) const { return strip_begin_[strips_at_once * (domain + 1)]; }
+  Index particle_at(Index place) const { return pattern_->row_at(place); }
+  std::size_t epochs() const { return epoch_begin_.size() - 1; }
 
-  // s = M^-1 r and As = (A' less the blocks that M does not have and the rows off the diagonal) s, on one domain.
-  void sweep(const LinearSystem<T>& system, std::size_t domain, std::span<const Lane<T>> r, std::span<Lane<T>> s,
-             std::span<Lane<T>> As) const;
-  // As += (blocks that M does not have) s, on the rows of one domain.
-  void add_between(std::size_t domain, std::span<const Lane<T>> s, std::span<Lane<T>> As) const;
-  // y += R x on one domain, of an x that is complete.
-  void add_rows(const LinearSystem<T>& system, std::size_t domain, RowPart part, std::span<const Lane<T>> x,
+  // s = M^-1 r and As = A' s, one epoch of one domain at a time: forward through the epochs, each when all domains have done the one before,
+  // then backward, likewise; and then, when all are done, `finish`.  As is r before.
+  void forward(const LinearSystem<T>& system, std::size_t domain, std::size_t epoch, std::span<Lane<T>> s,
+               std::span<Lane<T>> As) const;
+  void backward(const LinearSystem<T>& system, std::size_t domain, std::size_t epoch, std::span<Lane<T>> s,
+                std::span<Lane<T>> As) const;
+  void finish(const LinearSystem<T>& system, std::size_t domain, std::span<const Lane<T>> s,
+              std::span<Lane<T>> As) const;
+  // y += R x on one domain, R = sum a g g^T, of an x that is complete; in double by particles, those whose places are the domain's.
+  void add_rows(const LinearSystem<T>& system, std::size_t domain, std::span<const Lane<T>> x,
                 std::span<Lane<T>> y) const;
   void add_rows(const LinearSystem<T>& system, std::size_t domain, std::span<const Vec3> x, std::span<Vec3> y) const;
   // y <- S y on one domain.
   void filter(const LinearSystem<T>& system, std::size_t domain, std::span<Lane<T>> y) const;
 
  private:
-  struct Between {  // a block of A that M does not have
+  struct Coupling {  // a block of a row that the strips do not hold
     Block<T> block;
-    Index own, other;
-    Slot slot;
-    bool below;  // the diagonal
+    Index own, other;  // places
+    Slot slot;         // of A; -1: a contact's
+    bool below;        // the diagonal
+    Index time = 0;    // of the sweep, at which it is applied: not after own's, and when other is known
+  };
+  // Of the rows of one domain: with rows that are swept earlier, later, or so that none of the two can wait for the other.  The first two
+  // ascend in time.
+  struct Couplings {
+    std::vector<Coupling> earlier, later, together;
+    void clear();
+    void sort();
   };
   struct OwnEnds {  // of a row: those on particles of the domain, bit k
     std::int32_t row;
     unsigned ends;
   };
-  std::size_t domain_of(Index particle) const;
+  struct Held {
+    std::size_t held;  // position in ParticleConstraints::constrained
+    Index place;
+  };
+  std::size_t domain_of(Index place) const;
+  std::size_t epoch_of(Index time) const;
+  void add(Coupling coupling, std::vector<Couplings>& to) const;
   void sort_rows(const LinearSystem<T>& system);
+  void couple(std::span<const ImplicitRow> of_one_contact);
+  void forward_rows(const LinearSystem<T>& system, std::size_t domain, Index begin, Index end, std::span<Lane<T>> s,
+                    std::span<Lane<T>> As) const;
+  void backward_rows(const LinearSystem<T>& system, std::size_t domain, Index begin, Index end, std::span<Lane<T>> s,
+                     std::span<Lane<T>> As) const;
 
   const BlockPattern* pattern_ = nullptr;
-  Index particles_ = -1;
-  std::uint64_t version_ = 0;                   // of the blocks that are copied
-  std::vector<Index> strip_begin_{0};           // of all domains, and the end of the last
-  std::vector<StripRows> inner_;                // [domain]
-  std::vector<std::vector<Between>> between_;   // [domain]
-  std::vector<std::vector<OwnEnds>> rows_;      // [domain] ascending
-  std::vector<std::vector<std::size_t>> held_;  // [domain] positions in ParticleConstraints::constrained
+  std::uint64_t version_ = 0;               // of the blocks that are copied
+  std::vector<Index> strip_begin_{0};       // of all domains, and the end of the last
+  std::vector<Index> time_;                 // [place] when its row is swept
+  std::vector<Index> epoch_begin_;          // first time of each, and the end of the last
+  std::vector<StripRows> inner_;            // [domain]
+  std::vector<Couplings> of_A_;             // [domain]
+  std::vector<Couplings> of_contacts_;      // [domain]
+  std::vector<std::vector<OwnEnds>> rows_;  // [domain] ascending
+  std::vector<std::vector<Held>> held_;     // [domain]
 };
 
 extern template class SweepDomains<float>;

@@ -155,33 +155,37 @@ HWY_INLINE Four times(const float* const (&G)[4], std::ptrdiff_t offset, const F
   return combine(load(G, offset), all<0>(x), load(G, offset + 4), all<1>(x), load(G, offset + 8), all<2>(x));
 }
 
+// Where the numbers of the rows of a time begin, for each strip.
+struct RowNumbers {
+  RowNumbers(const Strips& strips, const Block<float>* of_G, Lane<float>* of_s, Lane<float>* of_As) {
+    static_assert(strips_at_once == 4);
+    for (int strip = 0; strip < 4; ++strip) {
+      const std::ptrdiff_t first = strips.first[strip];
+      G[strip] = reinterpret_cast<const float*>(of_G + first);
+      s[strip] = reinterpret_cast<float*>(of_s + first);
+      As[strip] = reinterpret_cast<float*>(of_As + first);
+    }
+  }
+  const float* G[4];
+  float *s[4], *As[4];
+};
+
 //   forward    h = r - L y,  y = G h,      pushed from a row into later ones
 //   backward   s = y - G U s,              pulled;  As = h + L s is pushed while the blocks are at hand      [Eisenstat 1981]
 // A sweep is a chain of rows, and waiting for the row before would take longer than the work: so rows that do not wait for each other
-// go together.  A row pulls from its neighbour in the order of particles last, and pushes into it first.
-void sweep(const Strips& strips, const Block<float>* G, const Lane<float>* r, Lane<float>* s_lanes,
-           Lane<float>* As_lanes) {
-  static_assert(strips_at_once == 4);
-  float *s = reinterpret_cast<float*>(s_lanes), *As = reinterpret_cast<float*>(As_lanes);
-  const float* of_G[4];
-  float *of_s[4], *of_As[4];
-  for (int strip = 0; strip < 4; ++strip) {
-    const std::ptrdiff_t first = strips.first[strip];
-    of_G[strip] = reinterpret_cast<const float*>(G + first);
-    of_s[strip] = s + 4 * first;
-    of_As[strip] = As + 4 * first;
-    std::copy(r + first, r + first + strips.rows + (strip < strips.longer ? 1 : 0), As_lanes + first);
-  }
+// go together.  A row pulls from its neighbour in the order of places last, and pushes into it first.
+void forward(const Strips& strips, Index first, Index end, const Block<float>* G, Lane<float>* s_lanes,
+             Lane<float>* As_lanes) {
+  const RowNumbers rows(strips, G, s_lanes, As_lanes);
+  float* As = reinterpret_cast<float*>(As_lanes);
+  const float* const(&const_As)[4] = {rows.As[0], rows.As[1], rows.As[2], rows.As[3]};
   // By value: of what `strips` refers to, no store can change it.
-  const Index rows = strips.rows;
   const std::int32_t* begin = strips.begin;
   const StripColumn* column = strips.column;
   const StripBlock* blocks = strips.block;
-  const float* const(&const_s)[4] = {of_s[0], of_s[1], of_s[2], of_s[3]};
-  const float* const(&const_As)[4] = {of_As[0], of_As[1], of_As[2], of_As[3]};
-  for (Index k = 0; k < rows; ++k) {
-    const Four y = times(of_G, 12 * k, load(const_As, 4 * k));
-    store(y, of_s, 4 * k);
+  for (Index k = first; k < std::min(end, strips.rows); ++k) {
+    const Four y = times(rows.G, 12 * k, load(const_As, 4 * k));
+    store(y, rows.s, 4 * k);
     const Four y0 = all<0>(y), y1 = all<1>(y), y2 = all<2>(y);
     for (std::int32_t n = begin[k]; n < begin[k + 1]; ++n) {
       const StripBlock& block = blocks[n];
@@ -189,11 +193,22 @@ void sweep(const Strips& strips, const Block<float>* G, const Lane<float>* r, La
       store(sub(load(As, column[n].offset), pushed), As, column[n].offset);
     }
   }
+  if (end <= strips.rows) return;
   for (int strip = 0; strip < strips.longer; ++strip) {  // a last row has no later one
-    const auto last = static_cast<std::size_t>(strips.first[strip] + rows);
+    const auto last = static_cast<std::size_t>(strips.first[strip] + strips.rows);
     s_lanes[last] = G[last].times(As_lanes[last]);
   }
-  for (Index k = rows; k-- > 0;) {
+}
+
+void backward(const Strips& strips, Index first, Index end, const Block<float>* G, Lane<float>* s_lanes,
+              Lane<float>* As_lanes) {
+  const RowNumbers rows(strips, G, s_lanes, As_lanes);
+  float *s = reinterpret_cast<float*>(s_lanes), *As = reinterpret_cast<float*>(As_lanes);
+  const float* const(&const_s)[4] = {rows.s[0], rows.s[1], rows.s[2], rows.s[3]};
+  const std::int32_t* begin = strips.begin;
+  const StripColumn* column = strips.column;
+  const StripBlock* blocks = strips.block;
+  for (Index k = std::min(end, strips.rows); k-- > first;) {
     Four sum0 = no_four(), sum1 = no_four(), sum2 = no_four();
     for (std::int32_t n = begin[k + 1]; n-- > begin[k];) {
       const StripBlock& block = blocks[n];
@@ -202,8 +217,8 @@ void sweep(const Strips& strips, const Block<float>* G, const Lane<float>* r, La
       sum1 = add(sum1, mul(load(block.row[1]), x));
       sum2 = add(sum2, mul(load(block.row[2]), x));
     }
-    const Four x = sub(load(const_s, 4 * k), times(of_G, 12 * k, sums(sum0, sum1, sum2)));
-    store(x, of_s, 4 * k);
+    const Four x = sub(load(const_s, 4 * k), times(rows.G, 12 * k, sums(sum0, sum1, sum2)));
+    store(x, rows.s, 4 * k);
     const Four x0 = all<0>(x), x1 = all<1>(x), x2 = all<2>(x);
     for (std::int32_t n = begin[k]; n < begin[k + 1]; ++n) {
       const StripBlock& block = blocks[n];
@@ -239,12 +254,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace toile {
 namespace {
-HWY_EXPORT(sweep);
+HWY_EXPORT(forward);
+HWY_EXPORT(backward);
 HWY_EXPORT(add_columns);
 }  // namespace
 
-void sweep_strips(const Strips& strips, const Block<float>* G, const Lane<float>* r, Lane<float>* s, Lane<float>* As) {
-  HWY_DYNAMIC_DISPATCH(sweep)(strips, G, r, s, As);
+void sweep_forward(const Strips& strips, Index begin, Index end, const Block<float>* G, Lane<float>* s,
+                   Lane<float>* As) {
+  HWY_DYNAMIC_DISPATCH(forward)(strips, begin, end, G, s, As);
+}
+
+void sweep_backward(const Strips& strips, Index begin, Index end, const Block<float>* G, Lane<float>* s,
+                    Lane<float>* As) {
+  HWY_DYNAMIC_DISPATCH(backward)(strips, begin, end, G, s, As);
 }
 
 void add_coarse_columns(const CoarseColumns& coarse, Index begin, Index end, const Lane<float>* Zy, Lane<float>* t,

@@ -18,12 +18,12 @@ struct alignas(64) StripBlock {
   Lane<float> row[3][strips_at_once];
 };
 struct StripColumn {
-  std::int32_t offset[strips_at_once];  // of the floats of particle j of each
+  std::int32_t offset[strips_at_once];  // of the floats of place j of each
 };
 
 // Strips of rows, of which row k of each is swept at the same time: no block couples these, and the four columns of a StripColumn differ.
 struct Strips {
-  Index first[strips_at_once];  // particle of row 0
+  Index first[strips_at_once];  // place of row 0
   Index rows;                   // that all have
   int longer;                   // strips 0 ... longer - 1 have one more
   const std::int32_t* begin;    // [row] of its blocks, and the end of the last
@@ -31,16 +31,20 @@ struct Strips {
   const StripBlock* block;
 };
 
-// (D + L) D^-1 (D + U) s = r and As = (L + D + U) s on these strips, with G = D^-1 and U the blocks of rows with later ones.  Vectors begin with particle 0.
-void sweep_strips(const Strips& strips, const Block<float>* G, const Lane<float>* r, Lane<float>* s, Lane<float>* As);
+// Of (D + L) D^-1 (D + U) s = r and As = (L + D + U) s, with G = D^-1 and U the blocks of rows with later ones, the rows of times [begin, end), forward
+// or backward.  As is r before.  Vectors begin with place 0.
+void sweep_forward(const Strips& strips, Index begin, Index end, const Block<float>* G, Lane<float>* s,
+                   Lane<float>* As);
+void sweep_backward(const Strips& strips, Index begin, Index end, const Block<float>* G, Lane<float>* s,
+                    Lane<float>* As);
 
 // y of the coarse directions (solver/coarse_space.hpp), and what makes A' Z y and Z y of it.
 struct CoarseColumns {
-  const std::int32_t* entry_begin;  // [particle], and the end of the last
-  const Index* aggregate;           // [entry]; the first of a particle is its own
+  const std::int32_t* entry_begin;  // [place], and the end of the last
+  const Index* aggregate;           // [entry]; the first of a place is its own
   const Lane<float>*column, *y;     // A' Z [entry][9], y [aggregate][9] in all lanes
 };
-// t += Zy and At += A' Z y of particles [begin, end).  Vectors begin with particle 0.
+// t += Zy and At += A' Z y of places [begin, end).  Vectors begin with place 0.
 void add_coarse_columns(const CoarseColumns& coarse, Index begin, Index end, const Lane<float>* Zy, Lane<float>* t,
                         Lane<float>* At);
 

@@ -1,7 +1,7 @@
-// solver/vector_kernels.hpp: the iteration's loops over particles, compiled for each instruction set.
+// solver/vector_kernels.hpp: the iteration's loops over particles in the order of their places, compiled for each instruction set.
 //
 // Numbers of four particles at a time; products and sums of a dot product are double, each lane of each of the four adds up on its own,
-// and at the end they are added in one order: the same bits on every set.  All on particles [begin, end); vectors begin with particle 0.
+// and at the end they are added in one order: the same bits on every set.  All on places [begin, end) of the pattern; vectors begin with place 0.
 #pragma once
 #include "assembly/lane.hpp"
 
@@ -18,7 +18,7 @@ double next_residual(Index begin, Index end, float alpha, const Lane<float>* c, 
 // r.G r
 double residual_norm2(Index begin, Index end, const Block<float>* G, const Lane<float>* r);
 // sum[9 aggregate + 3 l + c] += of the particles of each aggregate, basis function l times (r - At)_c; `basis` is (1, u, v).  Added up over
-// neighbours in the order of particles, which are mostly of one aggregate.
+// neighbours in the order of places, which are mostly of one aggregate.
 void add_moments(Index begin, Index end, const Lane<float>* r, const Lane<float>* At, const Vec3* basis,
                  const Index* aggregate, double* sum);
 

@@ -376,6 +376,14 @@ void ContactRows::accept(const ClothState& end_state) {
   }
 }
 
+double ContactRows::stored_J() const {
+  double sum = 0;
+  for (const Memory& memory : memory_) {
+    if (memory.idle_steps == 0) sum += memory.lambda_N * memory.lambda_N / (2 * memory.stiffness);
+  }
+  return sum;
+}
+
 int ContactRows::active() const {
   return static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& pair) { return pair.active; }));
 }

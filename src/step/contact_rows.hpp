@@ -76,6 +76,8 @@ class ContactRows {
   LayerGap layer_gap(std::span<const Vec3> x);
 
   int active() const;
+  // What the springs of the last step hold, in J, each by the load that it bore.
+  double stored_J() const;
   std::size_t candidates() const { return pairs_.size(); }
   double cloth_seconds = 0, body_seconds = 0;  // time spent in detect, accumulated; for reports
 

@@ -96,6 +96,7 @@ class ImplicitEuler {
   BodyConstraints& body_constraints() { return body_; }
   const Flypaper& flypaper() const { return flypaper_; }
   ContactRows& contact_rows() { return rows_; }
+  const ContactRows& contact_rows() const { return rows_; }
   // e = A dv - b of the last pass on held particles, N s; H times the force.
   std::span<const Vec3> constraint_impulse() const { return e_; }
   const SafeFilter& filter() const { return filter_; }  // of the last attempt

@@ -255,7 +255,7 @@ TEST(Run, TheTShirtIsSewnWithoutACrossingWhereFourPanelsMeet) {
 TEST(Run, TrousersWhoseSeamsHaveCaughtAFoldAreSewnAndTakenApart) {
   const Scratch scratch;
   const Report report = run(scratch, parse_scene(R"({"cloth": [{"pattern": ")" TOILE_SOURCE_DIR
-                                                 R"(/patterns/man_pants.json", "resolution_cm": 3.6}],
+                                                 R"(/patterns/man_pants.json", "resolution_cm": 3.5}],
                                                      "body": {"mannequin": "man"}, "time": {"seconds": 0.3}})",
                                                  "s.json"));
   ASSERT_EQ(report.ended, "time");

@@ -215,9 +215,9 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "811775b34cd06d5b");
-  EXPECT_EQ(folding(), "adce80099d9a28c9");
-  EXPECT_EQ(drop(1), "d57fada10b484586");
+  EXPECT_EQ(hanging(), "79406bc6b3989121");
+  EXPECT_EQ(folding(), "0ab6471f2c88d9bf");
+  EXPECT_EQ(drop(1), "3ca69229e1b3abb2");
 }
 
 }  // namespace

@@ -299,13 +299,13 @@ TEST(BodyContact, BodyRowsDragTheClothAlongTheMovingBody) {
 
 // A ball that spins under cloth which stays: the ball is the same at every moment, and so must be the cloth's distance.
 // The largest depth of all particles and frames is a matter of chance, 0.9 to 2.2 mm for rates that differ by a hundredth: so the median
-// of nine runs.
+// of 17 runs (of 31, before and after a change of all bits: 1.25 and 1.27 mm; of nine of them 1.0 to 1.5).
 TEST(BodyContact, ABallThatSpinsUnderClothDoesNotDrawItIn) {
   const double radius = 0.2;
   const Vec3 centre(0.15, -radius, -0.15);
   std::vector<double> deepest_of;
-  for (const double rate : {11.2, 11.4, 11.6, 11.8, 12.0, 12.2, 12.4, 12.6,
-                            12.8}) {  // two turns in a second: R theta^2/2 is 4 mm in a step
+  for (int run_of = 0; run_of < 17; ++run_of) {
+    const double rate = 11.2 + 0.1 * run_of;  // two turns in a second: R theta^2/2 is 4 mm in a step
     BodySurface ball = test::sphere(centre, radius, 5);
     const std::vector<Vec3> rest(ball.positions().begin(), ball.positions().end());
     Sheet sheet = test::equilateral_sheet(0.3, 0.3, 0.02);
@@ -340,7 +340,7 @@ TEST(BodyContact, ABallThatSpinsUnderClothDoesNotDrawItIn) {
     deepest_of.push_back(spinning);
   }
   std::sort(deepest_of.begin(), deepest_of.end());
-  EXPECT_LT(deepest_of[4], 0.6 * offset);
+  EXPECT_LT(deepest_of[8], 0.6 * offset);
 }
 
 }  // namespace

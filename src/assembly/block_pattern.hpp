@@ -1,0 +1,59 @@
+// assembly/block_pattern.hpp: where a symmetric matrix of blocks has any, and in which order its rows are best walked along.
+#pragma once
+#include "core/types.hpp"
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace toile {
+
+using Slot = std::int32_t;  // position of a block in the value array
+
+class BlockPattern {
+ public:
+  // `links` are unordered particle pairs that share an element; duplicates are fine.
+  BlockPattern(Index particle_count, std::vector<std::pair<Index, Index>> links);
+
+  Index rows() const { return static_cast<Index>(row_begin_.size()) - 1; }
+  Slot block_count() const { return static_cast<Slot>(column_.size()); }
+  Slot first_slot(Index row) const { return row_begin_[static_cast<std::size_t>(row)]; }
+  Slot end_slot(Index row) const { return row_begin_[static_cast<std::size_t>(row) + 1]; }
+  Index column(Slot slot) const { return column_[static_cast<std::size_t>(slot)]; }
+  Slot slot(Index row, Index column) const;  // row < column; asserts that the block exists
+  // The stored blocks of column i, rows ascending: what a gather over the rows of the whole matrix needs besides row i.
+  struct Above {
+    Index row;
+    Slot slot;
+  };
+  std::span<const Above> above(Index i) const {
+    const auto first = static_cast<std::size_t>(above_begin_[static_cast<std::size_t>(i)]);
+    return {above_.data() + first, static_cast<std::size_t>(above_begin_[static_cast<std::size_t>(i) + 1]) - first};
+  }
+  // Numbers of the pieces of cloth that no element connects, from 0.
+  Index piece(Index row) const { return piece_[static_cast<std::size_t>(row)]; }
+  std::span<const Index> piece_sizes() const { return piece_size_; }
+
+  // The rows in an order in which those that a block couples are near each other, however the mesh numbers its particles: what walks along
+  // them finds its neighbours in the cache, and a sweep that is cut into pieces cuts few blocks (solver/sweep_domains.hpp).
+  Index place(Index row) const { return place_[static_cast<std::size_t>(row)]; }
+  Index row_at(Index place) const { return row_at_[static_cast<std::size_t>(place)]; }
+  Index bandwidth() const { return bandwidth_; }  // the largest distance of the places of two rows with a block
+
+ private:
+  void find_pieces();
+  void find_places();
+  template <class Work>
+  void for_neighbours(Index row, const Work& work) const;
+
+  std::vector<Slot> row_begin_;
+  std::vector<Index> column_;
+  std::vector<std::int32_t> above_begin_;
+  std::vector<Above> above_;
+  std::vector<Index> piece_, piece_size_;
+  std::vector<Index> place_, row_at_;
+  Index bandwidth_ = 0;
+};
+
+}  // namespace toile
