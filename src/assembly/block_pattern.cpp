@@ -153,4 +153,15 @@ Slot BlockPattern::slot(Index row, Index column) const {
   return static_cast<Slot>(found - column_.begin());
 }
 
+BlockPattern pattern_of_cloth(Index particle_count, std::span<const Triangle> triangles,
+                              std::span<const Hinge> hinges) {
+  std::vector<std::pair<Index, Index>> links;
+  links.reserve(3 * triangles.size() + hinges.size());
+  for (const Triangle& t : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) links.emplace_back(t[k], t[(k + 1) % 3]);
+  }
+  for (const Hinge& hinge : hinges) links.emplace_back(hinge.particle[2], hinge.particle[3]);
+  return {particle_count, std::move(links)};
+}
+
 }  // namespace toile

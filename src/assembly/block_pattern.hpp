@@ -1,6 +1,6 @@
 // assembly/block_pattern.hpp: where a symmetric matrix of blocks has any, and in which order its rows are best walked along.
 #pragma once
-#include "core/types.hpp"
+#include "mesh/topology.hpp"
 
 #include <cstdint>
 #include <span>
@@ -55,5 +55,8 @@ class BlockPattern {
   std::vector<Index> place_, row_at_;
   Index bandwidth_ = 0;
 };
+
+// Of the elements of cloth: corners of a triangle, and the two corners across a hinge.
+BlockPattern pattern_of_cloth(Index particle_count, std::span<const Triangle> triangles, std::span<const Hinge> hinges);
 
 }  // namespace toile

@@ -39,13 +39,7 @@ Elements::Elements(const ClothModel& model)
       of_triangles_(3 * rest_.size() * batch_size + 1),
       of_hinges_(hinges_.size()),
       beyond_linear_(rest_.size() * batch_size) {
-  std::vector<std::pair<Index, Index>> links;
-  links.reserve(3 * triangles_.size() + hinges_.size());
-  for (const Triangle& t : triangles_) {
-    for (std::size_t k = 0; k < 3; ++k) links.emplace_back(t[k], t[(k + 1) % 3]);
-  }
-  for (const Hinge& hinge : hinges_) links.emplace_back(hinge.particle[2], hinge.particle[3]);
-  pattern_ = std::make_shared<const BlockPattern>(model.particle_count(), std::move(links));
+  pattern_ = std::make_shared<const BlockPattern>(pattern_of_cloth(model.particle_count(), triangles_, hinges_));
   pack_rest(model);
   add_incidence(model);
 }

@@ -1,5 +1,6 @@
 #include "garment/garment_mesh.hpp"
 
+#include "assembly/block_pattern.hpp"
 #include "core/disjoint_sets.hpp"
 #include "core/elementary.hpp"
 #include "core/error.hpp"
@@ -223,6 +224,12 @@ WeldedMesh weld(const GarmentMesh& garment) {
   welded.mesh.particle_count = count;
   for (Triangle& t : welded.mesh.triangles) {
     for (Index& corner : t) corner = welded.particle_of[at(corner)];
+  }
+  const Topology topology = build_topology(count, welded.mesh.triangles);
+  const BlockPattern pattern = pattern_of_cloth(count, welded.mesh.triangles, topology.hinges);
+  for (Index& particle : welded.particle_of) particle = pattern.place(particle);
+  for (Triangle& t : welded.mesh.triangles) {
+    for (Index& corner : t) corner = pattern.place(corner);
   }
   for (FoldedEdge& fold : welded.mesh.folds) {
     fold.a = welded.particle_of[at(fold.a)];

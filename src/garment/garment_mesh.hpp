@@ -67,7 +67,8 @@ CountedGarment mesh_garment_to_count(const Pattern& pattern, int particles);
 // Particles of the welded garment.
 int welded_count(const GarmentMesh& garment);
 
-// The welded cloth: classes of `merged` become one particle each, in order of their smallest member.
+// The welded cloth: classes of `merged` become one particle each, numbered such that neighbours' numbers are near each other: what walks
+// along the particles finds in the cache what it needs (assembly/block_pattern.hpp).
 struct WeldedMesh {
   ClothMesh mesh;
   std::vector<Index> particle_of;  // [unwelded particle] welded particle

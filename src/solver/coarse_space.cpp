@@ -253,7 +253,6 @@ void CoarseSpace<T>::multiply_basis(const LinearSystem<T>& system) {
     const Vec3& q = basis_[static_cast<std::size_t>(i)];
     return std::array<T, 3>{static_cast<T>(q[0]), static_cast<T>(q[1]), static_cast<T>(q[2])};
   };
-  const auto minus = [](const std::array<T, 3>& q) { return std::array<T, 3>{-q[0], -q[1], -q[2]}; };
   parallel_for(static_cast<std::size_t>(pattern.rows()), particles_per_block, [&](std::size_t row) {
     if (!stale_[row]) return;
     const DenormalsAreZero here;
@@ -266,27 +265,40 @@ void CoarseSpace<T>::multiply_basis(const LinearSystem<T>& system) {
     std::fill(AZ_.begin() + entry_begin_[place], AZ_.begin() + entry_begin_[place + 1], none);
     const std::array<T, 3> q_i = q_of(i);
     const bool i_free = constraints.is_free(i);
-    const Block<T> S_i = Block<T>::from(constraints.S(i));
+    // Of what is added to the particle's own aggregate: the columns, and the blocks that all come before S_i q_i.
+    Columns columns = none;
+    Block<T> before_own = Block<T>::from(Mat3::Zero());
     // L_ij (S_j Z_j - S_i Z_i)
     const auto add = [&](const Block<T>& L, Index j, std::size_t other) {
       const std::array<T, 3> q_j = q_of(j);
-      if (!i_free || !constraints.is_free(j)) {
-        add_columns(AZ_[own], product(L, S_i), minus(q_i));
-        add_columns(AZ_[other], product(L, Block<T>::from(constraints.S(j))), q_j);
-      } else if (other == own) {
-        add_columns(AZ_[own], L, {0, q_j[1] - q_i[1], q_j[2] - q_i[2]});
-      } else {
-        add_columns(AZ_[own], L, minus(q_i));
-        add_columns(AZ_[other], L, q_j);
+      const bool j_free = constraints.is_free(j);
+      if (i_free && j_free && other == own) {
+        const T u = q_j[1] - q_i[1], v = q_j[2] - q_i[2];
+        columns[3] += L.c0 * u;
+        columns[4] += L.c1 * u;
+        columns[5] += L.c2 * u;
+        columns[6] += L.c0 * v;
+        columns[7] += L.c1 * v;
+        columns[8] += L.c2 * v;
+        return;
       }
+      before_own.c0 -= L.c0;
+      before_own.c1 -= L.c1;
+      before_own.c2 -= L.c2;
+      add_columns(other == own ? columns : AZ_[other], j_free ? L : product(L, Block<T>::from(constraints.S(j))), q_j);
     };
     for (const auto& [above, slot] : pattern.above(i))
       add(system.A().below(slot), above, static_cast<std::size_t>(slot_entry_[static_cast<std::size_t>(slot)][1]));
-    const Block<T> G = system.A().grounded_block(i);
-    add_columns(AZ_[own], i_free ? G : product(G, S_i), q_i);
     for (Slot s = pattern.first_slot(i); s < pattern.end_slot(i); ++s)
       add(system.A().below(s).transpose(), pattern.column(s),
           static_cast<std::size_t>(slot_entry_[static_cast<std::size_t>(s)][0]));
+    const Block<T> G = system.A().grounded_block(i);
+    before_own.c0 += G.c0;
+    before_own.c1 += G.c1;
+    before_own.c2 += G.c2;
+    const Block<T> S_i = Block<T>::from(constraints.S(i));
+    add_columns(columns, i_free ? before_own : product(before_own, S_i), q_i);
+    AZ_[own] = columns;
     if (i_free) return;
     for (std::size_t e = own; e < end; ++e) {
       for (Lane<T>& column : AZ_[e]) column = S_i.times(column);

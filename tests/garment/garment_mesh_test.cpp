@@ -247,12 +247,17 @@ TEST(GarmentMesh, WeldJoinsWholeClassesAndKeepsThePatternOfBothPanels) {
   EXPECT_EQ(std::count_if(members.begin(), members.end(), [](const auto& m) { return m.second == 2; }), 4 * 5);
   const WeldedMesh welded = weld(garment);
   EXPECT_EQ(welded.mesh.particle_count, static_cast<Index>(members.size()));
-  Index next = 0;
-  for (std::size_t i = 0; i < garment.merged.size(); ++i) {  // in order of the smallest member
-    if (garment.merged[i] == static_cast<Index>(i)) {
-      EXPECT_EQ(welded.particle_of[i], next++);
-    }
+  std::vector<int> classes(members.size(), 0);  // that became a particle
+  for (std::size_t i = 0; i < garment.merged.size(); ++i) {
+    ASSERT_GE(welded.particle_of[i], 0);
+    ASSERT_LT(welded.particle_of[i], welded.mesh.particle_count);
+    if (garment.merged[i] == static_cast<Index>(i)) ++classes[at(welded.particle_of[i])];
     EXPECT_EQ(welded.particle_of[i], welded.particle_of[at(garment.merged[i])]);
+  }
+  EXPECT_EQ(std::count(classes.begin(), classes.end(), 1), static_cast<std::ptrdiff_t>(classes.size()));
+  // Neighbours have numbers near each other, also across the seams: the square of 11 x 11 particles has them within some rows.
+  for (const Triangle& t : welded.mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(std::abs(t[k] - t[(k + 1) % 3]), 40);
   }
   ASSERT_EQ(welded.mesh.uv.size(), garment.mesh.uv.size());
   for (std::size_t t = 0; t < garment.mesh.uv.size(); ++t) {

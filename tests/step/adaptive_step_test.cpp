@@ -215,9 +215,9 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "79406bc6b3989121");
-  EXPECT_EQ(folding(), "0ab6471f2c88d9bf");
-  EXPECT_EQ(drop(1), "3ca69229e1b3abb2");
+  EXPECT_EQ(hanging(), "67f65cf488a47654");
+  EXPECT_EQ(folding(), "6a17594e435f0f9c");
+  EXPECT_EQ(drop(1), "5b6dffa607439711");
 }
 
 }  // namespace
