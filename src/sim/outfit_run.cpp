@@ -15,7 +15,7 @@ constexpr double frictionless_s = 1;  // after the weld: the garment slips into 
 constexpr double sewn_step_max_s = 1.0 / 60;
 // While rest is awaited: it takes as many steps, however long they are, so each is solved better; what turns slowly is not to be braked,
 // and what a solve leaves undone lets folds drift.
-constexpr double awaited_step_max_s = 1.0 / 30, awaited_slow_motion = 0.01, awaited_tolerance = 0.003;
+constexpr double awaited_step_max_s = 1.0 / 30, awaited_slow_motion = 0.01, awaited_tolerance = 0.002;
 
 // Share of gravity and of the elastic's pull at time t after the weld.
 double ramp(double t_s) { return std::clamp((t_s - weightless_s) / ramp_s, 0.0, 1.0); }
@@ -53,7 +53,7 @@ OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, BodySurface* body, cons
   tangles_->find(outfit.state.x);
 }
 
-bool OutfitRun::settled() const { return !settling_.sewn || time_s() >= settling_s; }
+bool OutfitRun::settled() const { return !settling_.sewn || (!settling_.waits && time_s() >= settling_s); }
 
 void OutfitRun::set_rest_stretch(double share) {
   if (share == ramped_) return;
@@ -66,7 +66,7 @@ void OutfitRun::set_rest_stretch(double share) {
 }
 
 void OutfitRun::settle() {
-  const double t_s = time_s();
+  const double t_s = settling_.waits ? 0 : time_s();
   const bool first = settling_.held_particles == 0;  // with friction off, what is worn below would slide down
   label_strength_ = std::clamp(1 - (t_s - labels_held_s) / labels_fade_s, 0.0, 1.0);
   model_.gravity_m_per_s2 = ramp(t_s) * scene_->gravity_m_per_s2;

@@ -27,6 +27,7 @@ struct Settling {            // of a garment that has just been sewn
   Index held_particles = 0;  // worn before
   LabelSprings labels;       // hold the new garment for a while
   bool to_rest = false;      // it is awaited, until the body moves
+  bool waits = false;        // at the weld, without weight, however long it takes until nothing crosses
 };
 
 struct TimedPin {

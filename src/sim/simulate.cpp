@@ -187,6 +187,7 @@ class Run {
         outfit_.mesh.triangles, outfit_.state.x,
         with_body ? std::span<const Triangle>(body_triangles_) : std::span<const Triangle>{},
         with_body ? std::span<const Vec3>(body_x_) : std::span<const Vec3>{}, {}, [&](int, int) { return !stopped(); });
+    const int weightless = sewn_now ? come_apart() : 0;
     const auto self_left = find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x);
     const auto through_left =
         body_ ? find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_)
@@ -200,8 +201,28 @@ class Run {
              std::max(start.largest_move_mm, 1e3 * report.largest_move)};
     std::string then = std::to_string(count_edges(self_left) + count_edges(through_left)) + " are left";
     if (self_left.empty() && through_left.empty()) then = "none is left";
-    report_.warnings.push_back((sewn_now ? "as sewn: " : "bad start: ") + what + "; after " +
-                               std::to_string(report.iterations) + " trials of untangling " + then);
+    std::string tried = std::to_string(report.iterations) + " trials of untangling ";
+    if (weightless > 0)
+      tried += "and " + std::to_string(weightless) + (weightless == 1 ? " frame" : " frames") + " without weight ";
+    report_.warnings.push_back((sewn_now ? "as sewn: " : "bad start: ") + what + "; after " + tried + then);
+  }
+
+  // What trials from rest leave of a weld may come apart as the garment moves, with threads that want to be as long as they were cut, before
+  // it has weight.  Nothing of it is written.  Returns the number of frames.
+  int come_apart() {
+    Settling waiting = settling_;
+    waiting.waits = true;
+    std::optional<OutfitRun> run;
+    const int most = frames_in(most_waiting_s);
+    int frames = 0;
+    while (frames < most && !find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x).empty()) {
+      if (!run) run.emplace(scene_, outfit_, body(), step_, waiting, options_.stop);
+      const FrameReport frame = run->frame();
+      if (frame.interrupted || !frame.ok) break;  // as the drape will say
+      ++frames;
+    }
+    if (frames > 0) outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
+    return frames;
   }
 
   void place(GarmentMesh& garment) {
@@ -442,7 +463,7 @@ class Run {
     return report_;
   }
 
-  static constexpr double inner_rest_mm_per_s = 10;
+  static constexpr double inner_rest_mm_per_s = 10, most_waiting_s = 1;
 
   const Scene& scene_;
   const RunOptions& options_;

@@ -32,7 +32,7 @@ constexpr int eased_rings = 4;  // around tangles that no way undoes, doubled ev
 constexpr double eased_bend_N_m = 1e-3;
 constexpr int most_undone = 8;      // rounds of taking back what a trial made
 constexpr double progress = 0.995;  // a trial that leaves less than this share of the least so far
-constexpr double most_work = 7e5;   // particles times trials: about 20 s on two cores
+constexpr double most_work = 7e5;   // particles times trials: about 7 s on two cores
 constexpr int most_settling = 30, most_halved = 3;
 constexpr double thin = 0.1, thicker = 1.3;  // share of the thickness once nothing crosses, and its growth per step
 constexpr double settled_m = 0.05 * edge_m;

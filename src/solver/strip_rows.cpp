@@ -92,4 +92,66 @@ Strips StripRows::strips() const {
   return strips;
 }
 
+// work(place) for the rows of one time.
+template <class Work>
+void StripRows::for_rows_at(Index time, const Work& work) const {
+  for (std::size_t strip = 0; strip < strips_at_once; ++strip)
+    if (begin_[strip] + time < begin_[strip + 1]) work(begin_[strip] + time);
+}
+
+// work(q, A_qp, A_pq) for the blocks of a place p with later ones.
+template <class Work>
+void StripRows::for_later(const BlockMatrix<double>& A, Index p, const Work& work) const {
+  const BlockPattern& pattern = A.pattern();
+  const Index row = pattern.row_at(p), own_time = time(p);
+  const auto add = [&](Index column, Slot slot) {
+    const Index q = pattern.place(column);
+    if (q < begin_.front() || q >= begin_.back() || time(q) <= own_time) return;
+    const Block<double>& below = A.below(slot);
+    if (column < row) {
+      work(static_cast<std::size_t>(q), below.transpose(), below);
+    } else {
+      work(static_cast<std::size_t>(q), below, below.transpose());
+    }
+  };
+  for (Slot slot = pattern.first_slot(row); slot < pattern.end_slot(row); ++slot) add(pattern.column(slot), slot);
+  for (const auto& above : pattern.above(row)) add(above.row, above.slot);
+}
+
+void StripRows::forward(const BlockMatrix<float>&, Index begin, Index end, std::span<const Block<float>> G,
+                        std::span<Lane<float>> s, std::span<Lane<float>> As) const {
+  sweep_forward(strips(), begin, end, G.data(), s.data(), As.data());
+}
+
+void StripRows::backward(const BlockMatrix<float>&, Index begin, Index end, std::span<const Block<float>> G,
+                         std::span<Lane<float>> s, std::span<Lane<float>> As) const {
+  sweep_backward(strips(), begin, end, G.data(), s.data(), As.data());
+}
+
+void StripRows::forward(const BlockMatrix<double>& A, Index begin, Index end, std::span<const Block<double>> G,
+                        std::span<Lane<double>> s, std::span<Lane<double>> As) const {
+  using B = Block<double>;
+  for (Index time = begin; time < end; ++time) {
+    for_rows_at(time, [&](Index row) {
+      const auto p = static_cast<std::size_t>(row);
+      s[p] = G[p].times(As[p]);
+      for_later(A, row, [&](std::size_t q, const B& A_qp, const B&) { As[q] -= A_qp.times(s[p]); });
+    });
+  }
+}
+
+void StripRows::backward(const BlockMatrix<double>& A, Index begin, Index end, std::span<const Block<double>> G,
+                         std::span<Lane<double>> s, std::span<Lane<double>> As) const {
+  using B = Block<double>;
+  for (Index time = end; time-- > begin;) {
+    for_rows_at(time, [&](Index row) {
+      const auto p = static_cast<std::size_t>(row);
+      Lane<double> sum{0, 0, 0, 0};
+      for_later(A, row, [&](std::size_t q, const B&, const B& A_pq) { sum += A_pq.times(s[q]); });
+      s[p] -= G[p].times(sum);
+      for_later(A, row, [&](std::size_t q, const B& A_qp, const B&) { As[q] += A_qp.times(s[p]); });
+    });
+  }
+}
+
 }  // namespace toile

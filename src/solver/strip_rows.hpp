@@ -25,36 +25,26 @@ class StripRows {
   Index time(Index place) const;
   Strips strips() const;
 
-  // The same without a copy, one after the other.  work(place) for the rows of one time:
-  template <class Work>
-  void for_rows_at(Index time, const Work& work) const {
-    for (std::size_t strip = 0; strip < strips_at_once; ++strip)
-      if (begin_[strip] + time < begin_[strip + 1]) work(begin_[strip] + time);
-  }
-  // work(q, A_qp, A_pq) for the blocks of a place p with later ones of the domain.
-  template <class T, class Work>
-  void for_later(const BlockMatrix<T>& A, Index p, const Work& work) const {
-    const BlockPattern& pattern = A.pattern();
-    const Index row = pattern.row_at(p), own_time = time(p);
-    const auto add = [&](Index q, Slot slot, bool below_diagonal) {
-      if (q < begin_.front() || q >= begin_.back() || time(q) <= own_time) return;
-      const Block<T>& below = A.below(slot);
-      if (below_diagonal) {
-        work(q, below.transpose(), below);
-      } else {
-        work(q, below, below.transpose());
-      }
-    };
-    for (Slot slot = pattern.first_slot(row); slot < pattern.end_slot(row); ++slot)
-      add(pattern.place(pattern.column(slot)), slot, false);
-    for (const auto& above : pattern.above(row)) add(pattern.place(above.row), above.slot, true);
-  }
+  // The rows of times [begin, end) by the blocks that are here, as sweep_kernels.hpp says, with G and vectors from place 0 on.  In double from A itself, row by
+  // row as it is written in books, for tests and references.
+  void forward(const BlockMatrix<float>& A, Index begin, Index end, std::span<const Block<float>> G,
+               std::span<Lane<float>> s, std::span<Lane<float>> As) const;
+  void backward(const BlockMatrix<float>& A, Index begin, Index end, std::span<const Block<float>> G,
+                std::span<Lane<float>> s, std::span<Lane<float>> As) const;
+  void forward(const BlockMatrix<double>& A, Index begin, Index end, std::span<const Block<double>> G,
+               std::span<Lane<double>> s, std::span<Lane<double>> As) const;
+  void backward(const BlockMatrix<double>& A, Index begin, Index end, std::span<const Block<double>> G,
+                std::span<Lane<double>> s, std::span<Lane<double>> As) const;
 
  private:
   struct Source {
     Slot slot = -1;  // none: stays zero
     bool below_diagonal = false;
   };
+  template <class Work>
+  void for_rows_at(Index time, const Work& work) const;
+  template <class Work>
+  void for_later(const BlockMatrix<double>& A, Index p, const Work& work) const;
   void pair_up(std::span<std::vector<std::pair<Index, Source>>, strips_at_once> blocks, Index row);
 
   std::array<Index, strips_at_once + 1> begin_{};

@@ -211,7 +211,7 @@ void SweepDomains<T>::forward(const LinearSystem<T>& system, std::size_t domain,
         As[at(next[list]->own)] -= next[list]->block.times(s[at(next[list]->other)]);
       if (next[list] != lists[list]->end()) stop = std::min(stop, next[list]->time);
     }
-    forward_rows(system, domain, time, stop, s, As);
+    inner_[domain].forward(system.A(), time, stop, system.filtered_inverses_by_place(), s, As);
     time = stop;
   }
 }
@@ -236,7 +236,7 @@ void SweepDomains<T>::backward(const LinearSystem<T>& system, std::size_t domain
       }
       if (next[list] != lists[list]->rend()) stop = std::max(stop, next[list]->time + 1);
     }
-    backward_rows(system, domain, stop, time, s, As);
+    inner_[domain].backward(system.A(), stop, time, G, s, As);
     time = stop;
   }
 }
@@ -251,44 +251,6 @@ void SweepDomains<T>::finish(const LinearSystem<T>& system, std::size_t domain, 
     }
   }
   filter(system, domain, As);
-}
-
-// Rows of times [begin, end) of a domain, all by what is in the strips; in double as it is written in books, for tests and references.
-template <class T>
-void SweepDomains<T>::forward_rows(const LinearSystem<T>& system, std::size_t domain, Index begin, Index end,
-                                   std::span<Lane<T>> s, std::span<Lane<T>> As) const {
-  const std::span<const Block<T>> G = system.filtered_inverses_by_place();
-  if constexpr (std::is_same_v<T, float>) {
-    sweep_forward(inner_[domain].strips(), begin, end, G.data(), s.data(), As.data());
-  } else {
-    for (Index time = begin; time < end; ++time) {
-      inner_[domain].for_rows_at(time, [&](Index p) {
-        s[at(p)] = G[at(p)].times(As[at(p)]);
-        inner_[domain].for_later(
-            system.A(), p, [&](Index q, const Block<T>& A_qp, const Block<T>&) { As[at(q)] -= A_qp.times(s[at(p)]); });
-      });
-    }
-  }
-}
-
-template <class T>
-void SweepDomains<T>::backward_rows(const LinearSystem<T>& system, std::size_t domain, Index begin, Index end,
-                                    std::span<Lane<T>> s, std::span<Lane<T>> As) const {
-  const std::span<const Block<T>> G = system.filtered_inverses_by_place();
-  if constexpr (std::is_same_v<T, float>) {
-    sweep_backward(inner_[domain].strips(), begin, end, G.data(), s.data(), As.data());
-  } else {
-    for (Index time = end; time-- > begin;) {
-      inner_[domain].for_rows_at(time, [&](Index p) {
-        Lane<T> sum{0, 0, 0, 0};
-        inner_[domain].for_later(system.A(), p,
-                                 [&](Index q, const Block<T>&, const Block<T>& A_pq) { sum += A_pq.times(s[at(q)]); });
-        s[at(p)] -= G[at(p)].times(sum);
-        inner_[domain].for_later(
-            system.A(), p, [&](Index q, const Block<T>& A_qp, const Block<T>&) { As[at(q)] += A_qp.times(s[at(p)]); });
-      });
-    }
-  }
 }
 
 template <class T>

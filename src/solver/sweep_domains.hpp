@@ -73,10 +73,6 @@ class SweepDomains {
   void add(Coupling coupling, std::vector<Couplings>& to) const;
   void sort_rows(const LinearSystem<T>& system);
   void couple(std::span<const ImplicitRow> of_one_contact);
-  void forward_rows(const LinearSystem<T>& system, std::size_t domain, Index begin, Index end, std::span<Lane<T>> s,
-                    std::span<Lane<T>> As) const;
-  void backward_rows(const LinearSystem<T>& system, std::size_t domain, Index begin, Index end, std::span<Lane<T>> s,
-                     std::span<Lane<T>> As) const;
 
   const BlockPattern* pattern_ = nullptr;
   std::uint64_t version_ = 0;               // of the blocks that are copied

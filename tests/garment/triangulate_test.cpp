@@ -347,6 +347,18 @@ TEST(Triangulate, GivesTheSameBitsEveryTimeAndAfterAShiftByGridSteps) {
   for (std::size_t i = 0; i < moved.points.size(); ++i) EXPECT_EQ(first.points[i] + shift, moved.points[i]);
 }
 
+// Row by row along the longer side: corners of a triangle are at most about a row apart.
+TEST(EquilateralSheet, IsNumberedRowByRow) {
+  for (const auto& [width, height] : {std::pair(0.4, 0.4), std::pair(1.0, 0.1), std::pair(0.1, 1.0)}) {
+    const PlanarMesh mesh = equilateral_sheet(width, height, 0.02);
+    const double row = std::min(width, height) / 0.02 + 1;
+    for (const Triangle& t : mesh.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(std::abs(t[k] - t[(k + 1) % 3]), 2 * row) << width;
+    }
+    EXPECT_GT(planar_quality(mesh).min_angle_deg, 20);
+  }
+}
+
 TEST(Triangulate, MakesSheetsOfTheAskedSizeAndEdge) {
   const PlanarMesh mesh = equilateral_sheet(1.0, 1.0, 1.0 / 47);
   EXPECT_NEAR(static_cast<double>(mesh.points.size()), 2602, 10);

@@ -20,7 +20,7 @@ struct Hanging {
   Outfit outfit;
   std::optional<OutfitRun> run;
 
-  explicit Hanging(bool to_rest, const char* time = "{}", const char* tolerance = "0.003") {
+  explicit Hanging(bool to_rest, const char* time = "{}", const char* tolerance = "0.002", bool waits = false) {
     scene = parse_scene(R"({"cloth": [{"name": "sheet", "grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.025},
         "placement": {"rotation_deg": [-90, 0, 0]}}], "time": )" +
                             std::string(time) + R"(, "solver": {"tolerance": )" + tolerance + "}}",
@@ -31,6 +31,7 @@ struct Hanging {
     Settling settling;
     settling.sewn = true;
     settling.to_rest = to_rest;
+    settling.waits = waits;
     run.emplace(scene, outfit, nullptr, step_options(scene, cloth.front().fabrics.front(), cloth.front().edge_m),
                 settling, nullptr);
     const auto along = [](const Vec3& a, const Vec3& b) { return a.z() != b.z() ? a.z() < b.z() : a.x() < b.x(); };
@@ -80,13 +81,32 @@ TEST(OutfitRun, StepsAreSolvedBetterWhileRestIsAwaited) {
     return Hanging(to_rest, R"({"fps": 60})", tolerance).run->frame().cg_iterations;
   };
   EXPECT_GT(iterations(true, "0.01"), iterations(false, "0.01"));
-  EXPECT_EQ(iterations(true, "0.01"), iterations(false, "0.003"));
+  EXPECT_EQ(iterations(true, "0.01"), iterations(false, "0.002"));
   EXPECT_EQ(iterations(true, "0.0005"), iterations(false, "0.0005"));
 }
 
 TEST(OutfitRun, StepsAreNoLongerThanTheSceneSaysAlsoWhileRestIsAwaited) {
   EXPECT_DOUBLE_EQ(Hanging(true, R"({"step_max_ms": 5})").longest_step_s(), 1.0 / 30 / 7);
   EXPECT_DOUBLE_EQ(Hanging(true, R"({"fps": 60})").longest_step_s(), 1.0 / 60);
+}
+
+// While something of the weld is tangled, the time in which a garment gets its weight does not begin.
+TEST(OutfitRun, AGarmentThatWaitsHasNoWeight) {
+  Hanging waits(true, "{}", "0.002", true), falls(true);
+  const Vec3s start = waits.outfit.state.x;
+  for (int frame = 0; frame < 30; ++frame) {
+    waits.run->frame();
+    falls.run->frame();
+  }
+  EXPECT_FALSE(waits.run->settled());
+  EXPECT_TRUE(falls.run->settled());
+  double moved_m = 0, fallen_m = 0;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    moved_m = std::max(moved_m, (waits.outfit.state.x[i] - start[i]).norm());
+    fallen_m = std::max(fallen_m, (falls.outfit.state.x[i] - start[i]).norm());
+  }
+  EXPECT_LT(moved_m, 1e-6);
+  EXPECT_GT(fallen_m, 0.05);
 }
 
 }  // namespace
