@@ -55,6 +55,7 @@ StepSystem::StepSystem(Drape& drape, double h_s, ClothModel model)
       pcg_(model_.mesh),
       constraints_(model_.particle_count()),
       y_(state_->x.size(), Vec3::Zero()),
+      landing_(y_),
       b_(y_),
       reference_(y_) {
   find_contacts(drape);
@@ -73,7 +74,7 @@ void StepSystem::find_contacts(Drape& drape) {
   // Whether the step would be accepted does not matter: the active set is found either way.
   (void)integrator.attempt(*state_, 0, h_s_, limits, candidate);
   for (const Pin& pin : world.pins) constraints_.hold(pin.particle, -state_->v[static_cast<std::size_t>(pin.particle)]);
-  integrator.body_constraints().apply(*state_, h_s_, constraints_, y_, springs_);
+  integrator.body_constraints().apply(*state_, h_s_, constraints_, y_, landing_, springs_);
   integrator.contact_rows().append_springs(springs_);
 }
 
@@ -87,8 +88,9 @@ void StepSystem::assemble() {
     b_[i] += model_.mass_kg[i] * model_.gravity_m_per_s2;
     reference_[i] = (h_s_ * model_.mass_kg[i]) * model_.gravity_m_per_s2;
     displacement[i] = h_s_ * state_->v[i] + y_[i];
+    landing_[i] /= h_s_;
   }
-  elements_.subtract_stiffness(displacement, b_);
+  elements_.subtract_stiffness(displacement, landing_, b_);
   for (Vec3& b : b_) b *= h_s_;
   rows_.clear();
   for (const LinearSpring& spring : springs_) {

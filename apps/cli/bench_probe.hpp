@@ -80,7 +80,7 @@ class StepSystem {
   ParticleConstraints constraints_;
   std::vector<LinearSpring> springs_;
   std::vector<ImplicitRow> rows_;
-  Vec3s y_, b_, reference_;
+  Vec3s y_, landing_, b_, reference_;
 };
 
 }  // namespace toile

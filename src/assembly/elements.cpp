@@ -149,16 +149,20 @@ void Elements::forces(std::span<Vec3> f) const {
   gather(f, -1);
 }
 
-void Elements::subtract_stiffness(std::span<const Vec3> displacement, std::span<Vec3> f) const {
+void Elements::subtract_stiffness(std::span<const Vec3> displacement, std::span<const Vec3> velocity,
+                                  std::span<Vec3> f) const {
+  const Vec3* moving = velocity.empty() ? nullptr : velocity.data();
   for_batches(rest_.size(), [&](std::size_t begin, std::size_t end) {
-    membrane_stiffness_times(batches(begin, end), displacement.data(), of_triangles_.data());
+    membrane_stiffness_times(batches(begin, end), displacement.data(), moving, of_triangles_.data());
   });
   parallel_for(hinges_.size(), grain, [&](std::size_t h) {
-    double angle = 0;
+    double angle = 0, rate = 0;
     for (std::size_t c = 0; c < 4; ++c) {
-      angle += bend_[h].g[c].dot(displacement[static_cast<std::size_t>(hinges_[h].particle[c])]);
+      const auto i = static_cast<std::size_t>(hinges_[h].particle[c]);
+      angle += bend_[h].g[c].dot(displacement[i]);
+      if (moving) rate += bend_[h].g[c].dot(moving[i]);
     }
-    of_hinges_[h] = bend_rest_[h].kappa_N_m * angle;
+    of_hinges_[h] = bend_rest_[h].kappa_N_m * (angle + bend_rest_[h].tau_s * rate);
   });
   gather(f, -1);
 }

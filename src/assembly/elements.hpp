@@ -27,7 +27,11 @@ class Elements {
   // f_i: elastic and damping forces at the evaluated state.
   void forces(std::span<Vec3> f) const;
   // f_i -= (K displacement)_i with the projected K of the evaluated state.
-  void subtract_stiffness(std::span<const Vec3> displacement, std::span<Vec3> f) const;
+  void subtract_stiffness(std::span<const Vec3> displacement, std::span<Vec3> f) const {
+    subtract_stiffness(displacement, {}, f);
+  }
+  // f_i -= (K displacement + D velocity)_i, with D likewise; an empty velocity is none.
+  void subtract_stiffness(std::span<const Vec3> displacement, std::span<const Vec3> velocity, std::span<Vec3> f) const;
 
   // Off-diagonal blocks of h D + h^2 K.  A.grounded() must hold the mass; the diagonal is updated here.
   template <class T>

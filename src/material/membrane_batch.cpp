@@ -263,16 +263,27 @@ void forces(const MembraneBatches& of, Mat3* force) {
   }
 }
 
-void stiffness_times(const MembraneBatches& of, const Vec3* displacement, Mat3* force) {
-  alignas(64) Batched corner[3][3];
+// H moved by the corners, to the columns of F.
+HWY_INLINE void add_product(const MembraneRestBatch& rest, const WideFMatrix& H, const Batched (&corner)[3][3],
+                            std::size_t lane, WideVec3& f_u, WideVec3& f_v) {
+  WideVec3 u, v;
+  columns(rest, corner, lane, u, v);
+  f_u = f_u + (H.uu * u + H.uv * v);
+  f_v = f_v + (transpose(H.uv) * u + H.vv * v);
+}
+
+void stiffness_times(const MembraneBatches& of, const Vec3* displacement, const Vec3* velocity, Mat3* force) {
+  alignas(64) Batched moved[3][3], moving[3][3];
   for (std::size_t b = of.begin; b < of.end; ++b) {
-    gather(of.rest[b], displacement, corner);
+    const MembraneRestBatch& rest = of.rest[b];
+    gather(rest, displacement, moved);
+    if (velocity) gather(rest, velocity, moving);
     for (std::size_t lane = 0; lane < batch_size; lane += wide_lanes) {
-      const WideFMatrix K = respond(load_rest(of.rest[b], lane), of.form, load_state(of.state[b], lane)).K;
-      WideVec3 y_u, y_v;
-      columns(of.rest[b], corner, lane, y_u, y_v);
-      store_corners(of.rest[b], K.uu * y_u + K.uv * y_v, transpose(K.uv) * y_u + K.vv * y_v, lane,
-                    force + b * batch_size);
+      const Response r = respond(load_rest(rest, lane), of.form, load_state(of.state[b], lane));
+      WideVec3 f_u{zero(), zero(), zero()}, f_v = f_u;
+      add_product(rest, r.K, moved, lane, f_u, f_v);
+      if (velocity) add_product(rest, r.D, moving, lane, f_u, f_v);
+      store_corners(rest, f_u, f_v, lane, force + b * batch_size);
     }
   }
 }
@@ -427,8 +438,8 @@ void evaluate_membranes(const MembraneRestBatch* rest, std::size_t begin, std::s
 
 void membrane_forces(const MembraneBatches& of, Mat3* force) { HWY_DYNAMIC_DISPATCH(forces)(of, force); }
 
-void membrane_stiffness_times(const MembraneBatches& of, const Vec3* displacement, Mat3* force) {
-  HWY_DYNAMIC_DISPATCH(stiffness_times)(of, displacement, force);
+void membrane_stiffness_times(const MembraneBatches& of, const Vec3* displacement, const Vec3* velocity, Mat3* force) {
+  HWY_DYNAMIC_DISPATCH(stiffness_times)(of, displacement, velocity, force);
 }
 
 void membrane_blocks(const MembraneBatches& of, double h_s, Mat3* to) { HWY_DYNAMIC_DISPATCH(blocks)(of, h_s, to); }

@@ -46,8 +46,8 @@ void evaluate_membranes(const MembraneRestBatch* rest, std::size_t begin, std::s
                         MembraneStateBatch* state);
 // Elastic and damping force on each corner, a column each, with the opposite sign.
 void membrane_forces(const MembraneBatches& of, Mat3* force);
-// K displacement on each corner, a column each.
-void membrane_stiffness_times(const MembraneBatches& of, const Vec3* displacement, Mat3* force);
+// K displacement on each corner, a column each; with `velocity`, which may be null, K displacement + D velocity.
+void membrane_stiffness_times(const MembraneBatches& of, const Vec3* displacement, const Vec3* velocity, Mat3* force);
 // h D + h^2 K of the pairs of corners (0, 1), (1, 2), (2, 0), three per triangle: the block of rows of the lower particle and columns of
 // the higher one.
 void membrane_blocks(const MembraneBatches& of, double h_s, Mat3* blocks);

@@ -172,7 +172,7 @@ Vec3 BodyConstraints::alteration(const Near& near) {
 }
 
 void BodyConstraints::apply(const ClothState& state, const StepFormula& step, ParticleConstraints& constraints,
-                            std::span<Vec3> y, std::vector<LinearSpring>& springs) {
+                            std::span<Vec3> y, std::span<Vec3> landing, std::vector<LinearSpring>& springs) {
   for (Near& near : near_) {
     near.pinned = !constraints.is_free(near.particle);
     if (near.touch == Touch::none || near.pinned) continue;
@@ -182,6 +182,7 @@ void BodyConstraints::apply(const ClothState& state, const StepFormula& step, Pa
       return (contact.body_travel - step.drift(near.particle)) / step.weight_s - state.v[i];
     };
     y[i] = alteration(near);
+    if (near.contact.normal.dot(y[i]) < -dead_band * options_.offset_m) landing[i] = y[i];
     if (near.touch == Touch::sticks) {
       constraints.hold(near.particle, z(near.contact));
       continue;

@@ -13,7 +13,9 @@
 //   n          the contact's normal in the middle of the step.  With that of its start a round body that turns by theta under cloth that
 //              stays would draw the cloth in by R theta^2/2, with that of its end push it out by as much; midway neither.
 //   y          position alteration: min(r - gap, 0.2 r) n, zero while 0 <= r - gap < 0.02 r; negative lets a predicted contact land exactly
-//              on the offset.  It moves the particle and tells its neighbours through K y, and is never part of v.
+//              on the offset.  It moves the particle and tells its neighbours through K y, and is never part of v.  Negative, it is the
+//              rest of the particle's own way, at y / h, and damping sees it: D y / h.  Else a particle that lands 10 mm below would be
+//              braked by neighbours that fall beside it, as if it had stood still, and threads between them stretched by as much as 20 %.
 //   release    lambda_n < 0: the body would have to pull.  Within the same step (the paper: in the next), once per particle and step.
 //   crease     the face that a particle touched before, and still lies over, while another one is the nearest now: it may touch both, and has
 //              one degree of freedom left, S = I - p p^T - q q^T.  Held by the nearest alone it would slide on it beneath the offset of the
@@ -53,9 +55,9 @@ class BodyConstraints {
   // here: it may have been told of a shorter step since detect.
   void begin(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step);
   // Adds S, z and y of the touching particles, and appends the drag of those that slide.  Particles that `constraints` already holds
-  // are left to what holds them.
+  // are left to what holds them.  `landing`, m: of y the part that is the rest of a way to the body.  y and it are zero before.
   void apply(const ClothState& state, const StepFormula& step, ParticleConstraints& constraints, std::span<Vec3> y,
-             std::vector<LinearSpring>& springs);
+             std::span<Vec3> landing, std::vector<LinearSpring>& springs);
   // After a solve: releases, adds (also what detect thought too far), and lets slip.  `first_passes`: releases are allowed.
   struct Change {
     int released = 0, added = 0, deep = 0;  // deep: added that would end below half the offset

@@ -33,8 +33,9 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       swallowed_(model, world.body),
       rows_(model, world.body, world.merged_particle, options.body.offset_m, options.body.friction, options.rows) {
   const auto n = static_cast<std::size_t>(model.particle_count());
-  for (Vec3s* vector : {&force_, &b_, &y_, &y_known_, &y_linearised_, &linearised_, &displacement_, &force_linearised_,
-                        &x_linearised_, &moved_, &reference_, &dv_, &dv_last_, &dv_linearised_, &way_, &e_})
+  for (Vec3s* vector :
+       {&force_, &b_, &y_, &y_known_, &y_linearised_, &linearised_, &displacement_, &force_linearised_, &x_linearised_,
+        &moved_, &reference_, &dv_, &dv_last_, &dv_linearised_, &way_, &e_, &landing_, &landing_v_})
     vector->assign(n, Vec3::Zero());
   stretch_.resize(model.mesh.triangles.size());
   stretch_candidate_.resize(model.mesh.triangles.size());
@@ -251,6 +252,17 @@ void ImplicitEuler::relinearise(const ClothState& state, double t_s, const StepF
   }
 }
 
+// Of what lands in this step, where its fall goes on in y; empty where nothing does.
+std::span<const Vec3> ImplicitEuler::landing_velocity(double H) {
+  bool any = false;
+  for (std::size_t i = 0; i < landing_.size(); ++i) {
+    landing_v_[i] = landing_[i] / H;
+    any |= landing_[i] != Vec3::Zero();
+  }
+  if (!any || options_.position_alteration == PositionAlteration::after_solve) return {};
+  return landing_v_;
+}
+
 bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, const StepFormula& step, int iteration,
                                         const StepLimits& limits, ClothState& candidate, StepReport& report) {
   const std::size_t n = force_.size();
@@ -267,8 +279,9 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
       hold_pins(state, t_s, step);
       springs_.clear();
       std::fill(y_.begin(), y_.end(), Vec3::Zero());
+      std::fill(landing_.begin(), landing_.end(), Vec3::Zero());
       flypaper_.apply(state, step, constraints_);
-      body_.apply(state, step, constraints_, y_, springs_);
+      body_.apply(state, step, constraints_, y_, landing_, springs_);
       if (options_.position_alteration == PositionAlteration::in_solve) y_known_ = y_;
       rows_.append_springs(springs_);
       swallowed_.append_springs(springs_);
@@ -281,7 +294,7 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
       implicit_rows_.clear();
       for (const LinearSpring& spring : springs_)
         implicit_rows_.push_back(implicit_row(spring, H, state.v, drifts ? displacement_ : y_known_, step.h_s));
-      if (linearised_is_old_ || y_known_ != y_linearised_) {  // f - K (x + drift + H v + y - x^k)
+      if (linearised_is_old_ || y_known_ != y_linearised_) {  // f - K (x + drift + H v + y - x^k) - D y_l / H
         linearised_is_old_ = false;
         y_linearised_ = y_known_;
         linearised_ = force_linearised_;
@@ -290,7 +303,7 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
           if (drifts) displacement_[i] += step.drift_m[i];
           if (!evaluated_at_state_) displacement_[i] += state.x[i] - x_linearised_[i];
         }
-        elements_.subtract_stiffness(displacement_, linearised_);
+        elements_.subtract_stiffness(displacement_, landing_velocity(H), linearised_);
       }
       for (std::size_t i = 0; i < n; ++i) b_[i] = H * linearised_[i];
       if (drifts) {

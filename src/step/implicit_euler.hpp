@@ -1,7 +1,7 @@
 // step/implicit_euler.hpp: one linearised backward Euler step with contact.                                 [BW98 3, 5, 6]
 //
 //   A  = M + h D + h^2 K                      K, D positive semidefinite by construction (material/)
-//   b  = h (f - K (h v + y))                  f: elastic, damping and external forces at (x, v)
+//   b  = h (f - K (h v + y) - D y_l / h)      f: elastic, damping and external forces at (x, v);  y_l: of y what is the end of a fall
 //   A dv = b  under S, z                      v <- v + dv,   x <- x + h (v + dv) + y
 //
 //   data flow   state -> elements -> A, f          (once per state: a halved step needs no element again)
@@ -115,6 +115,7 @@ class ImplicitEuler {
   void relinearise(const ClothState& state, double t_s, const StepFormula& step, const ClothState& candidate);
   bool solve_with_contacts(const ClothState& state, double t_s, const StepFormula& step, int iteration,
                            const StepLimits& limits, ClothState& candidate, StepReport& report);
+  std::span<const Vec3> landing_velocity(double H);
   bool makes_energy(const ClothState& candidate, double h_s);
   void shorten(const ClothState& state, const StepFormula& step, ClothState& candidate);
   void find_end(const ClothState& state, const StepFormula& step, ClothState& candidate);
@@ -157,6 +158,7 @@ class ImplicitEuler {
   std::vector<ImplicitRow> implicit_rows_;
   Vec3s force_, b_, y_, y_known_, y_linearised_, linearised_, displacement_, force_linearised_, x_linearised_, moved_,
       reference_, dv_, dv_last_, dv_linearised_, way_, e_;
+  Vec3s landing_, landing_v_;  // y_l, m, and y_l / h
   std::vector<Vec2> stretch_, stretch_candidate_;
   std::vector<StretchChange> largest_of_;     // [block of triangles]
   Vec3s body_start_, body_end_;               // world_->body_at at the two ends of the step

@@ -250,6 +250,12 @@ TEST(Elements, TheForceOfDampingIsMinusDTimesTheVelocity) {
     const Vec3 force = moving[i] - still[i];
     EXPECT_LT((force - expected.segment<3>(3 * static_cast<Eigen::Index>(i))).norm(), 1e-9 * expected.norm()) << i;
   }
+  // The same by subtract_stiffness, of what does not move and has a velocity.
+  elements.evaluate(cloth.model, cloth.state);
+  Vec3s f(moving.size(), Vec3::Zero());
+  elements.subtract_stiffness(Vec3s(f.size(), Vec3::Zero()), cloth.state.v, f);
+  for (std::size_t i = 0; i < f.size(); ++i)
+    EXPECT_LT((f[i] - expected.segment<3>(3 * static_cast<Eigen::Index>(i))).norm(), 1e-9 * expected.norm()) << i;
 }
 
 TEST(BlockMatrix, KeepsATranslationExactInFloat) {

@@ -54,7 +54,7 @@ struct Batches {
 
 struct Results {
   std::vector<MembraneStateBatch> state{batches};
-  std::vector<Mat3> force{triangles}, stiffness_times{triangles}, blocks{3 * triangles};
+  std::vector<Mat3> force{triangles}, stiffness_times{triangles}, with_damping{triangles}, blocks{3 * triangles};
   Vec2s stretch{triangles};
   std::vector<double> beyond = std::vector<double>(triangles);
 
@@ -63,7 +63,8 @@ struct Results {
     evaluate_membranes(of.packed.data(), 0, batches, of.x.data(), of.v.data(), state.data());
     const MembraneBatches all{of.packed.data(), state.data(), 0, batches, of.form};
     membrane_forces(all, force.data());
-    membrane_stiffness_times(all, of.end.data(), stiffness_times.data());
+    membrane_stiffness_times(all, of.end.data(), nullptr, stiffness_times.data());
+    membrane_stiffness_times(all, of.end.data(), of.v.data(), with_damping.data());
     membrane_blocks(all, h_s, blocks.data());
     membrane_stretch(of.packed.data(), 0, batches, of.end.data(), stretch.data());
     membrane_energy_beyond(all, of.end.data(), beyond.data());
@@ -85,6 +86,7 @@ TEST(MembraneBatch, GivesTheSameBitsOnEveryInstructionSet) {
       EXPECT_TRUE(same(r.state, widest.state)) << name;
       EXPECT_TRUE(same(r.force, widest.force)) << name;
       EXPECT_TRUE(same(r.stiffness_times, widest.stiffness_times)) << name;
+      EXPECT_TRUE(same(r.with_damping, widest.with_damping)) << name;
       EXPECT_TRUE(same(r.blocks, widest.blocks)) << name;
       EXPECT_TRUE(same(r.stretch, widest.stretch)) << name;
       EXPECT_TRUE(same(r.beyond, widest.beyond)) << name;
@@ -111,12 +113,25 @@ TEST(MembraneBatch, EveryLaneIsATriangleOfItsOwn) {
         w_v += beta[static_cast<Eigen::Index>(c)] * end[c];
       }
       const Vec3 Kw_u = r.K.uu * w_u + r.K.uv * w_v, Kw_v = r.K.uv.transpose() * w_u + r.K.vv * w_v;
+      const std::array<Vec3, 3> moving = of.at(of.v, t);
+      Vec3 v_u = Vec3::Zero(), v_v = Vec3::Zero();
+      for (std::size_t c = 0; c < 3; ++c) {
+        v_u += alpha[static_cast<Eigen::Index>(c)] * moving[c];
+        v_v += beta[static_cast<Eigen::Index>(c)] * moving[c];
+      }
+      const Vec3 Dv_u = r.D.uu * v_u + r.D.uv * v_v, Dv_v = r.D.uv.transpose() * v_u + r.D.vv * v_v;
       for (Eigen::Index c = 0; c < 3; ++c) {
         EXPECT_EQ(got.force[t].col(c), alpha[c] * (r.P_u + r.Q_u) + beta[c] * (r.P_v + r.Q_v)) << t;
         const Vec3 f = alpha[c] * Kw_u + beta[c] * Kw_v;
         EXPECT_LE((got.stiffness_times[t].col(c) - f).norm(), 1e-13 * (std::abs(alpha[c]) + std::abs(beta[c])) *
                                                                   (r.K.uu.norm() + r.K.uv.norm() + r.K.vv.norm()) *
                                                                   (w_u.norm() + w_v.norm()))
+            << t;
+        const Vec3 with_damping = f + alpha[c] * Dv_u + beta[c] * Dv_v;
+        EXPECT_LE((got.with_damping[t].col(c) - with_damping).norm(),
+                  1e-13 * (std::abs(alpha[c]) + std::abs(beta[c])) *
+                      ((r.K.uu.norm() + r.K.uv.norm() + r.K.vv.norm()) * (w_u.norm() + w_v.norm()) +
+                       (r.D.uu.norm() + r.D.uv.norm() + r.D.vv.norm()) * (v_u.norm() + v_v.norm())))
             << t;
       }
       EXPECT_EQ(got.stretch[t], Vec2(w_u.norm(), w_v.norm())) << t;

@@ -216,8 +216,8 @@ TEST(Golden, StateHashesOfThreeScenes) {
     return state_hash(run.state);
   };
   EXPECT_EQ(hanging(), "67f65cf488a47654");
-  EXPECT_EQ(folding(), "6a17594e435f0f9c");
-  EXPECT_EQ(drop(1), "5b6dffa607439711");
+  EXPECT_EQ(folding(), "fead78d975496766");
+  EXPECT_EQ(drop(1), "1b56c1eb7426f02c");
 }
 
 }  // namespace

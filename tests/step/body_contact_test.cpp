@@ -136,6 +136,37 @@ TEST(BodyContact, PositionAlterationMovesWithoutGivingVelocity) {
   EXPECT_LT(run.fastest(), 1e-3);
 }
 
+// Half of a sheet falls onto a slab, half beside it, all of it as far in the step; damping has nothing to do there, though only the one
+// half is at rest at the end.
+TEST(BodyContact, WhatLandsDoesNotBrakeWhatFallsBesideItInThatStep) {
+  constexpr double speed = 0.5, h_s = 1.0 / 60;
+  BodySurface slab = test::tilted_slab(1, 0.2, 0);
+  Sheet sheet = test::equilateral_sheet(0.2, 0.1, 0.01);
+  for (Vec3& p : sheet.x) p += Vec3(0.9, offset + speed * h_s - 1e-5, 0.05);
+  ModelOptions weightless;
+  weightless.gravity_m_per_s2.setZero();
+  Fabric syrup;
+  syrup.stretch_damping_s = syrup.shear_damping_s = syrup.bend_damping_s = 0.05;
+  ClothRun run(sheet, syrup, weightless);
+  run.world.body = &slab;
+  run.adaptive.step_max_s = h_s;
+  for (Vec3& v : run.state.v) v = Vec3(0, -speed, 0);
+  EXPECT_EQ(run.frame(h_s).steps, 1);
+  int landed = 0, beside = 0;
+  for (std::size_t i = 0; i < run.state.x.size(); ++i) {
+    const double fallen = sheet.x[i].y() - run.state.x[i].y(), v = run.state.v[i].y();
+    EXPECT_NEAR(fallen, speed * h_s, 2e-5) << i;
+    if (std::abs(v) < 1e-3) {
+      ++landed;
+    } else {
+      EXPECT_NEAR(v, -speed, 1e-2) << i;
+      ++beside;
+    }
+  }
+  EXPECT_GT(landed, 50);
+  EXPECT_GT(beside, 50);
+}
+
 TEST(BodyContact, AnAlterationPushesTheClothBesideItWithinTheStep) {
   // A sheet that stands on its edge, unstrained and weightless, 0.3 mm too deep: without K y in b the row above would not move.
   BodySurface slab = test::tilted_slab(1, 0.2, 0);
