@@ -6,22 +6,22 @@
 
 namespace toile {
 
-// Four doubles; plain scalar arithmetic.  Double is the precision of tests and references.
-struct DoubleLane {
+// Four doubles: for systems that single precision does not bear, and for tests and references.
+struct alignas(32) DoubleLane {
   double value[4];
   double operator[](std::size_t k) const { return value[k]; }
   DoubleLane& operator+=(const DoubleLane& o) { return *this = *this + o; }
   DoubleLane& operator-=(const DoubleLane& o) { return *this = *this - o; }
   friend DoubleLane operator+(const DoubleLane& a, const DoubleLane& b) {
-    return {{a[0] + b[0], a[1] + b[1], a[2] + b[2], 0}};
+    return {{a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]}};
   }
   friend DoubleLane operator-(const DoubleLane& a, const DoubleLane& b) {
-    return {{a[0] - b[0], a[1] - b[1], a[2] - b[2], 0}};
+    return {{a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]}};
   }
   friend DoubleLane operator*(const DoubleLane& a, const DoubleLane& b) {
-    return {{a[0] * b[0], a[1] * b[1], a[2] * b[2], 0}};
+    return {{a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]}};
   }
-  friend DoubleLane operator*(const DoubleLane& a, double s) { return {{a[0] * s, a[1] * s, a[2] * s, 0}}; }
+  friend DoubleLane operator*(const DoubleLane& a, double s) { return {{a[0] * s, a[1] * s, a[2] * s, a[3] * s}}; }
 };
 
 template <class T>

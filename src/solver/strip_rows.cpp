@@ -6,6 +6,11 @@
 #include <algorithm>
 
 namespace toile {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
 
 Index StripRows::time(Index place) const {
   return place - *(std::upper_bound(begin_.begin(), begin_.end(), place) - 1);
@@ -92,30 +97,26 @@ Strips StripRows::strips() const {
   return strips;
 }
 
-// work(place) for the rows of one time.
+// work(strip, p) for the rows of one time.
 template <class Work>
 void StripRows::for_rows_at(Index time, const Work& work) const {
   for (std::size_t strip = 0; strip < strips_at_once; ++strip)
-    if (begin_[strip] + time < begin_[strip + 1]) work(begin_[strip] + time);
+    if (begin_[strip] + time < begin_[strip + 1]) work(strip, static_cast<std::size_t>(begin_[strip] + time));
 }
 
-// work(q, A_qp, A_pq) for the blocks of a place p with later ones.
+// work(q, stored, transposed) for the blocks of the row p of a strip at a time: A_qp is what is stored, or its transpose.
 template <class Work>
-void StripRows::for_later(const BlockMatrix<double>& A, Index p, const Work& work) const {
-  const BlockPattern& pattern = A.pattern();
-  const Index row = pattern.row_at(p), own_time = time(p);
-  const auto add = [&](Index column, Slot slot) {
-    const Index q = pattern.place(column);
-    if (q < begin_.front() || q >= begin_.back() || time(q) <= own_time) return;
-    const Block<double>& below = A.below(slot);
-    if (column < row) {
-      work(static_cast<std::size_t>(q), below.transpose(), below);
-    } else {
-      work(static_cast<std::size_t>(q), below, below.transpose());
-    }
-  };
-  for (Slot slot = pattern.first_slot(row); slot < pattern.end_slot(row); ++slot) add(pattern.column(slot), slot);
-  for (const auto& above : pattern.above(row)) add(above.row, above.slot);
+void StripRows::for_blocks(const BlockMatrix<double>& A, Index time, std::size_t strip, const Work& work) const {
+  if (time + 1 >= static_cast<Index>(row_begin_.size()))
+    return;  // the last row of a longer strip, which no other follows
+  for (auto n = static_cast<std::size_t>(row_begin_[at(time)]); n < static_cast<std::size_t>(row_begin_[at(time) + 1]);
+       ++n) {
+    const Source source = source_[n][strip];
+    if (source.slot < 0) continue;
+    const Block<double>& below = A.below(source.slot);
+    const auto q = static_cast<std::size_t>(column_[n].offset[strip] / 4);
+    work(q, below, source.below_diagonal);
+  }
 }
 
 void StripRows::forward(const BlockMatrix<float>&, Index begin, Index end, std::span<const Block<float>> G,
@@ -132,10 +133,11 @@ void StripRows::forward(const BlockMatrix<double>& A, Index begin, Index end, st
                         std::span<Lane<double>> s, std::span<Lane<double>> As) const {
   using B = Block<double>;
   for (Index time = begin; time < end; ++time) {
-    for_rows_at(time, [&](Index row) {
-      const auto p = static_cast<std::size_t>(row);
+    for_rows_at(time, [&](std::size_t strip, std::size_t p) {
       s[p] = G[p].times(As[p]);
-      for_later(A, row, [&](std::size_t q, const B& A_qp, const B&) { As[q] -= A_qp.times(s[p]); });
+      for_blocks(A, time, strip, [&](std::size_t q, const B& A_qp, bool transposed) {
+        As[q] -= transposed ? A_qp.transpose_times(s[p]) : A_qp.times(s[p]);
+      });
     });
   }
 }
@@ -144,12 +146,15 @@ void StripRows::backward(const BlockMatrix<double>& A, Index begin, Index end, s
                          std::span<Lane<double>> s, std::span<Lane<double>> As) const {
   using B = Block<double>;
   for (Index time = end; time-- > begin;) {
-    for_rows_at(time, [&](Index row) {
-      const auto p = static_cast<std::size_t>(row);
+    for_rows_at(time, [&](std::size_t strip, std::size_t p) {
       Lane<double> sum{0, 0, 0, 0};
-      for_later(A, row, [&](std::size_t q, const B&, const B& A_pq) { sum += A_pq.times(s[q]); });
+      for_blocks(A, time, strip, [&](std::size_t q, const B& A_qp, bool transposed) {
+        sum += transposed ? A_qp.times(s[q]) : A_qp.transpose_times(s[q]);
+      });
       s[p] -= G[p].times(sum);
-      for_later(A, row, [&](std::size_t q, const B& A_qp, const B&) { As[q] += A_qp.times(s[p]); });
+      for_blocks(A, time, strip, [&](std::size_t q, const B& A_qp, bool transposed) {
+        As[q] += transposed ? A_qp.transpose_times(s[p]) : A_qp.times(s[p]);
+      });
     });
   }
 }

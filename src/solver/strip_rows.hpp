@@ -26,7 +26,7 @@ class StripRows {
   Strips strips() const;
 
   // The rows of times [begin, end) by the blocks that are here, as sweep_kernels.hpp says, with G and vectors from place 0 on.  In double from A itself, row by
-  // row as it is written in books, for tests and references.
+  // row as it is written in books.
   void forward(const BlockMatrix<float>& A, Index begin, Index end, std::span<const Block<float>> G,
                std::span<Lane<float>> s, std::span<Lane<float>> As) const;
   void backward(const BlockMatrix<float>& A, Index begin, Index end, std::span<const Block<float>> G,
@@ -44,7 +44,7 @@ class StripRows {
   template <class Work>
   void for_rows_at(Index time, const Work& work) const;
   template <class Work>
-  void for_later(const BlockMatrix<double>& A, Index p, const Work& work) const;
+  void for_blocks(const BlockMatrix<double>& A, Index time, std::size_t strip, const Work& work) const;
   void pair_up(std::span<std::vector<std::pair<Index, Source>>, strips_at_once> blocks, Index row);
 
   std::array<Index, strips_at_once + 1> begin_{};

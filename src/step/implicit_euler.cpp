@@ -24,9 +24,7 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       world_(&world),
       options_(options),
       elements_(model),
-      A_(elements_.pattern()),
-      system_(A_),
-      pcg_(model.mesh),
+      solver_(elements_.pattern(), model.mesh),
       constraints_(model.particle_count()),
       body_(model, world.body, options.body),
       flypaper_(world.body, model.mass_kg.size(), options.body.offset_m),
@@ -39,7 +37,6 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
     vector->assign(n, Vec3::Zero());
   stretch_.resize(model.mesh.triangles.size());
   stretch_candidate_.resize(model.mesh.triangles.size());
-  for (std::size_t i = 0; i < n; ++i) A_.grounded(static_cast<Index>(i)) = model.mass_kg[i] * Mat3::Identity();
 }
 
 // The body's start and end for a step of h_s from t_s.  One of the two is often known from the attempt before.
@@ -130,16 +127,18 @@ void ImplicitEuler::hold_pins(const ClothState& state, double t_s, const StepFor
 
 void ImplicitEuler::assemble(const ClothState& at, double t_s, const StepFormula& step) {
   const double H = step.weight_s;
-  for (std::size_t i = 0; i < force_.size(); ++i) {
-    A_.grounded(static_cast<Index>(i)) = model_->mass_kg[i] * (1 + H * model_->drag_per_s) * Mat3::Identity();
-  }
-  elements_.assemble(H, A_);
-  if (world_->air.density_kg_per_m3 > 0) {
+  const bool in_air = world_->air.density_kg_per_m3 > 0;
+  if (in_air) {
     const double end_s = t_s + step.h_s;
     if (!air_) air_.emplace(*model_, *elements_.pattern());
     air_->evaluate(world_->air, world_->wind ? world_->wind(end_s) : world_->air.wind_m_per_s, at);
-    air_->assemble(H, A_);
   }
+  solver_.assemble([&](auto& A) {
+    for (std::size_t i = 0; i < force_.size(); ++i)
+      A.grounded(static_cast<Index>(i)) = model_->mass_kg[i] * (1 + H * model_->drag_per_s) * Mat3::Identity();
+    elements_.assemble(H, A);
+    if (in_air) air_->assemble(H, A);
+  });
 }
 
 StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_s, const StepLimits& limits,
@@ -166,7 +165,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   }
   move_body(t_s, h_s);
   body_.begin(state, dv_, step);
-  rows_.begin(state, dv_, step, base_h_s_, A_.diagonals());
+  rows_.begin(state, dv_, step, base_h_s_, solver_.diagonals());
   candidate.x.resize(n);
   candidate.v.resize(n);
   for (int iteration = 1;; ++iteration) {
@@ -204,7 +203,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
 void ImplicitEuler::shorten(const ClothState& state, const StepFormula& step, ClothState& candidate) {
   const Timed timed(seconds_.eval);
   for (std::size_t i = 0; i < dv_.size(); ++i) way_[i] = dv_[i] - dv_linearised_[i];
-  system_.multiply_unfiltered(way_, displacement_);
+  solver_.multiply_unfiltered(way_, displacement_);
   double gain = 0;
   for (std::size_t i = 0; i < dv_.size(); ++i) gain += way_[i].dot(displacement_[i]);
   for (double part = 1; part >= shortest_part; part /= 2) {
@@ -318,15 +317,14 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
     }
     {
       const Timed timed(seconds_.cg);
-      system_.update(implicit_rows_, constraints_);
-      pcg_.prepare(system_, pcg_options);
-      report.pcg = pcg_.solve(system_, b_, reference_, pcg_options, dv_);
+      solver_.prepare(implicit_rows_, constraints_, pcg_options);
+      report.pcg = solver_.solve(b_, reference_, pcg_options, dv_);
       report.cg_iterations += report.pcg.iterations;
       if (!report.pcg) {
         report.status = StepStatus::solver_failed;
         return false;
       }
-      system_.held_residual(dv_, b_, e_);
+      solver_.held_residual(dv_, b_, e_);
     }
     BodyConstraints::Change body;
     {

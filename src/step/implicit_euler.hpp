@@ -12,7 +12,7 @@
 #pragma once
 #include "assembly/air.hpp"
 #include "assembly/elements.hpp"
-#include "solver/modified_pcg.hpp"
+#include "solver/step_solver.hpp"
 #include "step/body_constraints.hpp"
 #include "step/contact_rows.hpp"
 #include "step/drag.hpp"
@@ -101,8 +101,6 @@ class ImplicitEuler {
   std::span<const Vec3> constraint_impulse() const { return e_; }
   const SafeFilter& filter() const { return filter_; }  // of the last attempt
   PhaseSeconds seconds() const;
-  // f + h K terms of the last assembled system, for tests.
-  const BlockMatrix<float>& A() const { return A_; }
   const StepOptions& options() const { return options_; }
   void set_slow_motion(double share) { options_.slow_motion = share; }
   void set_tolerance(double tolerance) { options_.pcg.tolerance = tolerance; }
@@ -141,9 +139,7 @@ class ImplicitEuler {
   StepOptions options_;
   Elements elements_;
   std::optional<Air> air_;  // from the first step in air on
-  BlockMatrix<float> A_;
-  LinearSystem<float> system_;
-  ModifiedPcg<float> pcg_;
+  StepSolver solver_;
   ParticleConstraints constraints_;
   BodyConstraints body_;
   Flypaper flypaper_;
