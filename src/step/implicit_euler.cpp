@@ -1,11 +1,9 @@
 #include "step/implicit_euler.hpp"
 
-#include "core/parallel.hpp"
 #include "core/stopwatch.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace toile {
 namespace {
@@ -15,7 +13,6 @@ constexpr double loose_passes = 3;  // times the residual at which the last pass
 constexpr int contact_passes = 2;
 constexpr double most_made = 0.1;           // in threads by a solve that does not know of it, of the kinetic energy
 constexpr double shortest_part = 1.0 / 16;  // of the way that a solve about an end leads
-constexpr std::size_t stretch_grain = 1024;
 
 }  // namespace
 
@@ -24,6 +21,7 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       world_(&world),
       options_(options),
       elements_(model),
+      stretch_(model, elements_),
       solver_(elements_.pattern(), model.mesh),
       constraints_(model.particle_count()),
       body_(model, world.body, options.body),
@@ -35,8 +33,6 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
        {&force_, &b_, &y_, &y_known_, &y_linearised_, &linearised_, &displacement_, &force_linearised_, &x_linearised_,
         &moved_, &reference_, &dv_, &dv_last_, &dv_linearised_, &way_, &e_, &landing_, &landing_v_})
     vector->assign(n, Vec3::Zero());
-  stretch_.resize(model.mesh.triangles.size());
-  stretch_candidate_.resize(model.mesh.triangles.size());
 }
 
 // The body's start and end for a step of h_s from t_s.  One of the two is often known from the attempt before.
@@ -76,7 +72,7 @@ void ImplicitEuler::prepare(const ClothState& state, double t_s, double h_s, dou
     elements_.forces(force_);
     for (std::size_t i = 0; i < force_.size(); ++i)
       force_[i] += model_->mass_kg[i] * (model_->gravity_m_per_s2 - model_->drag_per_s * state.v[i]);
-    elements_.stretch(state.x, stretch_);
+    stretch_.begin(state.x);
   }
   {
     const Timed timed(seconds_.cloth_solid);
@@ -337,7 +333,7 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
     if (pass >= contact_passes && report.relinearised < options_.relinearisations) {
       const Timed timed(seconds_.eval);
       find_end(state, step, candidate);
-      const StretchChange largest = largest_stretch_change(candidate);
+      const StretchChange largest = stretch_.largest(candidate.x);
       if (largest.change > limits.stretch || largest.beyond >= 0 ||
           (report.relinearised == 0 && makes_energy(candidate, step.h_s))) {
         relinearise(state, t_s, step, candidate);
@@ -378,7 +374,7 @@ void ImplicitEuler::judge(const StepLimits& limits, const ClothState& candidate,
   judge_speed(candidate, report);
   if (!report) return;
   const Timed timed(seconds_.eval);
-  const StretchChange largest = largest_stretch_change(candidate);
+  const StretchChange largest = stretch_.largest(candidate.x);
   report.stretch_change = largest.change;
   report.worst_triangle = largest.triangle;
   if (largest.change > limits.stretch) report.status = StepStatus::stretched;
@@ -392,56 +388,6 @@ void ImplicitEuler::judge_strain(const StretchChange& largest, StepReport& repor
   report.worst_triangle = largest.beyond;
   report.strain = largest.strain;
   report.strain_limit = model_->stiffness_of(static_cast<std::size_t>(largest.beyond)).strain_limit;
-}
-
-ImplicitEuler::StretchChange ImplicitEuler::largest_stretch_change(const ClothState& candidate) {
-  elements_.stretch(candidate.x, stretch_candidate_);
-  largest_of_.resize((stretch_.size() + stretch_grain - 1) / stretch_grain);
-  const auto block = [&](std::size_t begin, std::size_t end) {
-    largest_of_[begin / stretch_grain] = largest_stretch_change(begin, end);
-  };
-  parallel_blocks(stretch_.size(), stretch_grain, std::cref(block));  // by reference: no copy of the lambda on the heap
-  StretchChange largest;
-  for (const StretchChange& of_block : largest_of_) {
-    if (of_block.farthest > largest.farthest) {
-      largest.farthest = of_block.farthest;
-      largest.beyond = of_block.beyond;
-      largest.strain = of_block.strain;
-    }
-    if (of_block.change > largest.change) {
-      largest.change = of_block.change;
-      largest.triangle = of_block.triangle;
-    }
-  }
-  return largest;
-}
-
-// Of triangles [begin, end).  Only changes away from the rest length count: a thread that relaxes is not diverging, however fast.  One that
-// is pushed together counts by its energy, k c C^2 / 2: a squeeze of s is as much as a stretch of sqrt(c) s.
-ImplicitEuler::StretchChange ImplicitEuler::largest_stretch_change(std::size_t begin, std::size_t end) const {
-  StretchChange largest;
-  for (std::size_t t = begin; t < end; ++t) {
-    const MembraneStiffness& stiffness = model_->stiffness_of(t);
-    const std::array<double, 2> rest{model_->membrane[t].b_u, model_->membrane[t].b_v};
-    const double limit = stiffness.strain_limit;
-    for (Eigen::Index k = 0; k < 2; ++k) {
-      const double b = rest[static_cast<std::size_t>(k)], before = stretch_[t][k], after = stretch_candidate_[t][k];
-      if (const double from = limited_from(b);
-          limit > 0 && after > before && after - from > largest.farthest * limit * from) {
-        largest.farthest = (after - from) / (limit * from);
-        largest.beyond = static_cast<Index>(t);
-        largest.strain = after / from - 1;
-      }
-      if (std::abs(after - b) <= std::abs(before - b)) continue;
-      double change = std::abs(after - before);
-      if (change <= largest.change) continue;  // a squeeze counts for no more than itself
-      if (after < b) change *= std::sqrt(stiffness.compression);
-      if (change <= largest.change) continue;
-      largest.change = change;
-      largest.triangle = static_cast<Index>(t);
-    }
-  }
-  return largest;
 }
 
 // Of the impacts with the body that the last attempt could not prevent.
@@ -480,7 +426,7 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
   }
   pierced_ = report.filter.body_left > 0;
   if (report.filter.corrected == 0) return;
-  judge_strain(largest_stretch_change(candidate), report);
+  judge_strain(stretch_.largest(candidate.x), report);
   if (!report) return;
   for (std::size_t i = 0; i < state.x.size(); ++i) {
     if (!filter_.moved()[i]) continue;

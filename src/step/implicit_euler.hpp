@@ -18,6 +18,7 @@
 #include "step/drag.hpp"
 #include "step/flypaper.hpp"
 #include "step/step_report.hpp"
+#include "step/stretch_changes.hpp"
 #include "step/swallowed.hpp"
 
 #include <functional>
@@ -117,15 +118,6 @@ class ImplicitEuler {
   bool makes_energy(const ClothState& candidate, double h_s);
   void shorten(const ClothState& state, const StepFormula& step, ClothState& candidate);
   void find_end(const ClothState& state, const StepFormula& step, ClothState& candidate);
-  struct StretchChange {
-    double change = 0;
-    Index triangle = -1;
-    Index beyond = -1;    // of those that got longer beyond their strain limit, the one farthest beyond
-    double strain = 0;    // of it
-    double farthest = 1;  // it is at that many times its limit
-  };
-  StretchChange largest_stretch_change(const ClothState& candidate);
-  StretchChange largest_stretch_change(std::size_t begin, std::size_t end) const;
   void judge(const StepLimits& limits, const ClothState& candidate, StepReport& report);
   void judge_speed(const ClothState& candidate, StepReport& report) const;
   void judge_strain(const StretchChange& largest, StepReport& report) const;
@@ -138,6 +130,7 @@ class ImplicitEuler {
   const StepWorld* world_;
   StepOptions options_;
   Elements elements_;
+  StretchChanges stretch_;
   std::optional<Air> air_;  // from the first step in air on
   StepSolver solver_;
   ParticleConstraints constraints_;
@@ -154,9 +147,7 @@ class ImplicitEuler {
   std::vector<ImplicitRow> implicit_rows_;
   Vec3s force_, b_, y_, y_known_, y_linearised_, linearised_, displacement_, force_linearised_, x_linearised_, moved_,
       reference_, dv_, dv_last_, dv_linearised_, way_, e_;
-  Vec3s landing_, landing_v_;  // y_l, m, and y_l / h
-  std::vector<Vec2> stretch_, stretch_candidate_;
-  std::vector<StretchChange> largest_of_;     // [block of triangles]
+  Vec3s landing_, landing_v_;                 // y_l, m, and y_l / h
   Vec3s body_start_, body_end_;               // world_->body_at at the two ends of the step
   double body_start_s_ = 0, body_end_s_ = 0;  // the times of the two
   MotionHistory history_;

@@ -1,0 +1,40 @@
+// step/stretch_changes.hpp: how much threads change in a step, away from rest, and which are beyond their strain limit.      [BW98 7]
+//
+//   change    max over triangles of | |w'| - |w| |, w = w_u, w_v, where |w'| is farther from its rest length than |w|; of a thread that is pushed
+//             together sqrt(c) of it, so that a squeeze counts by its energy, k c C^2 / 2
+#pragma once
+#include "assembly/elements.hpp"
+
+#include <span>
+#include <vector>
+
+namespace toile {
+
+struct StretchChange {
+  double change = 0;
+  Index triangle = -1;
+  Index beyond = -1;    // of those that got longer beyond their strain limit, the one farthest beyond
+  double strain = 0;    // of it
+  double farthest = 1;  // it is at that many times its limit
+};
+
+class StretchChanges {
+ public:
+  // Model and elements must outlive this object.
+  StretchChanges(const ClothModel& model, const Elements& elements);
+
+  // The start of a step, x in m, [particle].
+  void begin(std::span<const Vec3> x);
+  // From there to an end; the same on any number of threads.
+  StretchChange largest(std::span<const Vec3> x);
+
+ private:
+  StretchChange largest_of(std::size_t begin, std::size_t end) const;
+
+  const ClothModel* model_;
+  const Elements* elements_;
+  std::vector<Vec2> start_, end_;         // [triangle] |w_u|, |w_v|
+  std::vector<StretchChange> of_blocks_;  // [block of triangles]
+};
+
+}  // namespace toile
