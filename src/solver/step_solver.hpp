@@ -19,8 +19,6 @@ namespace toile {
 class StepSolver {
  public:
   StepSolver(std::shared_ptr<const BlockPattern> pattern, const ClothMesh& mesh);
-  StepSolver(const StepSolver&) = delete;  // systems point at their matrices
-  StepSolver& operator=(const StepSolver&) = delete;
 
   // fill(A) writes grounded parts and blocks of a BlockMatrix, and calls its update_diagonal.
   template <class Fill>
