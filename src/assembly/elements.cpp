@@ -180,7 +180,7 @@ void Elements::assemble(double h_s, BlockMatrix<T>& A) {
       gather_blocks({triangle_begin_.data(), hinge_begin_.data(), triangle_parts_.data(), hinge_parts_.data()},
                     static_cast<Slot>(begin), static_cast<Slot>(end), of_triangles_.data(), bend_.data(),
                     of_hinges_.data(), A.blocks().data());
-    } else {  // for tests and references
+    } else {  // where single precision does not do (solver/step_solver.hpp), and for references
       for (std::size_t s = begin; s < end; ++s) {
         Mat3 block = Mat3::Zero();  // above the diagonal
         for (auto k = triangle_begin_[s]; k < triangle_begin_[s + 1]; ++k) {

@@ -22,7 +22,7 @@ double residual_norm2(Index begin, Index end, const Block<float>* G, const Lane<
 void add_moments(Index begin, Index end, const Lane<float>* r, const Lane<float>* At, const Vec3* basis,
                  const Index* aggregate, double* sum);
 
-// The same in double, one particle after the other, for tests and references.
+// The same in double, one particle after the other.
 double dot_lanes(Index begin, Index end, const Lane<double>* a, const Lane<double>* b);
 double next_direction(Index begin, Index end, bool first, double beta, const Lane<double>* s, const Lane<double>* As,
                       Lane<double>* c, Lane<double>* q);

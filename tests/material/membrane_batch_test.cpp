@@ -106,19 +106,18 @@ TEST(MembraneBatch, EveryLaneIsATriangleOfItsOwn) {
       ASSERT_TRUE(std::isfinite(r.energy_J)) << t;
       limited += of.k[t].strain_limit > 0 && r.w_u.norm() > 1.1;
       const Vec3 &alpha = of.rest[t].alpha, &beta = of.rest[t].beta;
-      const std::array<Vec3, 3> end = of.at(of.end, t);
-      Vec3 w_u = Vec3::Zero(), w_v = Vec3::Zero();
-      for (std::size_t c = 0; c < 3; ++c) {
-        w_u += alpha[static_cast<Eigen::Index>(c)] * end[c];
-        w_v += beta[static_cast<Eigen::Index>(c)] * end[c];
-      }
+      const auto columns = [&](const Vec3s& corners) {
+        const std::array<Vec3, 3> corner = of.at(corners, t);
+        Vec3 u = Vec3::Zero(), v = Vec3::Zero();
+        for (std::size_t c = 0; c < 3; ++c) {
+          u += alpha[static_cast<Eigen::Index>(c)] * corner[c];
+          v += beta[static_cast<Eigen::Index>(c)] * corner[c];
+        }
+        return std::pair(u, v);
+      };
+      const auto [w_u, w_v] = columns(of.end);
       const Vec3 Kw_u = r.K.uu * w_u + r.K.uv * w_v, Kw_v = r.K.uv.transpose() * w_u + r.K.vv * w_v;
-      const std::array<Vec3, 3> moving = of.at(of.v, t);
-      Vec3 v_u = Vec3::Zero(), v_v = Vec3::Zero();
-      for (std::size_t c = 0; c < 3; ++c) {
-        v_u += alpha[static_cast<Eigen::Index>(c)] * moving[c];
-        v_v += beta[static_cast<Eigen::Index>(c)] * moving[c];
-      }
+      const auto [v_u, v_v] = columns(of.v);
       const Vec3 Dv_u = r.D.uu * v_u + r.D.uv * v_v, Dv_v = r.D.uv.transpose() * v_u + r.D.vv * v_v;
       for (Eigen::Index c = 0; c < 3; ++c) {
         EXPECT_EQ(got.force[t].col(c), alpha[c] * (r.P_u + r.Q_u) + beta[c] * (r.P_v + r.Q_v)) << t;
