@@ -1,6 +1,6 @@
 #include "bench_table.hpp"
 
-#include "sim/json_text.hpp"
+#include "io/json_text.hpp"
 
 #include <fmt/printf.h>
 

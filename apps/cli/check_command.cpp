@@ -1,5 +1,6 @@
 // apps/cli/check_command.cpp: `toile check`: reads scenes, patterns and meshes, says what they hold or what is wrong with them.
 #include "commands.hpp"
+#include "output_folder.hpp"
 #include "core/hash.hpp"
 #include "garment/garment_mesh.hpp"
 #include "garment/pattern_check.hpp"
@@ -7,7 +8,7 @@
 #include "io/json.hpp"
 #include "io/obj.hpp"
 #include "mesh/check.hpp"
-#include "sim/json_text.hpp"
+#include "io/json_text.hpp"
 #include "sim/setup.hpp"
 #include "terminal.hpp"
 
@@ -104,6 +105,9 @@ std::string check_pattern_text(const std::string& path, const std::string& text,
 
 std::string check_scene(const std::string& path, const std::string& text, JsonText& json) {
   const Scene scene = parse_scene(text, path);
+  CommandLine as_run;
+  as_run.inputs = {path};
+  output_folder(as_run, scene);
   Hash hash;
   Index vertices = 0, triangles = 0;
   for (const SceneCloth& cloth : scene.cloth) {

@@ -21,6 +21,12 @@ void add_common(CLI::App& command, CommandLine& line) {
   command.add_flag("--json", line.json, "Print the result as one JSON object");
 }
 
+void add_checkpoint_option(CLI::App& command, CommandLine& line) {
+  command.add_option("--checkpoint-frames", line.checkpoint_frames,
+                     "Keep the state every so many frames (default: every second)")
+      ->check(CLI::Range(1, 1000000));
+}
+
 void add_untangle_options(CLI::App& command, CommandLine& line) {
   command.add_option("CLOTH", line.inputs, "Cloth mesh (OBJ)")->required()->expected(1);
   command.add_option("--body", line.body, "Body mesh (OBJ), or a mannequin: woman (also: mannequin), dancer, man");
@@ -42,6 +48,7 @@ void add_garment_options(CLI::App& command, CommandLine& line) {
   command.add_option("--start", line.start, "Directory of a run: begin where it ended, without sewing again");
   command.add_option("--seconds", line.seconds, "Longest drape, or length of the motion, s")
       ->check(CLI::Range(0.001, 3600.0));
+  add_checkpoint_option(command, line);
 }
 
 // `toile bench KIND`: each kind has the options that mean something to it, and no others.
@@ -97,6 +104,7 @@ bool wants_json(int argc, const char* const* argv) {
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
   CommandLine line;
+  line.words.assign(argv + std::min(argc, 1), argv + argc);
   for (int i = 0; i < argc; ++i) line.typed += (i == 0 ? "" : " ") + std::string(i == 0 ? "toile" : argv[i]);
 
   CLI::App app("Toile: sewing pattern and body in, clothing out.", "toile");
@@ -136,6 +144,15 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       ->delimiter(',')
       ->check(CLI::Range(0, 1000000));
 
+  CLI::App* resume = app.add_subcommand("resume", "Go on with a run that was interrupted, to the same bits");
+  resume->add_option("DIR", line.inputs, "Directory of the run")->required()->expected(1);
+  resume->add_option("--threads", line.threads, "Threads; 0: one per core. The result does not depend on it")
+      ->check(CLI::Range(0, 1024));
+  resume->add_flag("--no-preview", line.no_preview, "No pictures");
+  resume->add_flag("--quiet", line.quiet, "Print errors only");
+  resume->add_flag("--json", line.json, "Print the result as one JSON object");
+  add_checkpoint_option(*resume, line);
+
   CLI::App* untangle =
       app.add_subcommand("untangle", "Move a cloth that passes through itself or a body until it does not");
   add_untangle_options(*untangle, line);
@@ -156,7 +173,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   }
   if (app.get_subcommands().empty())
     throw Error(ExitCode::usage,
-                "a command is missing: demo, dress, run, check, verify, preview, untangle or bench (toile --help)");
+                "a command is missing: demo, dress, run, check, verify, preview, resume, untangle or bench (toile --help)");
 
   const CLI::App* chosen = app.get_subcommands().front();
   for (const auto& [option, value] :
@@ -166,7 +183,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   using Command = CommandLine::Command;
   const std::pair<const CLI::App*, Command> commands[] = {
       {demo, Command::demo},     {dress, Command::dress},     {run, Command::run},           {check, Command::check},
-      {verify, Command::verify}, {preview, Command::preview}, {untangle, Command::untangle}, {bench, Command::bench}};
+      {verify, Command::verify}, {preview, Command::preview}, {resume, Command::resume},     {untangle, Command::untangle},
+      {bench, Command::bench}};
   for (const auto& [command, value] : commands)
     if (command == chosen) line.command = value;
   if (chosen == bench && bench->get_subcommands().empty())

@@ -7,11 +7,12 @@
 namespace toile {
 
 struct CommandLine {
-  enum class Command { help, demo, dress, run, check, verify, preview, untangle, bench };
+  enum class Command { help, demo, dress, run, check, verify, preview, resume, untangle, bench };
   Command command = Command::help;
   std::string help;                 // Command::help: what to print
   std::vector<std::string> inputs;  // patterns, scene, files, directory, the demo's or the benchmark's name
   std::string typed;                // the whole line, for the report
+  std::vector<std::string> words;   // the same without the program's name, to ask for it again
 
   std::string out;  // empty: ./out/NAME
   int threads = 0;  // 0: one per core
@@ -23,6 +24,8 @@ struct CommandLine {
   std::optional<double> resolution_cm, fps, seconds;
   bool strict_start = false;
   bool list = false;
+  std::optional<int> checkpoint_frames;  // absent: by time
+  bool resume = false;                   // simulate_command: go on with what is in `out`
 
   // Of bench.
   bool csv = false;

@@ -6,6 +6,7 @@
 namespace toile {
 
 ExitCode simulate_command(const CommandLine& line);  // demo, dress, run
+ExitCode resume_command(const CommandLine& line);
 ExitCode check_command(const CommandLine& line);
 ExitCode verify_command(const CommandLine& line);
 ExitCode preview_command(const CommandLine& line);

@@ -2,7 +2,7 @@
 // that is not 0 or the verdict of a run, with one line on stderr.
 #include "commands.hpp"
 #include "core/parallel.hpp"
-#include "sim/json_text.hpp"
+#include "io/json_text.hpp"
 #include "terminal.hpp"
 
 #include <cstdio>
@@ -20,6 +20,8 @@ ExitCode run_command(const CommandLine& line) {
     case CommandLine::Command::dress:
     case CommandLine::Command::run:
       return simulate_command(line);
+    case CommandLine::Command::resume:
+      return resume_command(line);
     case CommandLine::Command::check:
       return check_command(line);
     case CommandLine::Command::verify:

@@ -1,7 +1,7 @@
 // apps/cli/run_directory_command.cpp: `toile verify` and `toile preview`: what is done to a finished run.
 #include "commands.hpp"
-#include "io/json.hpp"
-#include "sim/json_text.hpp"
+#include "io/run_folder.hpp"
+#include "io/json_text.hpp"
 #include "sim/picture_run.hpp"
 #include "terminal.hpp"
 #include "verify/verdict.hpp"
@@ -13,13 +13,6 @@
 
 namespace toile {
 namespace {
-
-// A run whose seams did not close has a report but no cloth to measure: then its own word is all there is, and it is no pass.
-bool is_without_cloth(const std::string& directory) {
-  const std::filesystem::path folder(directory);
-  if (std::filesystem::exists(folder / "cloth.obj") || std::filesystem::exists(folder / "cloth.pc2")) return false;
-  return Json::load((folder / "report.json").string()).number_or("frames", -1) == 0;
-}
 
 void add_count(JsonText& json, std::string_view key, const PenetrationCount& count) {
   json.key(key);
@@ -167,16 +160,9 @@ std::string as_text(const std::string& directory, const VerifyReport& audit, con
 
 ExitCode verify_command(const CommandLine& line) {
   const std::string& directory = line.inputs.front();
-  VerifyReport audit;
+  const VerifyReport audit = verify_directory(directory);
   Limits limits;
-  if (is_without_cloth(directory)) {
-    const Json report = Json::load((std::filesystem::path(directory) / "report.json").string());
-    if (const Json* reasons = report.find("reasons"))
-      for (const Json& reason : reasons->array()) audit.reported_reasons.push_back(reason.string());
-  } else {
-    audit = verify_directory(directory);
-    limits.must_be_still = audit.must_be_still;
-  }
+  limits.must_be_still = audit.must_be_still;
   const Verdict verdict = judge(audit, limits);
   if (line.json) {
     print(as_json(audit, verdict));
@@ -184,15 +170,20 @@ ExitCode verify_command(const CommandLine& line) {
     print(as_text(directory, audit, verdict));
   }
   if (line.picture && audit.worst_frame >= 0) {
+    const RunFolder folder(directory, RunFolder::Use::pictures, {}, {});
     const std::string png = (std::filesystem::path(directory) / "crossings.png").string();
     picture_crossings(directory, audit.worst_frame, png);
     if (!line.json && !line.quiet) print(png + '\n');
   }
-  return verdict.pass ? ExitCode::ok : ExitCode::simulation_failed;
+  if (verdict.pass) return ExitCode::ok;
+  const Reason& reason = verdict.reasons.front();
+  std::fprintf(stderr, "toile: %s: %s: %s\n", directory.c_str(), reason.code.c_str(), reason.detail.c_str());
+  return ExitCode::simulation_failed;
 }
 
 ExitCode preview_command(const CommandLine& line) {
   const std::string& directory = line.inputs.front();
+  const RunFolder folder(directory, RunFolder::Use::pictures, {}, {});
   ProgressBar bar(line);
   PictureOptions pictures;
   pictures.frames = line.frames;
@@ -203,8 +194,7 @@ ExitCode preview_command(const CommandLine& line) {
       },
       interrupted);
   bar.clear();
-  const std::filesystem::path folder(directory);
-  const std::string png = (folder / "preview.png").string(), mp4 = (folder / "preview.mp4").string();
+  const std::string png = folder.path("preview.png"), mp4 = folder.path("preview.mp4");
   JsonText json(0);
   json.begin_object();
   json.member("png", png);

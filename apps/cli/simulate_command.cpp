@@ -6,7 +6,9 @@
 #include "core/stopwatch.hpp"
 #include "embedded.hpp"
 #include "io/file.hpp"
-#include "sim/json_text.hpp"
+#include "io/json_text.hpp"
+#include "io/run_folder.hpp"
+#include "output_folder.hpp"
 #include "sim/picture_run.hpp"
 #include "sim/simulate.hpp"
 #include "terminal.hpp"
@@ -177,16 +179,6 @@ Scene scene_of(const CommandLine& line) {
   return scene;
 }
 
-std::string directory_of(const CommandLine& line, const Scene& scene) {
-  if (!line.out.empty()) return line.out;
-  if (!scene.output_dir.empty()) return scene.output_dir;
-  std::string name = scene.name;
-  for (char& c : name)
-    if (c == '/' || static_cast<unsigned char>(c) < 0x20) c = '_';
-  if (name == "." || name == "..") name = "scene";
-  return "out/" + name;
-}
-
 std::string summary(const Report& report, const std::string& directory) {
   const PhaseReport& drape = report.drape;
   std::string out = directory + ": " + (report.verdict.pass ? "pass" : "fail") + " (ended: " + report.ended + ")\n";
@@ -216,8 +208,12 @@ ExitCode simulate_command(const CommandLine& line) {
   const Scene scene = scene_of(line);
   ProgressBar bar(line);
   RunOptions options;
-  options.directory = directory_of(line, scene);
+  options.directory = output_folder(line, scene);
   options.command = line.typed;
+  options.arguments = line.words;
+  if (line.command == CommandLine::Command::run) options.inputs = line.inputs;
+  options.resume = line.resume;
+  options.checkpoints.every_frames = line.checkpoint_frames.value_or(0);
   options.seconds_before = since_start.seconds();
   if (line.command == CommandLine::Command::demo) options.read = embedded_text;
   options.progress = [&](const Progress& progress) { bar.show(progress); };
@@ -230,6 +226,7 @@ ExitCode simulate_command(const CommandLine& line) {
   if (wanted && code != ExitCode::interrupted) {
     // The run is complete without its pictures; what goes wrong here is told, and does not take the result away.
     try {
+      const RunFolder folder(options.directory, RunFolder::Use::pictures, {}, {});
       PictureOptions pictures;
       pictures.frames = scene.picture_frames;
       picture_run(

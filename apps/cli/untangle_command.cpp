@@ -5,7 +5,7 @@
 #include "io/obj.hpp"
 #include "io/obj_replace.hpp"
 #include "mesh/check.hpp"
-#include "sim/json_text.hpp"
+#include "io/json_text.hpp"
 #include "sim/setup.hpp"
 #include "sim/untangle.hpp"
 #include "terminal.hpp"

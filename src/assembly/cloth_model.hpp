@@ -13,6 +13,10 @@ namespace toile {
 
 struct ClothState {  // copy to save, assign to restore
   Vec3s x, v;        // m, m/s
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(x, v);
+  }
 };
 
 struct ModelOptions {

@@ -22,6 +22,10 @@ struct BodyPoint {
   Vec3 barycentric = Vec3::Zero();
   Vec3 normal = Vec3::Zero();  // unit, out of the body: along (p - point) outside, against it inside
   double gap_m = 0;            // signed distance: negative inside
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(triangle, barycentric, normal, gap_m);
+  }
 };
 
 // A closed, outward-wound triangle mesh.  Throws InputError (from build_topology) when an edge has three triangles or

@@ -1,4 +1,8 @@
-// core/hash.hpp: a 64-bit fingerprint of bits, for `state_hash` and golden tests.  FNV-1a; not for security.
+// core/hash.hpp: 64-bit fingerprints of bits; not for security.
+//
+//   Hash       FNV-1a: `state_hash`, `input_hash`, golden tests
+//   checksum   of a frame or a file: whether it is what was written.  Eight bytes at a time, as every step is one-to-one in the state
+//              and in the word: two texts of one length that differ in one word never have the same.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -7,6 +11,31 @@
 #include <string>
 
 namespace toile {
+
+inline std::string hex_of(std::uint64_t value) {
+  static constexpr char digits[] = "0123456789abcdef";
+  std::string text(16, '0');
+  for (int i = 0; i < 16; ++i) text[static_cast<std::size_t>(i)] = digits[(value >> (60 - 4 * i)) & 15];
+  return text;
+}
+
+inline std::uint64_t checksum(const void* data, std::size_t size) {
+  const auto* bytes = static_cast<const unsigned char*>(data);
+  std::uint64_t value = 0x9e3779b97f4a7c15ULL ^ size;
+  const auto take = [&value](std::uint64_t word) {
+    value = (value ^ word) * 0xff51afd7ed558ccdULL;
+    value ^= value >> 32;
+  };
+  for (; size >= 8; bytes += 8, size -= 8) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes, 8);
+    take(word);
+  }
+  std::uint64_t rest = 0;
+  std::memcpy(&rest, bytes, size);
+  take(rest);
+  return value;
+}
 
 class Hash {
  public:
@@ -20,12 +49,7 @@ class Hash {
     add_bytes(values.data(), values.size_bytes());
   }
   std::uint64_t value() const { return value_; }
-  std::string hex() const {
-    static constexpr char digits[] = "0123456789abcdef";
-    std::string text(16, '0');
-    for (int i = 0; i < 16; ++i) text[static_cast<std::size_t>(i)] = digits[(value_ >> (60 - 4 * i)) & 15];
-    return text;
-  }
+  std::string hex() const { return hex_of(value_); }
 
  private:
   std::uint64_t value_ = 0xcbf29ce484222325ULL;

@@ -85,6 +85,16 @@ class Sewing {
   const ImplicitEuler& integrator() const { return stepper_->integrator(); }
   PhaseSeconds seconds() const { return stepper_->integrator().seconds(); }
 
+  // What outlives a frame (core/state_archive.hpp).
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive.fixed(state_.x);
+    archive.fixed(state_.v);
+    archive(pull_factor_, time_s_, best_gap_m_, best_time_s_, escalations_, weld_obstacle_, status_, *stepper_);
+    archive.fixed(thickness_scale_);
+    if constexpr (Archive::reads) set_thickness_scale(thickness_scale_);
+  }
+
  private:
   void append_springs(const ClothState& state, double end_s, std::vector<LinearSpring>& springs) const;
   void judge_progress();

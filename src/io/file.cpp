@@ -1,6 +1,10 @@
 #include "io/file.hpp"
 
+#include "core/error.hpp"
+#include "core/hash.hpp"
+
 #include <fcntl.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -8,8 +12,6 @@
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
-
-#include "core/error.hpp"
 
 namespace toile {
 namespace {
@@ -35,15 +37,33 @@ int synchronize(int descriptor) {
   return errno;
 }
 
-// The new name itself is in the directory.  A directory that may not be read cannot be synchronized; the file is there
-// all the same.
-int synchronize_directory_of(const std::string& path) {
+std::string folder_of(const std::string& path) {
   const std::string parent = std::filesystem::path(path).parent_path().string();
-  const int directory = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  return parent.empty() ? "." : parent;
+}
+
+// A directory that may not be read cannot be synchronized; the file is there all the same.
+int synchronize_folder(const std::string& folder) {
+  const int directory = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (directory < 0) return 0;
   const int error = synchronize(directory);
   ::close(directory);
   return error;
+}
+
+// "<path>.<16 digits>.tmp", which nobody can guess.
+std::string unguessable_name(const std::string& path) {
+  std::uint64_t number = 0;
+  if (::getrandom(&number, sizeof number, 0) != static_cast<ssize_t>(sizeof number))
+    throw IoError(path, reason("cannot name a temporary file", errno));
+  return path + '.' + hex_of(number) + ".tmp";
+}
+
+std::string free_space(const std::string& path, std::uint64_t written) {
+  std::error_code ignored;
+  const auto space = std::filesystem::space(folder_of(path), ignored);
+  if (ignored) return "";
+  return " (" + std::to_string(written) + " bytes written, " + std::to_string(space.available) + " bytes free)";
 }
 
 }  // namespace
@@ -99,41 +119,39 @@ std::string read_file(const std::string& path, std::size_t limit_bytes) {
   return text;
 }
 
-AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), temporary_(path_ + ".tmp") {
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
   check_name(path_);
   // Better now than at the end of a long run.
   struct stat status {};
   if (::stat(path_.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) fail("cannot create", EISDIR);
-  // What a killed run has left, or a link that somebody has planted.
-  if (::unlink(temporary_.c_str()) != 0 && errno != ENOENT) fail("cannot create", errno);
-  const int descriptor =
-      ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);  // less the umask
+  int descriptor = ::open(folder_of(path_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);  // less the umask
+  if (descriptor < 0 && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)) {
+    temporary_ = unguessable_name(path_);
+    descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  }
   if (descriptor < 0) fail("cannot create", errno);
   file_ = ::fdopen(descriptor, "wb");
   if (!file_) {
     const int error = errno;
     ::close(descriptor);
-    ::unlink(temporary_.c_str());
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
     fail("cannot create", error);
   }
 }
 
 AtomicFile::~AtomicFile() {
-  if (!file_) return;
-  std::fclose(file_);
-  ::unlink(temporary_.c_str());
+  if (file_) std::fclose(file_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+int AtomicFile::descriptor() const {
+  if (!file_) fail("cannot write", EBADF);
+  return ::fileno(file_);
 }
 
 void AtomicFile::fail(std::string_view what, int error) const {
   std::string text = reason(what, error);
-  if (error == ENOSPC) {
-    std::error_code ignored;
-    const auto parent = std::filesystem::path(path_).parent_path();
-    const auto space = std::filesystem::space(parent.empty() ? "." : parent, ignored);
-    if (!ignored) {
-      text += " (" + std::to_string(size_) + " bytes written, " + std::to_string(space.available) + " bytes free)";
-    }
-  }
+  if (error == ENOSPC) text += free_space(path_, size_);
   throw IoError(path_, text);
 }
 
@@ -152,23 +170,95 @@ void AtomicFile::overwrite(std::size_t offset, const void* data, std::size_t siz
   if (::fseeko(file_, 0, SEEK_END) != 0) fail("cannot write", errno);
 }
 
+// The file gets its own name where nothing stands there; else one of which it is moved over the old file.
+void AtomicFile::give_name() {
+  const std::string itself = "/proc/self/fd/" + std::to_string(::fileno(file_));
+  const auto link_to = [&](const std::string& name) {
+    return ::linkat(AT_FDCWD, itself.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
+  };
+  int error = link_to(path_);
+  if (error == 0) return;
+  if (error != EEXIST) fail("cannot name the finished file", error);
+  const std::string between = unguessable_name(path_);
+  error = link_to(between);
+  if (error != 0) fail("cannot name the finished file", error);
+  temporary_ = between;
+}
+
 void AtomicFile::commit() {
   if (!file_) fail("cannot write", EBADF);
   if (std::fflush(file_) != 0) fail("cannot write", errno);
   if (const int error = synchronize(::fileno(file_))) fail("cannot write", error);
+  if (temporary_.empty()) give_name();
   std::FILE* const file = file_;
-  file_ = nullptr;  // from here the destructor has nothing to do
-  if (std::fclose(file) != 0) {
-    const int error = errno;
-    ::unlink(temporary_.c_str());
-    fail("cannot write", error);
+  file_ = nullptr;
+  if (std::fclose(file) != 0) fail("cannot write", errno);
+  if (!temporary_.empty()) {
+    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot rename the finished file", errno);
+    temporary_.clear();
   }
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) {
-    const int error = errno;
-    ::unlink(temporary_.c_str());
-    fail("cannot rename the finished file", error);
+  if (const int error = synchronize_folder(folder_of(path_))) fail("cannot write the directory", error);
+}
+
+GrowingFile::GrowingFile(std::string path, Open how) : path_(std::move(path)) {
+  check_name(path_);
+  const bool create = how == Open::create;
+  const char* const what = create ? "cannot create" : "cannot open";
+  descriptor_ = ::open(path_.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK | (create ? O_CREAT | O_EXCL : 0),
+                       0666);  // less the umask
+  if (descriptor_ < 0) throw IoError(path_, reason(what, errno));
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
+    ::close(descriptor_);
+    throw IoError(path_, std::string(what) + ": not a regular file");
   }
-  if (const int error = synchronize_directory_of(path_)) fail("cannot write the directory", error);
+  size_ = static_cast<std::uint64_t>(status.st_size);
+}
+
+GrowingFile::~GrowingFile() { ::close(descriptor_); }
+
+void GrowingFile::write_at(std::uint64_t offset, const void* data, std::size_t size) {
+  const auto* bytes = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = ::pwrite(descriptor_, bytes, size, static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) {
+      const int error = written < 0 ? errno : ENOSPC;
+      throw IoError(path_, reason("cannot write", error) + (error == ENOSPC ? free_space(path_, size_) : ""));
+    }
+    bytes += written;
+    offset += static_cast<std::uint64_t>(written);
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+void GrowingFile::append(const void* data, std::size_t size) {
+  write_at(size_, data, size);
+  size_ += size;
+}
+
+void GrowingFile::overwrite(std::uint64_t offset, const void* data, std::size_t size) {
+  if (offset > size_ || size > size_ - offset) throw IoError(path_, "cannot overwrite what was not written");
+  write_at(offset, data, size);
+}
+
+void GrowingFile::truncate(std::uint64_t size) {
+  if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) throw IoError(path_, reason("cannot shorten", errno));
+  size_ = size;
+}
+
+void GrowingFile::synchronize() const {
+  if (const int error = toile::synchronize(descriptor_)) throw IoError(path_, reason("cannot write", error));
+}
+
+void remove_file(const std::string& path) {
+  check_name(path);
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT) throw IoError(path, reason("cannot remove", errno));
+}
+
+void synchronize_directory(const std::string& directory) {
+  if (const int error = synchronize_folder(directory.empty() ? "." : directory))
+    throw IoError(directory, reason("cannot write the directory", error));
 }
 
 void make_directories(const std::string& path) {

@@ -1,4 +1,4 @@
-// io/file.hpp: whole files in, and files that appear only when they are complete.
+// io/file.hpp: whole files in; files that appear only when they are complete, and files that grow.
 //
 // Only regular files are read: a pipe or a device may never end.  Easily missed: a full disk is reported by whichever
 // call happens to flush, often not before commit().
@@ -17,9 +17,10 @@ std::string read_file(const std::string& path, std::size_t limit_bytes = std::si
 // A regular file opened for reading, for the caller to close, and its size.  Throws IoError.
 std::FILE* open_regular_file(const std::string& path, std::uint64_t& size_bytes);
 
-// Writes to "<path>.tmp" and renames in commit(); destroyed without commit, nothing is left and what stood under the
-// name stays.  Throws IoError, naming the path and the system's reason, from every call.  The data are on the disk
-// before the name is.  A symbolic link that waits under the temporary name is removed, not followed.
+// A file that appears under its name in commit(), complete: destroyed without it, nothing is left and what stood under the name stays.
+// Until then it has no name at all (O_TMPFILE), so that nothing can be planted or shared under it and a process that is killed leaves nothing
+// behind; where the file system has no such files, a name that nobody can guess, "<path>.<16 digits>.tmp", which is never followed nor reused.
+// Throws IoError, naming the path and the system's reason, from every call.  The data are on the disk before the name is.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);
@@ -34,15 +35,52 @@ class AtomicFile {
   // Once; nothing may be written afterwards.
   void commit();
 
+  // For a program that writes the file itself; open until commit().
+  int descriptor() const;
   const std::string& path() const { return path_; }
 
  private:
   [[noreturn]] void fail(std::string_view what, int error) const;
+  void give_name();
 
-  std::string path_, temporary_;
+  std::string path_, temporary_;  // temporary_ is empty while the file has no name
   std::FILE* file_ = nullptr;
   std::uint64_t size_ = 0;
 };
+
+// A file that grows while others may read it, and stays as far as it was written, whatever becomes of the process.
+// Throws IoError as AtomicFile does.
+class GrowingFile {
+ public:
+  enum class Open { create, existing };
+  // create: there must be nothing under the name.  Links are not followed.
+  GrowingFile(std::string path, Open how);
+  ~GrowingFile();
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
+
+  // All of it at the end, or an error, and then the size is what it was.
+  void append(const void* data, std::size_t size);
+  void overwrite(std::uint64_t offset, const void* data, std::size_t size);
+  void truncate(std::uint64_t size);
+  // What was written until now is on the disk afterwards.  May be called while another thread appends.
+  void synchronize() const;
+
+  std::uint64_t size() const { return size_; }
+  const std::string& path() const { return path_; }
+
+ private:
+  void write_at(std::uint64_t offset, const void* data, std::size_t size);
+
+  std::string path_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+// Removes a file or a link, if there is one.  Throws IoError.
+void remove_file(const std::string& path);
+// The names that came into the folder or left it are on the disk afterwards.  Throws IoError.
+void synchronize_directory(const std::string& directory);
 
 // Creates the directory and its parents, as far as they are missing; "" is the current one.  Throws IoError.
 void make_directories(const std::string& path);

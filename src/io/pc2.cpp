@@ -1,5 +1,6 @@
 #include "io/pc2.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 
 namespace toile {
 namespace {
@@ -29,20 +31,56 @@ constexpr char magic[12] = "POINTCACHE2";
 // Bytes of one frame; fits, as points < 2^31.
 std::uint64_t frame_bytes(Index points) { return static_cast<std::uint64_t>(points) * 3 * sizeof(float); }
 
-}  // namespace
-
-Pc2Writer::Pc2Writer(const std::string& path, Index points, double start_frame, double rate)
-    : file_(path), points_(points) {
-  if (points < 0) throw InputError(printable(path), "points", "a number >= 0", std::to_string(points));
+Header header_of(Index points, float start, float rate, std::int32_t samples) {
   Header header{};
   std::memcpy(header.magic, magic, sizeof magic);
   header.version = 1;
   header.points = points;
-  header.start = static_cast<float>(start_frame);
-  header.rate = static_cast<float>(rate);
-  file_.write(&header, sizeof header);
+  header.start = start;
+  header.rate = rate;
+  header.samples = samples;
+  return header;
+}
+
+}  // namespace
+
+Pc2Writer::Pc2Writer(const std::string& path, Index points, double start_frame, double rate)
+    : file_(path, GrowingFile::Open::create),
+      points_(points),
+      start_(static_cast<float>(start_frame)),
+      rate_(static_cast<float>(rate)) {
+  if (points < 0) throw InputError(printable(path), "points", "a number >= 0", std::to_string(points));
+  const Header header = header_of(points_, start_, rate_, 0);
+  file_.append(&header, sizeof header);
   buffer_.resize(3 * static_cast<std::size_t>(points));
 }
+
+Pc2Writer::Pc2Writer(const std::string& path, Index points)
+    : file_(path, GrowingFile::Open::existing), points_(points), buffer_(3 * static_cast<std::size_t>(points)) {}
+
+std::unique_ptr<Pc2Writer> Pc2Writer::resume(const std::string& path, Index points, int samples) {
+  std::unique_ptr<Pc2Writer> writer(new Pc2Writer(path, points));
+  Pc2Reader reader(path, Pc2End::cut);
+  if (reader.points() != points)
+    throw InputError(printable(path), "points", std::to_string(points), std::to_string(reader.points()));
+  if (reader.samples() < samples)
+    throw InputError(printable(path), "samples", "at least " + std::to_string(samples),
+                     std::to_string(reader.samples()));
+  writer->start_ = static_cast<float>(reader.start_frame());
+  writer->rate_ = static_cast<float>(reader.rate());
+  std::vector<Vec3> x;
+  for (int frame = 0; frame < samples; ++frame) {
+    reader.read(frame, x);
+    writer->checksums_.push_back(reader.frame_checksum());
+  }
+  writer->samples_ = samples;
+  // The count first: frames that it does not count may be there, frames that are not there may not be counted.
+  writer->write_count();
+  writer->file_.truncate(sizeof(Header) + static_cast<std::uint64_t>(samples) * frame_bytes(points));
+  return writer;
+}
+
+void Pc2Writer::write_count() { file_.overwrite(offsetof(Header, samples), &samples_, sizeof samples_); }
 
 void Pc2Writer::append(std::span<const Vec3> positions) {
   if (positions.size() != static_cast<std::size_t>(points_)) {
@@ -56,16 +94,19 @@ void Pc2Writer::append(std::span<const Vec3> positions) {
       buffer_[3 * i + axis] = static_cast<float>(positions[i][static_cast<Eigen::Index>(axis)]);
     }
   }
-  file_.write(buffer_.data(), buffer_.size() * sizeof(float));
+  const std::size_t bytes = buffer_.size() * sizeof(float);
+  file_.append(buffer_.data(), bytes);
   ++samples_;
+  write_count();
+  checksums_.push_back(checksum(buffer_.data(), bytes));
 }
 
-void Pc2Writer::commit() {
-  file_.overwrite(offsetof(Header, samples), &samples_, sizeof samples_);
-  file_.commit();
+std::uint64_t Pc2Writer::header_checksum() const {
+  const Header header = header_of(points_, start_, rate_, samples_);
+  return checksum(&header, sizeof header);
 }
 
-Pc2Reader::Pc2Reader(const std::string& path) : path_(path) {
+Pc2Reader::Pc2Reader(const std::string& path, Pc2End end) : path_(path), end_(end) {
   std::uint64_t size = 0;
   file_ = open_regular_file(path, size);
   try {
@@ -99,7 +140,10 @@ void Pc2Reader::read_header(std::uint64_t size_bytes) {
   const std::uint64_t data = size_bytes - sizeof header;
   const std::uint64_t frame = frame_bytes(header.points);
   const auto samples = static_cast<std::uint64_t>(header.samples);
-  const bool fits = frame == 0 ? data == 0 : data % frame == 0 && data / frame == samples;
+  const std::uint64_t frames_there = frame == 0 ? 0 : data / frame;
+  const bool fits = frame == 0              ? data == 0
+                    : end_ == Pc2End::exact ? data % frame == 0 && frames_there == samples
+                                            : frames_there >= samples;
   if (!fits) {
     refuse(
         "size",
@@ -111,6 +155,7 @@ void Pc2Reader::read_header(std::uint64_t size_bytes) {
   samples_ = header.samples;
   start_ = header.start;
   rate_ = header.rate;
+  header_checksum_ = checksum(&header, sizeof header);
   if (samples_ > 0) buffer_.resize(3 * static_cast<std::size_t>(points_));
 }
 
@@ -133,5 +178,7 @@ void Pc2Reader::read(int frame, std::vector<Vec3>& positions) {
     positions[i] = Vec3(buffer_[3 * i], buffer_[3 * i + 1], buffer_[3 * i + 2]);
   }
 }
+
+std::uint64_t Pc2Reader::frame_checksum() const { return checksum(buffer_.data(), buffer_.size() * sizeof(float)); }
 
 }  // namespace toile

@@ -9,32 +9,52 @@
 #include "io/file.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace toile {
 
-// Frames are appended; the file appears under its name, with the right count, at commit().
+// Frames are committed as they come: after each append the file under its name is complete, and its header counts what is there.
 class Pc2Writer {
  public:
-  // `start_frame` and `rate` (samples per frame of the timeline) are stored for other programs.  Throws IoError.
+  // A new file; there must be nothing under the name.  `start_frame` and `rate` (samples per frame of the timeline) are stored for other
+  // programs.  Throws IoError.
   Pc2Writer(const std::string& path, Index points, double start_frame, double rate);
+  // Goes on behind the first `samples` frames of a file that was written so; what comes after them is cut off.  Throws InputError when the
+  // file has fewer, or other points.
+  static std::unique_ptr<Pc2Writer> resume(const std::string& path, Index points, int samples);
+
   void append(std::span<const Vec3> positions);  // must have `points` entries; rounded to float
   int samples() const { return samples_; }
-  void commit();
+  // The frames are on the disk afterwards.  May be called while another thread appends.
+  void synchronize() const { file_.synchronize(); }
+
+  // core/hash.hpp: of every frame's bytes, and of the header as it is now.
+  std::span<const std::uint64_t> frame_checksums() const { return checksums_; }
+  std::uint64_t header_checksum() const;
+  const std::string& path() const { return file_.path(); }
 
  private:
-  AtomicFile file_;
+  Pc2Writer(const std::string& path, Index points);
+  void write_count();
+
+  GrowingFile file_;
   Index points_;
   std::int32_t samples_ = 0;
+  float start_ = 0, rate_ = 1;
   std::vector<float> buffer_;
+  std::vector<std::uint64_t> checksums_;
 };
+
+// What may follow the frames that the header counts: nothing; or what a writer that was killed had begun.
+enum class Pc2End { exact, cut };
 
 // Reads one frame at a time.  Throws IoError or InputError; a size that the file does not have is an error on opening.
 class Pc2Reader {
  public:
-  explicit Pc2Reader(const std::string& path);
+  explicit Pc2Reader(const std::string& path, Pc2End end = Pc2End::exact);
   ~Pc2Reader();
   Pc2Reader(const Pc2Reader&) = delete;
   Pc2Reader& operator=(const Pc2Reader&) = delete;
@@ -44,15 +64,20 @@ class Pc2Reader {
   double rate() const { return rate_; }
   // Frame in 0..samples-1; `positions` is resized to points().
   void read(int frame, std::vector<Vec3>& positions);
+  // core/hash.hpp: of the bytes of the frame that was read last, and of the header.
+  std::uint64_t frame_checksum() const;
+  std::uint64_t header_checksum() const { return header_checksum_; }
 
  private:
   void read_header(std::uint64_t size_bytes);
 
   std::string path_;
+  Pc2End end_;
   std::FILE* file_ = nullptr;
   Index points_ = 0;
   int samples_ = 0;
   double start_ = 0, rate_ = 1;
+  std::uint64_t header_checksum_ = 0;
   std::vector<float> buffer_;
 };
 

@@ -25,6 +25,7 @@ extern char** environ;
 namespace toile {
 namespace {
 
+constexpr int film_descriptor = 3;            // of the child
 constexpr std::size_t kept_messages = 4096;  // bytes of ffmpeg's messages, from the end
 
 void close_if_open(int& descriptor) {
@@ -82,8 +83,8 @@ std::string find_ffmpeg() {
                 "Fedora: dnf install ffmpeg-free; macOS: brew install ffmpeg)");
 }
 
-FfmpegProcess::FfmpegProcess(const std::string& program, const std::string& film, const std::string& output, int width,
-                             int height, double fps)
+FfmpegProcess::FfmpegProcess(const std::string& program, const std::string& film, int output, int width, int height,
+                             double fps)
     : film_(film) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
   // H.264 players expect 4:2:0, hence even sizes, and Rec. 709 colours, said explicitly.  A fixed number of threads and no
@@ -134,7 +135,7 @@ FfmpegProcess::FfmpegProcess(const std::string& program, const std::string& film
       "+faststart",
       "-f",
       "mp4",
-      "file:" + output};
+      "file:/proc/self/fd/" + std::to_string(film_descriptor)};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -150,6 +151,7 @@ FfmpegProcess::FfmpegProcess(const std::string& program, const std::string& film
   posix_spawn_file_actions_adddup2(&plan.actions, pictures[1], STDIN_FILENO);
   posix_spawn_file_actions_addopen(&plan.actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&plan.actions, messages[1], STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&plan.actions, output, film_descriptor);
   // Its own process group: an interrupt from the keyboard is for us; we decide what becomes of the film.
   sigset_t none, defaults;
   sigemptyset(&none);

@@ -5,19 +5,48 @@
 #include <fmt/printf.h>
 
 namespace toile {
+namespace {
+
+// The garment's part, fabrics and elastic behind those of the outfit; its mesh is not there yet.
+void add_part(Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric> fabrics,
+              std::span<const Vec2> rest_stretch) {
+  OutfitPart part;
+  part.name = garment.name;
+  part.first_panel = static_cast<Index>(outfit.mesh.panel_names.size());
+  part.panels = static_cast<Index>(garment.mesh.panel_names.size());
+  outfit.parts.push_back(std::move(part));
+  outfit.fabrics.insert(outfit.fabrics.end(), fabrics.begin(), fabrics.end());
+  outfit.rest_stretch.insert(outfit.rest_stretch.end(), rest_stretch.begin(), rest_stretch.end());
+  outfit.seams += static_cast<int>(garment.seams.size());
+}
+
+// The mesh of what was worn and the garment, welded.
+void weld_on(Outfit& outfit, const WeldedMesh& welded) {
+  const Index worn_before = outfit.mesh.particle_count;
+  outfit.mesh = welded.mesh;
+  outfit.parts.back().particles = welded.mesh.particle_count - worn_before;
+}
+
+}  // namespace
+
+LabelSprings wear(Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric> fabrics,
+                  std::span<const Vec2> rest_stretch, std::span<const LabelHeight> heights) {
+  outfit.state.x.resize(static_cast<std::size_t>(outfit.mesh.particle_count), Vec3::Zero());
+  const GarmentMesh panels = over(outfit, garment);
+  const WeldedMesh welded = weld(panels);
+  add_part(outfit, garment, fabrics, rest_stretch);
+  weld_on(outfit, welded);
+  const auto particles = static_cast<std::size_t>(outfit.mesh.particle_count);
+  outfit.state = {Vec3s(particles, Vec3::Zero()), Vec3s(particles, Vec3::Zero())};
+  outfit.thickness_scale.assign(particles, 1);
+  return LabelSprings(panels, heights).welded(welded.particle_of);
+}
 
 Dressing::Dressing(const Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric> fabrics,
                    std::span<const Vec2> rest_stretch, BodySurface* body, const StepOptions& step,
                    SewingOptions options)
     : outfit_(outfit), options_(std::move(options)), panels_(over(outfit, garment)) {
-  OutfitPart part;
-  part.name = garment.name;
-  part.first_panel = static_cast<Index>(outfit.mesh.panel_names.size());
-  part.panels = static_cast<Index>(garment.mesh.panel_names.size());
-  outfit_.parts.push_back(std::move(part));
-  outfit_.fabrics.insert(outfit_.fabrics.end(), fabrics.begin(), fabrics.end());
-  outfit_.rest_stretch.insert(outfit_.rest_stretch.end(), rest_stretch.begin(), rest_stretch.end());
-  outfit_.seams += static_cast<int>(garment.seams.size());
+  add_part(outfit_, garment, fabrics, rest_stretch);
   options_.held_particles = outfit.mesh.particle_count;
   sewing_.emplace(panels_, outfit_.fabrics, body, step, options_);
 
@@ -62,8 +91,7 @@ Outfit Dressing::worn() const {
   const WeldedMesh welded = weld(panels_);
   worn.state = weld_state(panels_, welded, sewing_->model(), sewing_->state());
   worn.thickness_scale = weld_thickness(welded, sewing_->thickness_scale());
-  worn.mesh = welded.mesh;
-  worn.parts.back().particles = welded.mesh.particle_count - options_.held_particles;
+  weld_on(worn, welded);
   return worn;
 }
 

@@ -9,6 +9,11 @@
 
 namespace toile {
 
+// What sewing the garment onto the outfit leads to, but for where it is: mesh, parts, fabrics, all at rest in the origin.  Returns the springs of
+// the labels that hold the new garment.
+LabelSprings wear(Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric> fabrics,
+                  std::span<const Vec2> rest_stretch, std::span<const LabelHeight> heights);
+
 class Dressing {
  public:
   // `garment` is placed already, its panels have the fabrics and elastic of the two spans.  What the outfit has is held

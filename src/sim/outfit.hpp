@@ -28,6 +28,15 @@ struct Outfit {
   int seams = 0;
 
   Index part_of_panel(Index panel) const;
+
+  // What changes from frame to frame (core/state_archive.hpp); the rest follows from the garments.
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive.fixed(state.x);
+    archive.fixed(state.v);
+    archive.fixed(thickness_scale);
+    archive.fixed(rest_stretch);
+  }
 };
 
 // Appends a garment (or a grid) whose particles are where they shall be: nothing of it is sewn or welded any more.

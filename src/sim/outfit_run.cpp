@@ -17,6 +17,12 @@ constexpr double sewn_step_max_s = 1.0 / 60;
 // and what a solve leaves undone lets folds drift.
 constexpr double awaited_step_max_s = 1.0 / 30, awaited_slow_motion = 0.01, awaited_tolerance = 0.002;
 
+// What is taken goes where its moves lead it.
+void lead(TimedPin& timed) {
+  if (timed.from)
+    timed.pin.path = [moves = timed.moves, from = *timed.from](double t_s) { return moves.place(t_s, from); };
+}
+
 // Share of gravity and of the elastic's pull at time t after the weld.
 double ramp(double t_s) { return std::clamp((t_s - weightless_s) / ramp_s, 0.0, 1.0); }
 
@@ -65,6 +71,21 @@ void OutfitRun::set_rest_stretch(double share) {
   set_folds(model_, share);
 }
 
+std::vector<Vec2> OutfitRun::panel_rest_stretch() const {
+  std::vector<Vec2> b(model_.mesh.panel_names.size(), Vec2(1, 1));
+  for (std::size_t t = 0; t < model_.membrane.size(); ++t)
+    b[static_cast<std::size_t>(model_.mesh.panel[t])] = Vec2(model_.membrane[t].b_u, model_.membrane[t].b_v);
+  return b;
+}
+
+// Of what was read: the model is made to agree.
+void OutfitRun::take_up(std::span<const Vec2> panel_rest_stretch) {
+  for (std::size_t p = 0; p < panel_rest_stretch.size(); ++p)
+    set_panel_rest_stretch(model_, static_cast<Index>(p), panel_rest_stretch[p]);
+  set_folds(model_, ramped_);
+  for (TimedPin& timed : events_.pins) lead(timed);
+}
+
 void OutfitRun::settle() {
   const double t_s = settling_.waits ? 0 : time_s();
   const bool first = settling_.held_particles == 0;  // with friction off, what is worn below would slide down
@@ -99,9 +120,9 @@ void OutfitRun::take_and_let_go() {
   world_.pins = worn_pins_;
   for (TimedPin& timed : events_.pins) {
     if (time_s() < timed.from_s || time_s() >= timed.to_s) continue;
-    if (!timed.moves.empty() && !timed.pin.path) {
-      const Vec3 from = timed.moves.before(time_s(), outfit_->state.x[static_cast<std::size_t>(timed.pin.particle)]);
-      timed.pin.path = [moves = timed.moves, from](double t_s) { return moves.place(t_s, from); };
+    if (!timed.moves.empty() && !timed.from) {
+      timed.from = timed.moves.before(time_s(), outfit_->state.x[static_cast<std::size_t>(timed.pin.particle)]);
+      lead(timed);
     }
     world_.pins.push_back(timed.pin);
   }

@@ -33,7 +33,8 @@ struct Settling {            // of a garment that has just been sewn
 struct TimedPin {
   Pin pin;
   double from_s = 0, to_s = std::numeric_limits<double>::infinity();
-  RigidPath moves;  // if any, from where the particle is when it is taken
+  RigidPath moves;           // if any, from where the particle is when it is taken
+  std::optional<Vec3> from;  // where it would have been before the moves began; once it is taken
 };
 struct TimedDrag {  // a hand that holds the cloth for a while
   Drag drag;
@@ -62,6 +63,7 @@ class OutfitRun {
   // Advances by one frame of the scene.
   FrameReport frame();
   void set_events(Events events) { events_ = std::move(events); }
+  const Events& events() const { return events_; }
   // From the next frame on the body moves: `body_at(0)` is where it is now.
   void start_motion(BodyAt body_at);
 
@@ -74,7 +76,21 @@ class OutfitRun {
   LayerGap layer_gap() { return stepper_->integrator().contact_rows().layer_gap(outfit_->state.x); }
   std::span<const Pin> pins() const { return world_.pins; }  // of the last frame
 
+  // What outlives a frame (core/state_archive.hpp), without the outfit, which is its owner's.  To be read back once the events are set and, of a run
+  // whose body moves, start_motion has been called.
+  template <class Archive>
+  void remember(Archive& archive) {
+    std::vector<Vec2> b = panel_rest_stretch();
+    archive.fixed(b);
+    archive(frames_, motion_start_s_, without_room_, ramped_, *tangles_, *stepper_);
+    for (TimedPin& timed : events_.pins) archive(timed.pin.particle, timed.from);
+    for (TimedDrag& timed : events_.drags) archive(timed.drag.particle, timed.drag.weight);
+    if constexpr (Archive::reads) take_up(b);
+  }
+
  private:
+  std::vector<Vec2> panel_rest_stretch() const;    // [panel] of the model, as it is now
+  void take_up(std::span<const Vec2> panel_rest_stretch);
   void settle();
   void choose_steps();
   void set_rest_stretch(double share);

@@ -4,6 +4,7 @@
 #include "io/json.hpp"
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
+#include "io/run_folder.hpp"
 #include "preview/preview.hpp"
 #include "verify/crossings.hpp"
 
@@ -31,7 +32,7 @@ struct Take {  // one cache and the surface that it moves
     const std::string obj_path = (directory / (name + ".obj")).string();
     if (!std::filesystem::exists(obj_path)) return false;
     obj = load_obj(obj_path);
-    frames = std::make_unique<Pc2Reader>((directory / (name + ".pc2")).string());
+    frames = std::make_unique<Pc2Reader>((directory / (name + ".pc2")).string(), Pc2End::cut);
     if (static_cast<std::size_t>(frames->points()) != obj.positions.size())
       throw InputError(printable((directory / (name + ".pc2")).string()), "points",
                        std::to_string(obj.positions.size()), std::to_string(frames->points()));
@@ -112,7 +113,10 @@ struct Timing {
 Timing timing_of(const std::filesystem::path& folder) {
   Timing timing;
   const std::string path = (folder / "report.json").string();
-  if (!std::filesystem::exists(path)) return timing;
+  if (!std::filesystem::exists(path)) {
+    if (const auto run = read_unfinished_run(folder.string()); run && run->fps > 0) timing = {run->motion_first_frame, run->fps};
+    return timing;
+  }
   const Json report = Json::parse(read_file(path, Json::text_limit), printable(path));
   if (const Json* fps = report.find("fps")) timing.fps = fps->number();
   const Json* motion = report.find("motion");

@@ -16,12 +16,18 @@ class Recorder {
   Recorder(RunWriter& writer, const Outfit& outfit, std::span<const Vec2> rest_stretch, double fps,
            std::span<const Triangle> body, std::span<const Vec3> body_x);
 
+  // Of a run that is taken up again: judges the frames that it wrote before, from its files.  Throws IoError, InputError.
+  Recorder(RunWriter& writer, const Outfit& outfit, std::span<const Vec2> rest_stretch, double fps,
+           std::span<const Triangle> body, std::size_t body_vertices, const WrittenFrames& written);
+
   void frame(std::span<const Vec3> x, std::span<const Vec3> body_x);
   // Has the cloth been at rest for half a second, and slow for the last one, which is what the verdict asks?
   bool at_rest() const;
   VerifyReport report() const { return audit_.report(); }
 
  private:
+  void judge(Vec3s x, std::span<const Vec3> body_x);
+
   RunWriter* writer_;
   RunAudit audit_;
   double fps_;

@@ -1,6 +1,7 @@
 #include "sim/report.hpp"
 
-#include "sim/json_text.hpp"
+#include "io/json_text.hpp"
+#include "io/run_folder.hpp"
 
 #ifndef TOILE_VERSION
 #error "TOILE_VERSION comes from the build"
@@ -176,9 +177,56 @@ void add_measurements(JsonText& text, const Report& report) {
   add_jitter(text, report.audit.jitter);
 }
 
+void add_rest_stretch(JsonText& text, const Report& report) {
+  if (!report.rest_stretch.empty()) {
+    text.key("rest_stretch");
+    text.begin_object();
+    for (const auto& [panel, b] : report.rest_stretch) {
+      text.key(panel);
+      text.begin_array();
+      text.value(b[0]);
+      text.value(b[1]);
+      text.end_array();
+    }
+    text.end_object();
+  }
+}
+
+// Pictures are Toile's, too, and may be made at any time: they are listed, without a checksum.
+void add_files(JsonText& text, const Report& report) {
+  text.key("files");
+  text.begin_object();
+  for (const WrittenFile& file : report.files) {
+    text.key(file.name);
+    text.begin_object();
+    if (file.frames.empty()) {
+      text.member("checksum", file.checksum);
+    } else {
+      text.member("header_checksum", file.checksum);
+      text.key("frame_checksums");
+      text.begin_array();
+      for (const std::string& frame : file.frames) text.value(frame);
+      text.end_array();
+    }
+    text.end_object();
+  }
+  for (const std::string_view name : picture_file_names) {
+    text.key(name);
+    text.null();
+  }
+  text.end_object();
+}
+
 }  // namespace
 
 std::string_view toile_version() { return TOILE_VERSION; }
+
+void add_facts(JsonText& json, const Report& report) {
+  json.member("fps", report.fps);
+  json.member("body_vertices", report.body_vertices);
+  json.member("motion_first_frame", report.motion_first_frame);
+  add_rest_stretch(json, report);
+}
 
 std::string to_json(const Report& report, int indent) {
   JsonText text(indent);
@@ -221,18 +269,7 @@ std::string to_json(const Report& report, int indent) {
   add_startup(text, report.startup);
   add_seconds_per_frame(text, report.drape);
   add_cg(text, report.drape);
-  if (!report.rest_stretch.empty()) {
-    text.key("rest_stretch");
-    text.begin_object();
-    for (const auto& [panel, b] : report.rest_stretch) {
-      text.key(panel);
-      text.begin_array();
-      text.value(b[0]);
-      text.value(b[1]);
-      text.end_array();
-    }
-    text.end_object();
-  }
+  add_rest_stretch(text, report);
   add_measurements(text, report);
   text.key("sewing");
   if (report.seams == 0) {
@@ -267,6 +304,7 @@ std::string to_json(const Report& report, int indent) {
     text.end_object();
   }
   text.member("peak_memory_mb", report.peak_memory_mb);
+  add_files(text, report);
   text.end_object();
   return text.str();
 }

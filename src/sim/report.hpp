@@ -3,6 +3,7 @@
 // Keys are stable: add, never rename.  Times and memory differ between two runs of one command; everything else is the
 // same to the bit.
 #pragma once
+#include "io/json_text.hpp"
 #include "step/layer_gap.hpp"
 #include "verify/verdict.hpp"
 
@@ -29,6 +30,12 @@ struct PhaseReport {  // of the sewing, or of everything after it
   long touching = 0, contact_rows = 0;  // in the last step of each frame, summed over frames
   double step_min_s = 0, step_max_s = 0;
   double simulated_s = 0;
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(frames, seconds, eval, cg, cloth_cloth, cloth_solid, body, filter, steps, steps_rejected, passes,
+            cg_iterations, cg_max, met, refused, corrected, truncated, pierced, pinched, touching, contact_rows,
+            step_min_s, step_max_s, simulated_s);
+  }
 };
 
 struct StartupReport {  // wall time before the first step, s
@@ -38,6 +45,10 @@ struct StartupReport {  // wall time before the first step, s
   double body = 0;       // its mesh, its motion and its tree
   double placement = 0;  // of the panels, and which seams lie behind the body
   double crossings = 0;  // whether the cloth passes through itself or the body, and untangling it
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(total, scene, cloth, body, placement, crossings);
+  }
 };
 
 struct StartReport {  // of cloth that passed through itself or the body before the first frame; edges
@@ -45,6 +56,16 @@ struct StartReport {  // of cloth that passed through itself or the body before 
   int cloth_cloth_left = 0, cloth_body_left = 0;
   int trials = 0;
   double largest_move_mm = 0;
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(cloth_cloth, cloth_body, cloth_cloth_left, cloth_body_left, trials, largest_move_mm);
+  }
+};
+
+// A file of the run as it was written (core/hash.hpp): of an OBJ the checksum of all, of a cache that of its header and of each frame.
+struct WrittenFile {
+  std::string name, checksum;
+  std::vector<std::string> frames;  // of a cache
 };
 
 struct Report {
@@ -70,9 +91,18 @@ struct Report {
   LayerGap layer_gap;  // last frame
   Verdict verdict;
   double peak_memory_mb = 0;
+  std::vector<WrittenFile> files;
+
+  // Of a run that is taken up again, what was known when it was left; the rest follows from the scene.
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(seconds_total, startup, sewing, drape, motion, motion_first_frame, shift_m, start, warnings);
+  }
 };
 
 std::string to_json(const Report& report, int indent = 2);
+// Members of it that readers of a run that is not finished have to know: fps, body_vertices, rest_stretch ...
+void add_facts(JsonText& json, const Report& report);
 
 // The program's version, from the build.
 std::string_view toile_version();

@@ -1,13 +1,12 @@
 #include "sim/run_writer.hpp"
 
-#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "io/file.hpp"
 #include "io/obj.hpp"
 
-#include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <map>
-#include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace toile {
@@ -48,19 +47,27 @@ ClothMesh drawn_mesh(const ClothMesh& mesh) {
   return drawn;
 }
 
-RunWriter::RunWriter(std::string directory) : directory_(std::move(directory)) {
-  make_directories(directory_);
-  // The report first: from here on the directory is no finished run.
-  for (const char* name : {"report.json", "cloth.obj", "cloth.pc2", "body.obj", "body.pc2", "sewing.obj", "sewing.pc2",
-                           "preview.png", "preview.mp4", "frames.png", "offenders.obj"}) {
-    std::error_code error;
-    std::filesystem::remove(path(name), error);
-    if (error) throw IoError(path(name), "cannot remove what an earlier run left: " + error.message());
+RunWriter::RunWriter(RunFolder& folder) : folder_(&folder) { folder_->begin(); }
+
+RunWriter::RunWriter(RunFolder& folder, const WrittenFrames& frames, Index sewing_points, Index cloth_points,
+                     Index body_points)
+    : folder_(&folder) {
+  remove_file(path("report.json"));  // of the run when it was stopped
+  if (frames.sewing > 0) sewing_ = Pc2Writer::resume(path("sewing.pc2"), sewing_points, frames.sewing);
+  if (frames.cloth == 0) {  // what came after the state that is taken up comes again
+    for (const char* name : {"cloth.obj", "cloth.pc2", "body.obj", "body.pc2"}) remove_file(path(name));
+    return;
   }
-  const AtomicFile probe(path("report.json"));  // not committed: leaves nothing, but fails now if it must fail
+  cloth_ = Pc2Writer::resume(path("cloth.pc2"), cloth_points, frames.cloth);
+  if (frames.has_body) body_ = Pc2Writer::resume(path("body.pc2"), body_points, frames.cloth);
 }
 
-std::string RunWriter::path(const char* name) const { return (std::filesystem::path(directory_) / name).string(); }
+WrittenFrames RunWriter::frames() const { return {sewing_frames(), cloth_frames(), body_ != nullptr}; }
+
+void RunWriter::synchronize() const {
+  for (const auto& writer : {&sewing_, &cloth_, &body_})
+    if (*writer) (*writer)->synchronize();
+}
 
 void RunWriter::begin_sewing(const ClothMesh& mesh, std::string_view garment, std::span<const Vec3> x) {
   const std::vector<Index> one(mesh.panel_names.size(), 0);
@@ -75,9 +82,7 @@ void RunWriter::sewing_frame(std::span<const Vec3> x) { sewing_->append(x); }
 void RunWriter::begin_cloth(const ClothMesh& mesh, std::span<const Index> garment_of_panel,
                             std::span<const std::string> garments, std::span<const Vec3> x,
                             std::span<const Triangle> body, std::span<const Vec3> body_x) {
-  write_obj(path("cloth.obj"), cloth_obj(mesh, garment_of_panel, garments, x));
-  cloth_ = std::make_unique<Pc2Writer>(path("cloth.pc2"), mesh.particle_count, 0, 1);
-  if (!body.empty()) {
+  if (!body.empty()) {  // before the cloth: where there is a cloth.pc2, the body is there
     ObjMesh obj;
     obj.positions.assign(body_x.begin(), body_x.end());
     obj.triangles.assign(body.begin(), body.end());
@@ -86,21 +91,47 @@ void RunWriter::begin_cloth(const ClothMesh& mesh, std::span<const Index> garmen
     write_obj(path("body.obj"), obj);
     body_ = std::make_unique<Pc2Writer>(path("body.pc2"), static_cast<Index>(body_x.size()), 0, 1);
   }
+  write_obj(path("cloth.obj"), cloth_obj(mesh, garment_of_panel, garments, x));
+  cloth_ = std::make_unique<Pc2Writer>(path("cloth.pc2"), mesh.particle_count, 0, 1);
   cloth_frame(x, body_x);
 }
 
 void RunWriter::cloth_frame(std::span<const Vec3> x, std::span<const Vec3> body_x) {
-  cloth_->append(x);
   if (body_) body_->append(body_x);
+  cloth_->append(x);
 }
 
-void RunWriter::finish(std::string_view report_json) {
-  for (const auto& writer : {&sewing_, &body_, &cloth_})
-    if (*writer) (*writer)->commit();
+void RunWriter::offenders(const ObjMesh& mesh) {
+  remove_file(path("offenders.obj"));
+  write_obj(path("offenders.obj"), mesh);
+}
+
+void RunWriter::finish(const std::function<std::string(const std::vector<WrittenFile>&)>& report_json, bool goes_on) {
+  synchronize();
+  std::vector<WrittenFile> files;
+  const auto add_obj = [&](const char* name) {
+    if (!std::filesystem::exists(path(name))) return;
+    const std::string text = read_file(path(name));
+    files.push_back({name, hex_of(checksum(text.data(), text.size())), {}});
+  };
+  const auto add_cache = [&](const char* name, const std::unique_ptr<Pc2Writer>& writer) {
+    if (!writer) return;
+    WrittenFile file{name, hex_of(writer->header_checksum()), {}};
+    for (const std::uint64_t frame : writer->frame_checksums()) file.frames.push_back(hex_of(frame));
+    files.push_back(std::move(file));
+  };
+  add_obj("sewing.obj");
+  add_cache("sewing.pc2", sewing_);
+  add_obj("cloth.obj");
+  add_cache("cloth.pc2", cloth_);
+  add_obj("body.obj");
+  add_cache("body.pc2", body_);
+  add_obj("offenders.obj");
   AtomicFile report(path("report.json"));
-  report.write(report_json);
+  report.write(sealed(report_json(files)));
   report.write("\n");
   report.commit();
+  folder_->finish(goes_on);
 }
 
 }  // namespace toile

@@ -1,32 +1,44 @@
-// sim/run_writer.hpp: the files of a run, frame by frame, complete or not at all.                    docs/reports.md
+// sim/run_writer.hpp: the files of a run, committed frame by frame.                                   docs/reports.md
 //
 //   sewing.obj, sewing.pc2   panels unwelded, while they are sewn
 //   cloth.obj, cloth.pc2     the welded garment, frame 0 first
 //   body.obj, body.pc2       one sample per frame of cloth.pc2
 //   offenders.obj            what a run ended over (sim/offenders.hpp); only of one whose step collapsed
-//   report.json              last: a directory without it is not a finished run
+//   report.json              last: a directory without it is not a finished run.  It lists the files, with a checksum of every frame
 //
-// Easily missed: what an earlier run left under these names is removed at the start, its report first, so that a run that
-// dies leaves nothing behind that looks finished.
+// Easily missed: what an earlier run left under these names is removed when the run begins, its report first, so that a run that
+// dies leaves nothing behind that looks finished (io/run_folder.hpp).
 //
 // vt are the panel's own drawing coordinates: vt = (-v, u), because u = y of the drawing is the warp and v = -x the weft
 // (garment/garment_mesh.hpp).  A reader that calls the first vt axis "u" sees the weft there.
 #pragma once
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
+#include "io/run_folder.hpp"
 #include "mesh/cloth_mesh.hpp"
+#include "sim/report.hpp"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 
 namespace toile {
 
+// How far the caches have come: where a run that is taken up again goes on.
+struct WrittenFrames {
+  int sewing = 0, cloth = 0;
+  bool has_body = false;
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(sewing, cloth, has_body);
+  }
+};
+
 class RunWriter {
  public:
-  // Makes the directory and clears it of an earlier run.  Throws IoError, before anything was simulated, when nothing can be
-  // written there.
-  explicit RunWriter(std::string directory);
+  // Clears the folder of an earlier run.  The folder must outlive the writer.
+  explicit RunWriter(RunFolder& folder);
 
   void begin_sewing(const ClothMesh& mesh, std::string_view garment, std::span<const Vec3> x);
   void sewing_frame(std::span<const Vec3> x);
@@ -36,18 +48,25 @@ class RunWriter {
                    std::span<const std::string> garments, std::span<const Vec3> x, std::span<const Triangle> body,
                    std::span<const Vec3> body_x);
   void cloth_frame(std::span<const Vec3> x, std::span<const Vec3> body_x);
-  void offenders(const ObjMesh& mesh) { write_obj(path("offenders.obj"), mesh); }
-  // Gives the streamed files their names, then writes the report.
-  void finish(std::string_view report_json);
+  void offenders(const ObjMesh& mesh);
+
+  // Goes on behind the frames that a run wrote before; those that came after them are written anew.  Throws IoError, InputError when the caches
+  // have fewer.
+  RunWriter(RunFolder& folder, const WrittenFrames& frames, Index sewing_points, Index cloth_points, Index body_points);
+  WrittenFrames frames() const;
+  // The frames are on the disk afterwards.  May be called while another thread appends.
+  void synchronize() const;
+
+  // "files" of the report, then the report.  `goes_on`: the run was stopped, and can be taken up again.
+  void finish(const std::function<std::string(const std::vector<WrittenFile>&)>& report_json, bool goes_on);
 
   int cloth_frames() const { return cloth_ ? cloth_->samples() : 0; }
   int sewing_frames() const { return sewing_ ? sewing_->samples() : 0; }
-  const std::string& directory() const { return directory_; }
+  RunFolder& folder() { return *folder_; }
+  std::string path(std::string_view name) const { return folder_->path(name); }
 
  private:
-  std::string path(const char* name) const;
-
-  std::string directory_;
+  RunFolder* folder_;
   std::unique_ptr<Pc2Writer> sewing_, cloth_, body_;
 };
 

@@ -9,11 +9,13 @@
 // What is easily got wrong: physics that goes badly is not an exception.  A blocked seam, a collapsed step and an
 // interruption end in a report with verdict fail, and the files up to there stay.
 #pragma once
+#include "sim/checkpoint.hpp"
 #include "sim/report.hpp"
 #include "sim/scene.hpp"
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace toile {
 
@@ -25,7 +27,11 @@ struct Progress {
 
 struct RunOptions {
   std::string directory;
-  std::string command;        // as typed, for the report
+  std::string command;                 // as typed, for the report
+  std::vector<std::string> arguments;  // its words but the program's name, with which `toile resume` asks for the run again
+  std::vector<std::string> inputs;     // files beside those that the scene names: the scene's own
+  bool resume = false;                 // go on with the unfinished run in the directory
+  CheckpointOptions checkpoints;
   double seconds_before = 0;  // wall time since the program began, for the report
   TextSource read = read_text_file;
   std::function<void(const Progress&)> progress;  // may be empty

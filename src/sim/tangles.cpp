@@ -39,7 +39,8 @@ void Tangles::find(const Vec3s& x) {
     return;
   }
   if (!push_) {
-    push_.emplace(*topology_, triangles_, x);
+    first_pushed_ = x;
+    push_.emplace(*topology_, triangles_, first_pushed_);
     for (const Edge& e : topology_->edges) edge_m_ += (x[at(e.a)] - x[at(e.b)]).norm();
     edge_m_ /= static_cast<double>(topology_->edges.size());
   }

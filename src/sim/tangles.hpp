@@ -34,12 +34,25 @@ class Tangles {
   // What pushes them apart from now to the next look.
   void append_springs(std::vector<LinearSpring>& springs) const;
 
+  // Between two looks (core/state_archive.hpp).
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(over_, any_, fewest_, waited_, edge_m_, first_pushed_);
+    archive.fixed(unguarded_);
+    if constexpr (Archive::reads) {
+      springs_.clear();
+      push_.reset();
+      if (!first_pushed_.empty()) push_.emplace(*topology_, triangles_, first_pushed_);
+    }
+  }
+
  private:
   void push(const IntersectionContour& contour, std::span<const SurfaceCrossing> crossings, const Vec3s& x);
 
   const Topology* topology_;
   std::span<const Triangle> triangles_;
   std::optional<ContourPush> push_;  // once there is something to push
+  Vec3s first_pushed_;               // x then: areas are measured there
   double edge_m_ = 0;                // mean
   std::vector<char> unguarded_;      // [particle]
   std::vector<LinearSpring> springs_;

@@ -61,6 +61,12 @@ class AdaptiveStep {
   const ImplicitEuler& integrator() const { return integrator_; }
   AdaptiveOptions& options() { return options_; }
 
+  // What outlives a frame (core/state_archive.hpp).
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(integrator_, halvings_, successes_, wait_, patience_, growing_);
+  }
+
  private:
   std::string diagnose(const ClothState& state, const StepReport& report) const;
   Index most_strained(const ClothState& state) const;

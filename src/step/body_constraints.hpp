@@ -85,6 +85,15 @@ class BodyConstraints {
   void set_friction(double friction) { options_.friction = friction; }
   const BodyContactOptions& options() const { return options_; }
 
+  // Between two steps (core/state_archive.hpp); set_friction is the caller's.
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(memory_);
+    archive.fixed(touch_);
+    archive.fixed(lambda_n_);
+    archive.fixed(loose_s_);
+  }
+
  private:
   struct Contact {
     BodyPoint point;
@@ -112,6 +121,10 @@ class BodyConstraints {
     int faces;
     std::array<Vec3, 2> normal;
     double lambda_beside_N;
+    template <class Archive>
+    void remember(Archive& archive) {
+      archive(particle, faces, normal, lambda_beside_N);
+    }
   };
   void find_creases(const ClothState& state);
   // At the end of the step, with the velocity v.

@@ -35,6 +35,11 @@ class Bristle {
   bool slips() const { return state_ == State::slips; }
   const Vec3& stretch_m() const { return stretch_m_; }
 
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(state_, turned_back_, stretch_m_, stiffness_N_per_m_, along_, cone_N_, way_m_);
+  }
+
  private:
   enum class State : std::uint8_t { free, sticks, slips };
   State state_ = State::free;

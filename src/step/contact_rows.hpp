@@ -79,6 +79,12 @@ class ContactRows {
   // What the springs of the last step hold, in J, each by the load that it bore.
   double stored_J() const;
   std::size_t candidates() const { return pairs_.size(); }
+
+  // Between two steps (core/state_archive.hpp); set_thickness_scale is the caller's.
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(memory_, cloth_seconds, body_seconds);
+  }
   double cloth_seconds = 0, body_seconds = 0;  // time spent in detect, accumulated; for reports
 
  private:
@@ -87,6 +93,10 @@ class ContactRows {
     bool body;
     std::array<Index, 5> feature;
     auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 sees a 0 in it
+    template <class Archive>
+    void remember(Archive& archive) {
+      archive(kind, body, feature);
+    }
   };
   struct Pair {
     Key key;
@@ -112,6 +122,10 @@ class ContactRows {
     Vec3 way_m, normal;  // along the surface, in the last step
     int idle_steps;      // 0: was active
     bool rests;          // was active and hardly slid
+    template <class Archive>
+    void remember(Archive& archive) {
+      archive(key, stiffness, lambda_N, bristle, way_m, normal, idle_steps, rests);
+    }
   };
   struct Orphan {  // a contact of a vertex that is not among the pairs any more
     Index vertex;

@@ -46,6 +46,14 @@ class Flypaper {
   long steps_without_room() const { return steps_without_room_; }
   bool any_without_room() const { return any_without_room_; }
 
+  // Between two steps (core/state_archive.hpp).
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(pinches_);
+    archive.fixed(pinched_);
+    archive(any_without_room_, steps_without_room_);
+  }
+
  private:
   struct Pinch {
     Index particle;
@@ -53,6 +61,10 @@ class Flypaper {
     bool room = true;
     double apart() const { return side[0].gap_m + side[1].gap_m; }
     bool outside() const { return side[0].gap_m > 0 && side[1].gap_m > 0; }
+    template <class Archive>
+    void remember(Archive& archive) {
+      archive(particle, side, room);
+    }
   };
   bool goes_on(Pinch& pinch, const Vec3& x) const;
   bool begins(Pinch& pinch, const Vec3& x) const;

@@ -107,6 +107,13 @@ class ImplicitEuler {
   void set_tolerance(double tolerance) { options_.pcg.tolerance = tolerance; }
   const ClothModel& model() const { return *model_; }
 
+  // What outlives a step (core/state_archive.hpp); options, model and world are the caller's.
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(body_, flypaper_, rows_, history_, h_last_s_, may_be_through_, pierced_, seconds_);
+    archive.fixed(dv_last_);
+  }
+
  private:
   void move_body(double t_s, double h_s);
   void hold_pins(const ClothState& state, double t_s, const StepFormula& step);

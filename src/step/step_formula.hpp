@@ -43,6 +43,12 @@ class MotionHistory {
   StepFormula formula(double h_s);
   std::span<const Vec3> kick() const { return kick_; }  // empty: zero
 
+  // Between two steps (core/state_archive.hpp).
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(h_s_, moved_, dv_, end_);
+  }
+
  private:
   double h_s_ = 0;  // of the last step; 0: none
   Vec3s moved_, dv_, drift_, kick_;

@@ -13,6 +13,10 @@ struct PhaseSeconds {
   double eval = 0, cg = 0, cloth_cloth = 0, cloth_solid = 0;
   double filter = 0;  // of cloth_cloth: the safe filter at the end of the step
   double body = 0;    // where the body is, its tree and its normals
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(eval, cg, cloth_cloth, cloth_solid, filter, body);
+  }
 };
 
 enum class StepStatus { accepted, solver_failed, stretched, beyond_limit, passed_through, too_fast, not_finite };

@@ -44,7 +44,14 @@ Verdict judge(const VerifyReport& report, const Limits& limits) {
     if (!known) verdict.reasons.push_back({std::string(code), std::move(detail)});
   };
 
-  if (report.frames == 0 || report.frames < report.frames_expected)
+  if (!report.changes.empty()) {
+    std::string detail = report.changes.front();
+    if (report.changes.size() > 1) detail += "; and " + std::to_string(report.changes.size() - 1) + " more";
+    add(reason::data_changed, std::move(detail));
+  }
+  if (!report.interrupted.empty())
+    add(reason::unfinished, report.interrupted);
+  else if (report.frames == 0 || report.frames < report.frames_expected)
     add(reason::unfinished,
         std::to_string(report.frames) + " frames, expected " + std::to_string(std::max(report.frames_expected, 1)));
   for (const std::string& code : report.reported_reasons) add(code, "reported by the run");

@@ -29,6 +29,7 @@ inline constexpr std::string_view cloth_self_intersection = "cloth_self_intersec
 inline constexpr std::string_view not_finite = "not_finite";
 inline constexpr std::string_view stretch = "stretch";
 inline constexpr std::string_view unfinished = "unfinished";
+inline constexpr std::string_view data_changed = "data_changed";
 }  // namespace reason
 
 // Is this code decided by measuring the files, so that the judge needs nobody's word for it?  `unfinished` is not: a

@@ -4,7 +4,10 @@
 #include "core/error.hpp"
 #include "io/json.hpp"
 #include "io/obj.hpp"
+#include "io/file.hpp"
 #include "io/pc2.hpp"
+#include "io/run_folder.hpp"
+#include "verify/integrity.hpp"
 #include "verify/pinch.hpp"
 #include "verify/surface.hpp"
 #include "verify/verdict.hpp"
@@ -56,11 +59,9 @@ ClothMesh cloth_of(const ObjMesh& obj, const std::string& path) {
 }
 
 // (b_u, b_v) per triangle from {"panel": [b_u, b_v]}.
-std::vector<Vec2> rest_stretch(const Json& report, const ClothMesh& mesh) {
-  const Json* by_panel = report.find("rest_stretch");
-  if (by_panel == nullptr || by_panel->is_null()) return {};
+std::vector<Vec2> rest_stretch(const Json& by_panel, const ClothMesh& mesh) {
   std::vector<Vec2> b(mesh.triangles.size(), Vec2(1, 1));
-  for (const auto& [name, value] : by_panel->object()) {
+  for (const auto& [name, value] : by_panel.object()) {
     if (std::find(mesh.panel_names.begin(), mesh.panel_names.end(), name) == mesh.panel_names.end())
       value.fail("a panel (g) of cloth.obj as key", '"' + printable(name) + '"');
     if (!value.is_array() || value.array().size() != 2) value.fail("[b_u, b_v]", value.describe());
@@ -153,51 +154,40 @@ VerifyReport RunAudit::report() const {
   return result;
 }
 
-VerifyReport verify_directory(const std::string& directory) {
-  const std::string cloth_obj = join(directory, "cloth.obj"), cloth_pc2 = join(directory, "cloth.pc2");
-  const std::string body_obj = join(directory, "body.obj"), body_pc2 = join(directory, "body.pc2");
-  const std::string report_path = join(directory, "report.json");
+namespace {
 
-  const Json report = Json::load(report_path);
-  const ObjMesh cloth = load_obj(cloth_obj);
-  RunDescription run;
-  run.mesh = cloth_of(cloth, cloth_obj);
-  run.b = rest_stretch(report, run.mesh);
-  run.fps = report.at("fps").number();
-  if (!(run.fps > 0)) report.at("fps").fail("a number > 0", report.at("fps").describe());
+// What is known of a run beside its meshes and caches.
+struct RunRecord {
+  std::string text;            // of report.json
+  std::optional<Json> report;  // absent while the run is not finished
+  std::optional<UnfinishedRun> unfinished;
+  double fps = 0;
+  bool has_body = false;
+  std::optional<Json> rest_stretch;
+};
 
-  Pc2Reader cloth_frames(cloth_pc2);
-  check_points(cloth_pc2, cloth_frames, "cloth.obj", cloth.positions.size());
-
-  const Json* body_entry = report.find("body");
-  const bool body_reported =
-      body_entry != nullptr && body_entry->is_object() && body_entry->number_or("vertices", 0) > 0;
-  ObjMesh body;
-  std::optional<Pc2Reader> body_frames;
-  if (body_reported || std::filesystem::exists(body_obj) || std::filesystem::exists(body_pc2)) {
-    body = load_obj(body_obj);
-    body_frames.emplace(body_pc2);
-    check_points(body_pc2, *body_frames, "body.obj", body.positions.size());
-    if (body_frames->samples() != cloth_frames.samples())
-      throw InputError(printable(body_pc2), "samples", std::to_string(cloth_frames.samples()) + " as in cloth.pc2",
-                       std::to_string(body_frames->samples()));
-    run.body_triangles = body.triangles;
-    run.body_particle_count = static_cast<Index>(body.positions.size());
+RunRecord read_record(const std::string& directory) {
+  RunRecord record;
+  const std::string path = join(directory, "report.json");
+  record.unfinished = read_unfinished_run(directory);
+  if (record.unfinished && !std::filesystem::exists(path)) {
+    record.fps = record.unfinished->fps;
+    record.has_body = record.unfinished->body_vertices > 0;
+    record.rest_stretch = record.unfinished->rest_stretch;
+    return record;
   }
+  record.text = read_file(path, Json::text_limit);
+  record.report = Json::parse(record.text, printable(path));
+  const Json& report = *record.report;
+  record.fps = report.at("fps").number();
+  if (!(record.fps > 0)) report.at("fps").fail("a number > 0", report.at("fps").describe());
+  const Json* body = report.find("body");
+  record.has_body = body != nullptr && body->is_object() && body->number_or("vertices", 0) > 0;
+  if (const Json* rest = report.find("rest_stretch"); rest != nullptr && !rest->is_null()) record.rest_stretch = *rest;
+  return record;
+}
 
-  RunAudit audit(std::move(run));
-  Vec3s x, body_x;
-  for (int frame = 0; frame < cloth_frames.samples(); ++frame) {
-    cloth_frames.read(frame, x);
-    if (body_frames) body_frames->read(frame, body_x);
-    if (frame == 0) {
-      check_first_frame(cloth_pc2, x, "cloth.obj", cloth.positions);
-      check_first_frame(body_pc2, body_x, "body.obj", body.positions);
-    }
-    audit.add(x, body_x);
-  }
-
-  VerifyReport result = audit.report();
+void add_reported(const Json& report, VerifyReport& result) {
   if (const Json* frames = report.find("frames"))
     result.frames_expected = static_cast<int>(std::clamp(frames->number(), 0.0, 2e9));
   if (const Json* limits = report.find("limits"); limits != nullptr && limits->is_object())
@@ -205,6 +195,90 @@ VerifyReport verify_directory(const std::string& directory) {
   if (const Json* reasons = report.find("reasons"))
     for (const Json& reason : reasons->array())
       if (!is_measured_reason(reason.string())) result.reported_reasons.push_back(reason.string());
+}
+
+// In words: of a run that has not ended.
+std::string interrupted(const std::string& directory, const UnfinishedRun& run, int frames) {
+  if (is_written_to(directory)) return "the run still goes on (" + run.process + ")";
+  return (frames > 0 ? "interrupted at frame " + std::to_string(frames - 1) : std::string("interrupted before frame 0")) +
+         " (" + run.process + "); toile resume goes on with it";
+}
+
+struct Caches {
+  std::optional<Pc2Reader> cloth, body;
+};
+
+// Every frame, judged and compared with what the report says of it.
+VerifyReport audit_frames(const std::string& directory, const RunRecord& record, Integrity* integrity) {
+  const std::string cloth_obj = join(directory, "cloth.obj"), cloth_pc2 = join(directory, "cloth.pc2");
+  const std::string body_obj = join(directory, "body.obj"), body_pc2 = join(directory, "body.pc2");
+  const Pc2End end = record.report ? Pc2End::exact : Pc2End::cut;
+  const ObjMesh cloth = load_obj(cloth_obj);
+  RunDescription run;
+  run.mesh = cloth_of(cloth, cloth_obj);
+  if (record.rest_stretch) run.b = rest_stretch(*record.rest_stretch, run.mesh);
+  run.fps = record.fps;
+
+  Caches caches;
+  caches.cloth.emplace(cloth_pc2, end);
+  check_points(cloth_pc2, *caches.cloth, "cloth.obj", cloth.positions.size());
+  int samples = caches.cloth->samples();
+
+  ObjMesh body;
+  if (record.has_body || std::filesystem::exists(body_obj) || std::filesystem::exists(body_pc2)) {
+    body = load_obj(body_obj);
+    caches.body.emplace(body_pc2, end);
+    check_points(body_pc2, *caches.body, "body.obj", body.positions.size());
+    if (!record.report) {  // it may have ended between the two
+      samples = std::min(samples, caches.body->samples());
+    } else if (caches.body->samples() != samples) {
+      throw InputError(printable(body_pc2), "samples", std::to_string(samples) + " as in cloth.pc2",
+                       std::to_string(caches.body->samples()));
+    }
+    run.body_triangles = body.triangles;
+    run.body_particle_count = static_cast<Index>(body.positions.size());
+  }
+  if (integrity != nullptr) {
+    integrity->check_header("cloth.pc2", *caches.cloth);
+    if (caches.body) integrity->check_header("body.pc2", *caches.body);
+  }
+
+  RunAudit audit(std::move(run));
+  Vec3s x, body_x;
+  for (int frame = 0; frame < samples; ++frame) {
+    caches.cloth->read(frame, x);
+    if (caches.body) caches.body->read(frame, body_x);
+    if (frame == 0) {
+      check_first_frame(cloth_pc2, x, "cloth.obj", cloth.positions);
+      check_first_frame(body_pc2, body_x, "body.obj", body.positions);
+    }
+    if (integrity != nullptr) {
+      integrity->check_frame("cloth.pc2", frame, *caches.cloth);
+      if (caches.body) integrity->check_frame("body.pc2", frame, *caches.body);
+    }
+    audit.add(x, body_x);
+  }
+  return audit.report();
+}
+
+}  // namespace
+
+VerifyReport verify_directory(const std::string& directory) {
+  const RunRecord record = read_record(directory);
+  std::optional<Integrity> integrity;
+  if (record.report) integrity.emplace(directory, record.text, *record.report);
+  // A run whose seams did not close, or that has only begun, has no cloth to measure: then its own word is all there is, and it is no pass.
+  const bool any_cloth =
+      std::filesystem::exists(join(directory, "cloth.obj")) && std::filesystem::exists(join(directory, "cloth.pc2"));
+  const bool may_lack_cloth = record.report ? record.report->number_or("frames", -1) == 0 : true;
+  VerifyReport result;
+  if (any_cloth || !may_lack_cloth) result = audit_frames(directory, record, integrity ? &*integrity : nullptr);
+  if (record.report) add_reported(*record.report, result);
+  if (integrity) {
+    integrity->check_cache(directory, "sewing.pc2");
+    result.changes = integrity->changes();
+  }
+  if (record.unfinished) result.interrupted = interrupted(directory, *record.unfinished, result.frames);
   return result;
 }
 

@@ -51,6 +51,8 @@ struct VerifyReport {
   bool must_be_still = false;  // from report.json: limits.still_mm_per_s is a number
   // Reason codes of report.json that no file shows (a time limit, a crash): the judge cannot acquit of them.
   std::vector<std::string> reported_reasons;
+  std::vector<std::string> changes;  // of the files since they were written, in words (verify/integrity.hpp)
+  std::string interrupted;           // of a run that has not ended: in words, how far it came and what to do; empty otherwise
 };
 
 // What stays the same over the frames of a run.
@@ -84,9 +86,10 @@ class RunAudit {
   std::vector<double> speed_p99_;  // one per pair of consecutive frames
 };
 
-// Reads cloth.obj, cloth.pc2, body.obj, body.pc2 and report.json of a run; the body's files may be absent together when
-// report.json knows of no body.  Of report.json it uses `fps`, and if present `frames`, `body.vertices`, `reasons`,
-// `limits.still_mm_per_s` and `rest_stretch` {"panel": [b_u, b_v]}.
+// Reads the files of a run; every frame is judged, and compared with the checksum that the report has of it.  The body's files may be absent
+// together when report.json knows of no body; those of the cloth when it says that no frame was written.  Of report.json it uses `fps`, and if
+// present `frames`, `body.vertices`, `reasons`, `limits.still_mm_per_s`, `files` and `rest_stretch` {"panel": [b_u, b_v]}.  A run that goes on or
+// was killed has unfinished.json instead: what it wrote is judged, and it is no pass.
 // Throws IoError (missing, unreadable) or InputError (truncated, not what the format says, sizes that contradict each
 // other), naming the file, what was expected and what it has.
 VerifyReport verify_directory(const std::string& directory);

@@ -70,7 +70,7 @@ void write_pc2(const std::string& file, const std::vector<Vec3>& rest, int frame
     for (Vec3& p : x) p += path(f);
     writer.append(x);
   }
-  writer.commit();
+  
 }
 
 void write_objs(const Folder& folder, int first, int frames, const Path& path) {
@@ -240,7 +240,7 @@ TEST(BodyMotion, RefusesNumbersThatAreNotFiniteAndVerticesThatJump) {
     std::vector<Vec3> next = x;
     next[9] += of_vertex_9;
     writer.append(next);
-    writer.commit();
+    
   };
   const auto read = [&] { BodyMotion::from_pc2(folder / "walk.pc2", figure_body(), {}); };
   write(Vec3(0, 0.0 / 0.0, 0));
@@ -333,7 +333,7 @@ TEST(BodyMotion, AWalkSampledAt60HzIsTheWalk) {
   const BodyMotion walk = BodyMotion::of_mannequin(m, Motion::named("walk", MannequinKind::dancer));
   Pc2Writer writer(folder / "walk.pc2", static_cast<Index>(m.positions.size()), 0, 1);
   for (int f = 0; f <= 120; ++f) writer.append(at(walk, f / 60.0));
-  writer.commit();
+  
   SampleOptions options;
   options.rate_hz = 60;
   const BodyMotion sampled = BodyMotion::from_pc2(folder / "walk.pc2", from_mannequin(m), options);

@@ -109,20 +109,26 @@ TEST(AtomicFile, OverwritesAndContinuesAtTheEnd) {
   EXPECT_EQ(scratch.get("a"), "Head1234tail!!");
 }
 
-TEST(AtomicFile, ReplacesWhatAKilledRunHasLeft) {
-  const Scratch scratch;
-  scratch.put("a.tmp", "much longer than the new one");
-  AtomicFile file(scratch / "a");
-  file.write("new");
-  file.commit();
-  EXPECT_EQ(scratch.get("a"), "new");
-  EXPECT_EQ(scratch.file_count(), 1u);
-}
-
-TEST(AtomicFile, DoesNotFollowALinkUnderItsTemporaryName) {
+TEST(AtomicFile, HasNoNameThatCouldBePlantedOrShared) {
   const Scratch scratch;
   scratch.put("victim", "precious");
   std::filesystem::create_symlink(scratch / "victim", scratch / "a.tmp");
+  AtomicFile one(scratch / "a"), other(scratch / "a");
+  one.write("one");
+  other.write("other");
+  EXPECT_EQ(scratch.file_count(), 2u) << "the victim and the link";
+  one.commit();
+  EXPECT_EQ(scratch.get("a"), "one");
+  other.commit();
+  EXPECT_EQ(scratch.get("a"), "other");
+  EXPECT_EQ(scratch.get("victim"), "precious");
+  EXPECT_EQ(scratch.file_count(), 3u);
+}
+
+TEST(AtomicFile, ReplacesALinkAndNotWhatItLeadsTo) {
+  const Scratch scratch;
+  scratch.put("victim", "precious");
+  std::filesystem::create_symlink(scratch / "victim", scratch / "a");
   AtomicFile file(scratch / "a");
   file.write("new");
   file.commit();
@@ -230,6 +236,28 @@ TEST(AtomicFile, TakesNothingAfterItsEnd) {
   EXPECT_THROW(file.overwrite(0, "x", 1), IoError);
   EXPECT_THROW(file.commit(), IoError);
   EXPECT_EQ(scratch.get("a"), "");
+}
+
+TEST(GrowingFile, KeepsWhatWasWrittenWhenAWriteFails) {
+  const Scratch scratch;
+  GrowingFile file(scratch / "a", GrowingFile::Open::create);
+  file.append("0123456789", 10);
+  file.overwrite(2, "xy", 2);
+  EXPECT_EQ(scratch.get("a"), "01xy456789");
+  EXPECT_THROW(file.overwrite(9, "xy", 2), IoError);
+  {
+    const FileSizeLimit limit(12);
+    EXPECT_EQ(message_of<IoError>([&] { file.append("abcdef", 6); }), scratch / "a" + ": cannot write: File too large");
+  }
+  EXPECT_EQ(file.size(), 10u);
+  file.append("z", 1);
+  file.truncate(11);
+  EXPECT_EQ(scratch.get("a"), "01xy456789z");
+  EXPECT_THROW(GrowingFile(scratch / "a", GrowingFile::Open::create), IoError);
+  EXPECT_THROW(GrowingFile(scratch / "none", GrowingFile::Open::existing), IoError);
+  std::filesystem::create_symlink(scratch / "a", scratch / "link");
+  EXPECT_THROW(GrowingFile(scratch / "link", GrowingFile::Open::existing), IoError);
+  EXPECT_THROW(GrowingFile(scratch.directory(), GrowingFile::Open::existing), IoError);
 }
 
 TEST(MakeDirectories, CreatesAllParents) {

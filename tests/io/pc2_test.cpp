@@ -57,7 +57,6 @@ TEST(Pc2, ReadsBackTheSameFloats) {
     Pc2Writer writer(scratch / "a.pc2", points, 1, 0.5);
     for (std::uint64_t f = 0; f < 5; ++f) writer.append(random_positions(f, points));
     EXPECT_EQ(writer.samples(), 5);
-    writer.commit();
   }
   Pc2Reader reader(scratch / "a.pc2");
   EXPECT_EQ(reader.points(), 137);
@@ -77,7 +76,6 @@ TEST(Pc2, IsWrittenByteForByteAsDocumented) {
   const Scratch scratch;
   Pc2Writer writer(scratch / "a.pc2", 1, 0, 1);
   writer.append(Vec3s{Vec3(1, -2, 0.5)});
-  writer.commit();
   const std::string expected(
       "POINTCACHE2\0"
       "\1\0\0\0"
@@ -92,18 +90,62 @@ TEST(Pc2, IsWrittenByteForByteAsDocumented) {
   EXPECT_EQ(scratch.get("a.pc2"), expected);
 }
 
-TEST(Pc2, AppearsOnlyWhenCommitted) {
+TEST(Pc2, IsCompleteAfterEveryFrame) {
   const Scratch scratch;
-  {
-    Pc2Writer writer(scratch / "a.pc2", 1, 0, 1);
-    writer.append(Vec3s{Vec3::Zero()});
+  Pc2Writer writer(scratch / "a.pc2", 3, 0, 1);
+  for (std::uint64_t f = 0; f < 3; ++f) {
+    EXPECT_EQ(Pc2Reader(scratch / "a.pc2").samples(), static_cast<int>(f));
+    writer.append(random_positions(f, 3));
+    Pc2Reader reader(scratch / "a.pc2");
+    ASSERT_EQ(reader.samples(), static_cast<int>(f) + 1);
+    Vec3s x;
+    reader.read(static_cast<int>(f), x);
+    EXPECT_EQ(reader.frame_checksum(), writer.frame_checksums().back());
+    EXPECT_EQ(reader.header_checksum(), writer.header_checksum());
   }
-  EXPECT_EQ(scratch.file_count(), 0u);
+}
+
+TEST(Pc2, IsNotWrittenOverAFileOrThroughALink) {
+  const Scratch scratch;
+  scratch.put("a.pc2", "precious");
+  std::filesystem::create_symlink(scratch / "a.pc2", scratch / "b.pc2");
+  std::filesystem::create_symlink(scratch / "nowhere", scratch / "c.pc2");
+  for (const char* name : {"a.pc2", "b.pc2", "c.pc2"}) EXPECT_THROW(Pc2Writer(scratch / name, 1, 0, 1), IoError) << name;
+  EXPECT_EQ(scratch.get("a.pc2"), "precious");
+  EXPECT_FALSE(std::filesystem::exists(scratch / "nowhere"));
+}
+
+// What a writer that was killed may leave behind the frames that the header counts.
+TEST(Pc2, GoesOnBehindTheFramesThatCount) {
+  const Scratch scratch;
+  std::string whole;
+  {
+    Pc2Writer writer(scratch / "whole.pc2", 5, 2, 0.5);
+    for (std::uint64_t f = 0; f < 6; ++f) writer.append(random_positions(f, 5));
+    whole = scratch.get("whole.pc2");
+  }
+  for (const std::size_t rest : {std::size_t{0}, std::size_t{7}, std::size_t{60}, std::size_t{100}}) {
+    std::string cut = whole.substr(0, 32 + 4 * 60 + rest);
+    cut[28] = 4;
+    scratch.put("cut.pc2", cut);
+    EXPECT_EQ(Pc2Reader(scratch / "cut.pc2", Pc2End::cut).samples(), 4);
+    if (rest > 0) {
+      EXPECT_THROW(Pc2Reader(scratch / "cut.pc2"), InputError);
+    }
+    const auto writer = Pc2Writer::resume(scratch / "cut.pc2", 5, 3);
+    EXPECT_EQ(scratch.get("cut.pc2").size(), 32u + 3 * 60);
+    for (std::uint64_t f = 3; f < 6; ++f) writer->append(random_positions(f, 5));
+    EXPECT_EQ(scratch.get("cut.pc2"), whole);
+    EXPECT_EQ(writer->frame_checksums().size(), 6u);
+  }
+  EXPECT_NE(message_of<InputError>([&] { Pc2Writer::resume(scratch / "whole.pc2", 5, 7); }).find("at least 7, got 6"),
+            std::string::npos);
+  EXPECT_THROW(Pc2Writer::resume(scratch / "whole.pc2", 4, 1), InputError);
 }
 
 TEST(Pc2, WithoutFramesOrPointsIsAFileToo) {
   const Scratch scratch;
-  Pc2Writer(scratch / "no_frames.pc2", 7, 0, 1).commit();
+  { Pc2Writer writer(scratch / "no_frames.pc2", 7, 0, 1); }
   Pc2Reader no_frames(scratch / "no_frames.pc2");
   EXPECT_EQ(no_frames.points(), 7);
   EXPECT_EQ(no_frames.samples(), 0);
@@ -112,7 +154,6 @@ TEST(Pc2, WithoutFramesOrPointsIsAFileToo) {
 
   Pc2Writer writer(scratch / "no_points.pc2", 0, 0, 1);
   writer.append({});
-  writer.commit();
   Pc2Reader no_points(scratch / "no_points.pc2");
   no_points.read(0, positions);
   EXPECT_TRUE(positions.empty());
@@ -139,7 +180,6 @@ TEST(Pc2, KeepsANanForTheAudit) {
   const Scratch scratch;
   Pc2Writer writer(scratch / "a.pc2", 1, 0, 1);
   writer.append(Vec3s{Vec3(0, std::numeric_limits<double>::quiet_NaN(), 0)});
-  writer.commit();
   Vec3s positions;
   Pc2Reader(scratch / "a.pc2").read(0, positions);
   EXPECT_TRUE(std::isnan(positions[0].y()));

@@ -30,13 +30,13 @@ void plant(const std::string& path) {
     frames.resize(static_cast<std::size_t>(reader.samples()));
     for (int f = 0; f < reader.samples(); ++f) reader.read(f, frames[static_cast<std::size_t>(f)]);
   }
+  std::filesystem::remove(path);
   Pc2Writer writer(path, static_cast<Index>(frames[0].size()), 0, 1);
   for (std::size_t f = 0; f < frames.size(); ++f) {
     if (f > 0)  // frame 0 is cloth.obj
       for (Vec3& p : frames[f]) p.y() += f % 2 == 0 ? 0.5e-3 : -0.5e-3;
     writer.append(frames[f]);
   }
-  writer.commit();
 }
 
 // A kerchief, so many metres off the middle of her head.

@@ -5,7 +5,7 @@
 #include "io/pc2.hpp"
 #include "io/scratch.hpp"
 #include "mesh/check.hpp"
-#include "sim/json_text.hpp"
+#include "io/json_text.hpp"
 #include "sim/run_writer.hpp"
 #include "sim/setup.hpp"
 #include "sim/simulate.hpp"

@@ -3,13 +3,17 @@
 
 #include "core/error.hpp"
 #include "io/obj.hpp"
+#include "core/hash.hpp"
+#include "io/json_text.hpp"
 #include "io/pc2.hpp"
+#include "io/run_folder.hpp"
 #include "verify/verdict.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <functional>
 #include <limits>
 
@@ -89,13 +93,48 @@ class RunDirectory {
       write_obj(file("body.obj"), run.body);
       write_cache("body.pc2", run.body_frames);
     }
-    write_text("report.json", run.report);
+    write_text("report.json", sealed(run.report.substr(0, run.report.rfind('}')) + R"(, "files": )" + listed(run) + '}'));
   }
   void write_text(const char* name, const std::string& text) const { std::ofstream(file(name)) << text; }
   void write_cache(const char* name, const std::vector<Vec3s>& frames) const {
     Pc2Writer writer(file(name), static_cast<Index>(frames.at(0).size()), 0, 1);
     for (const Vec3s& x : frames) writer.append(x);
-    writer.commit();
+  }
+  // As a run lists its files.
+  std::string listed(const RunFiles& run) const {
+    JsonText json(0);
+    json.begin_object();
+    const auto add_obj = [&](const char* name) {
+      std::ostringstream bytes;
+      bytes << std::ifstream(file(name), std::ios::binary).rdbuf();
+      json.key(name);
+      json.begin_object();
+      json.member("checksum", hex_of(checksum(bytes.str().data(), bytes.str().size())));
+      json.end_object();
+    };
+    const auto add_cache = [&](const char* name) {
+      Pc2Reader reader(file(name));
+      json.key(name);
+      json.begin_object();
+      json.member("header_checksum", hex_of(reader.header_checksum()));
+      json.key("frame_checksums");
+      json.begin_array();
+      Vec3s x;
+      for (int frame = 0; frame < reader.samples(); ++frame) {
+        reader.read(frame, x);
+        json.value(hex_of(reader.frame_checksum()));
+      }
+      json.end_array();
+      json.end_object();
+    };
+    add_obj("cloth.obj");
+    add_cache("cloth.pc2");
+    if (!run.body.positions.empty()) {
+      add_obj("body.obj");
+      add_cache("body.pc2");
+    }
+    json.end_object();
+    return json.str();
   }
 
  private:

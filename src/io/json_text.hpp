@@ -1,4 +1,4 @@
-// sim/json_text.hpp: writes JSON whose keys keep the order in which they are given, and whose numbers read back to the bit.
+// io/json_text.hpp: writes JSON whose keys keep the order in which they are given, and whose numbers read back to the bit.
 //
 //   JsonText text;  text.begin_object();  text.member("frames", 75);  text.end_object();  text.str()
 //

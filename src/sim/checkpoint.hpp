@@ -1,0 +1,51 @@
+// sim/checkpoint.hpp: the whole state of a run in one file, replaced now and then: checkpoint.bin.      docs/howto/resume.md
+//
+//   "TOILESTATE"  uint32 format  uint64 input hash  uint64 bytes  state ...  uint64 checksum of all before      little-endian
+//
+// The state is that between two frames (core/state_archive.hpp).  The file is replaced whole, once the frames that it counts are on the disk: a
+// run that is killed at any moment leaves one that is complete, at most a second and a frame old.
+//
+// Easily got wrong: the clock decides when a state is kept, never what it is: a run that is taken up anywhere ends with the same bits.
+#pragma once
+#include "sim/run_writer.hpp"
+
+#include <cstdint>
+#include <future>
+#include <optional>
+#include <string>
+
+namespace toile {
+
+struct CheckpointOptions {
+  double every_s = 1;    // of wall time
+  int every_frames = 0;  // instead, when above zero
+};
+
+class Checkpoints {
+ public:
+  // The writer must outlive this object.
+  Checkpoints(const RunWriter& writer, std::uint64_t input_hash, const CheckpointOptions& options);
+  ~Checkpoints();
+  Checkpoints(const Checkpoints&) = delete;
+  Checkpoints& operator=(const Checkpoints&) = delete;
+
+  // To be asked once after every frame.
+  bool due();
+  // Writes the state while the run goes on.  Throws IoError of the one before.
+  void save(std::string state);
+  // Until what was saved is on the disk; to be called before the writer begins or ends a file.  Throws IoError.
+  void wait();
+
+ private:
+  const RunWriter* writer_;
+  std::uint64_t input_hash_;
+  CheckpointOptions options_;
+  double last_s_ = 0;
+  int frames_ = 0;  // since the last
+  std::future<void> pending_;
+};
+
+// The state in the folder; empty when there is none.  Throws InputError when it is not whole, of another version, or of other inputs.
+std::optional<std::string> read_checkpoint(const std::string& path, std::uint64_t input_hash);
+
+}  // namespace toile

@@ -1,0 +1,13 @@
+// sim/phase_report.hpp: what frames and their steps add up to in a report.
+#pragma once
+#include "sim/report.hpp"
+#include "step/adaptive_step.hpp"
+
+namespace toile {
+
+void add_frame(PhaseReport& phase, const FrameReport& frame);
+void add_seconds(PhaseReport& phase, const PhaseSeconds& seconds);
+// Of what happened since `before`.
+void set_seconds(PhaseReport& phase, const PhaseSeconds& seconds, const PhaseSeconds& before = {});
+
+}  // namespace toile

@@ -1,0 +1,140 @@
+// sim/run_live.cpp: from the first written frame to the last: the drape, then the motion.
+#include "sim/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile {
+namespace {
+
+constexpr double rest_s = 0.5;  // after a garment has settled, before it may be said to be still
+
+}  // namespace
+
+void Run::live() {
+  const bool resumed = resumes();
+  OutfitRun run(scene_, outfit_, body(), step_, settling_, options_.stop);
+  run.set_events(events_of(outfit_, cloth_));
+  begin_recording(run);
+  // What hangs now is the run's: a second and a third copy of a fine mesh are large.
+  cloth_.clear();
+  outfit_.mesh = {};
+  report_.ended = "time";
+  end_startup();
+  if (!resumed) {
+    place_ = {RunPhase::drape, scene_.cloth.size() - 1, 0};
+    keep(run);
+  }
+  if (resumed && place_.phase == RunPhase::motion) {
+    animate(run);
+  } else {
+    if (resumed) restore(run);
+    drape(run);
+  }
+  close(run);
+}
+
+void Run::begin_recording(OutfitRun& run) {
+  std::vector<Vec2> rest_stretch = outfit_.rest_stretch;  // at the end
+  for (const TimedRestStretch& timed : run.events().rest_stretch)
+    rest_stretch[static_cast<std::size_t>(timed.panel)] = timed.keys.back().b;
+  for (std::size_t p = 0; p < rest_stretch.size(); ++p) {
+    const Vec2& b = rest_stretch[p];
+    if (b != Vec2(1, 1)) report_.rest_stretch.push_back({outfit_.mesh.panel_names[p], {b.y(), b.x()}});
+  }
+  if (resumes()) {
+    say("reading", 0);
+    recorder_.emplace(*writer_, outfit_, rest_stretch, scene_.fps, body_triangles_, body_x_.size(), written_);
+    return;
+  }
+  checkpoints_->wait();
+  folder_->set_facts([&](JsonText& json) { add_facts(json, report_); });
+  recorder_.emplace(*writer_, outfit_, rest_stretch, scene_.fps, body_triangles_, body_x_);
+}
+
+void Run::drape(OutfitRun& run) {
+  const bool moving = motion_.has_value();
+  const int frames =
+      moving ? (scene_.drape_seconds > 0 ? frames_in(scene_.drape_seconds) : 1) : frames_in(scene_.seconds);
+  const std::int64_t first = place_.frame;
+  const Stopwatch watch;
+  const auto at_rest = [&] {
+    return place_.frame > 0 && awaits_rest() && run.settled() &&
+           run.time_s() - frame_s() > (settling_.sewn ? OutfitRun::settling_s : -rest_s) + rest_s &&
+           recorder_->at_rest();
+  };
+  bool rests = at_rest();
+  while (!rests && place_.frame + 1 < frames) {
+    if (!frame(run, report_.drape, "draping", place_.frame + 1)) return;
+    rests = at_rest();
+    const auto done = static_cast<double>(place_.frame - first);
+    say("draping", static_cast<double>(place_.frame) / frames,
+        watch.seconds() * static_cast<double>(frames - 1 - place_.frame) / done);
+  }
+  if (rests && !moving) report_.ended = "still";
+  if (moving) animate(run);
+}
+
+void Run::animate(OutfitRun& run) {
+  run.start_motion(motion_->at);
+  if (resumes()) {
+    restore(run);
+    motion_->at(static_cast<double>(place_.frame) * frame_s(), body_x_);
+  } else {
+    place_.phase = RunPhase::motion;
+    place_.frame = 0;
+    seconds_before_motion_ = run.seconds();
+    report_.motion_first_frame = writer_->cloth_frames() - 1;
+    checkpoints_->wait();
+    folder_->set_facts([&](JsonText& json) { add_facts(json, report_); });
+    keep(run);
+  }
+  PhaseReport& phase = report_.motion;
+  report_.motion_name = motion_->name;
+  const bool whole = !scene_.seconds_given && std::isfinite(motion_->duration_s);
+  const int frames = frames_in(whole ? motion_->duration_s : scene_.seconds);
+  const std::int64_t first = place_.frame;
+  const Stopwatch watch;
+  while (place_.frame < frames) {
+    motion_->at(static_cast<double>(place_.frame + 1) * frame_s(), body_x_);
+    const double drape_seconds = report_.drape.seconds;
+    const bool good = frame(run, report_.drape, "moving", place_.frame + 1, &phase);
+    phase.seconds += report_.drape.seconds - drape_seconds;
+    if (!good) break;
+    say("moving", static_cast<double>(place_.frame) / frames,
+        watch.seconds() * static_cast<double>(frames - place_.frame) / static_cast<double>(place_.frame - first));
+  }
+  phase.simulated_s = phase.frames * frame_s();
+  set_seconds(phase, run.seconds(), seconds_before_motion_);
+}
+
+// One frame, simulated and written; false when it is the last for a bad reason.
+bool Run::frame(OutfitRun& run, PhaseReport& phase, std::string_view what, std::int64_t k, PhaseReport* also) {
+  FrameReport frame;
+  {
+    const Timed timed(phase.seconds);
+    frame = run.frame();
+  }
+  if (frame.interrupted) {
+    end(reason::interrupted, "while " + std::string(what) + ", after frame " + std::to_string(k - 1));
+    return false;
+  }
+  add_frame(phase, frame);
+  if (also != nullptr) add_frame(*also, frame);
+  if (!frame.ok) {
+    collapse("in frame " + std::to_string(k), frame, run.model().mesh, outfit_.state.x);
+    return false;
+  }
+  recorder_->frame(outfit_.state.x, body_x_);
+  ++place_.frame;
+  keep_if_due(run);
+  return true;
+}
+
+void Run::close(OutfitRun& run) {
+  report_.drape.simulated_s = report_.drape.frames * frame_s();
+  set_seconds(report_.drape, run.seconds());
+  report_.layer_gap = run.layer_gap();
+}
+
+}  // namespace toile

@@ -1,0 +1,261 @@
+// sim/run_put_on.cpp: from flat panels to a garment that is on; what was worn before comes first.
+#include "core/error.hpp"
+#include "garment/placement.hpp"
+#include "mesh/check.hpp"
+#include "sim/run.hpp"
+#include "sim/start_run.hpp"
+#include "sim/untangle.hpp"
+#include "verify/crossings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile {
+namespace {
+
+constexpr double sewing_film_fps = 30;
+constexpr double inner_rest_mm_per_s = 10;  // of a garment that others go over,
+constexpr double inner_rest_s = 0.5;        // for so long
+constexpr double most_waiting_s = 1;
+
+bool is_closed(std::span<const Vec3> x, std::span<const Triangle> triangles) {
+  try {
+    check_closed("body", x, triangles);
+  } catch (const InputError&) {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void Run::bad_start(const std::string& name, const std::string& what) {
+  if (scene_.strict_start) throw Error(ExitCode::bad_start, printable(name) + ": bad start: " + what);
+  report_.warnings.push_back("bad start: " + what);
+}
+
+// Cloth that passes through itself or the body is taken apart before the first frame, as far as it can be (sim/untangle.hpp).
+// `sewn_now`: what sewing left, not what the user gave; --strict-start is about the latter.
+void Run::free_start(bool sewn_now) {
+  const Timed timed(startup(&StartupReport::crossings));
+  const auto self = find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x);
+  const auto through = body_ ? find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_)
+                             : std::vector<Crossing>{};
+  if (self.empty() && through.empty()) return;
+  std::string what = std::to_string(count_edges(self)) + " edges of the cloth pass through it";
+  if (body_) what += ", " + std::to_string(count_edges(through)) + " between cloth and body";
+  if (scene_.strict_start && !sewn_now)
+    throw Error(ExitCode::bad_start, printable(outfit_.parts.front().name) + ": bad start: " + what);
+  say("untangling", 0);
+  // Inside and outside of a body that has holes are not known; then the cloth alone is untangled.
+  const bool with_body = body_ && is_closed(body_x_, body_triangles_);
+  const UntangleReport report = untangle(
+      outfit_.mesh.triangles, outfit_.state.x,
+      with_body ? std::span<const Triangle>(body_triangles_) : std::span<const Triangle>{},
+      with_body ? std::span<const Vec3>(body_x_) : std::span<const Vec3>{}, {}, [&](int, int) { return !stopped(); });
+  const int weightless = sewn_now ? come_apart() : 0;
+  const auto self_left = find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x);
+  const auto through_left =
+      body_ ? find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_)
+            : std::vector<Crossing>{};
+  StartReport& start = report_.start;  // of the last garment when several are sewn; trials of all of them
+  start = {count_edges(self),
+           count_edges(through),
+           count_edges(self_left),
+           count_edges(through_left),
+           start.trials + report.iterations,
+           std::max(start.largest_move_mm, 1e3 * report.largest_move)};
+  std::string then = std::to_string(count_edges(self_left) + count_edges(through_left)) + " are left";
+  if (self_left.empty() && through_left.empty()) then = "none is left";
+  std::string tried = std::to_string(report.iterations) + " trials of untangling ";
+  if (weightless > 0)
+    tried += "and " + std::to_string(weightless) + (weightless == 1 ? " frame" : " frames") + " without weight ";
+  report_.warnings.push_back((sewn_now ? "as sewn: " : "bad start: ") + what + "; after " + tried + then);
+}
+
+// What trials from rest leave of a weld may come apart as the garment moves, with threads that want to be as long as they were cut, before
+// it has weight.  Nothing of it is written.  Returns the number of frames.
+int Run::come_apart() {
+  Settling waiting = settling_;
+  waiting.waits = true;
+  std::optional<OutfitRun> run;
+  const int most = frames_in(most_waiting_s);
+  int frames = 0;
+  while (frames < most && !find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x).empty()) {
+    if (!run) run.emplace(scene_, outfit_, body(), step_, waiting, options_.stop);
+    const FrameReport frame = run->frame();
+    if (frame.interrupted || !frame.ok) break;  // as the drape will say
+    ++frames;
+  }
+  if (frames > 0) outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
+  return frames;
+}
+
+// `tell`: what is wrong with the place.
+void Run::place(GarmentMesh& garment, bool tell) {
+  if (!body_) return;
+  const Timed timed(startup(&StartupReport::placement));
+  say("placing", 0);
+  const Placement placement = place_garment(garment, *body_);
+  if (!tell) return;
+  report_.shift_m = placement.shift_m;
+  if (placement.panel_crossings > 0)
+    bad_start(garment.name,
+              std::to_string(placement.panel_crossings) + " edges of the placed panels pass through the body");
+  for (const Index seam : placement.blocked_seams)
+    report_.warnings.push_back("the straight way between the two sides of seam " +
+                               garment.seams[static_cast<std::size_t>(seam)].name + " leads through the body");
+}
+
+std::vector<LabelHeight> Run::heights_of(std::size_t cloth, std::vector<std::string>& warnings) {
+  return label_heights_of(scene_.cloth[cloth], cloth_[cloth].garment, std::span(body_x_).first(person_vertices_),
+                          std::span(body_triangles_).first(person_triangles_), warnings);
+}
+
+// Fills the outfit; false when a garment could not be closed or did not come to its drape.
+bool Run::put_on() {
+  if (resumes() && place_.phase >= RunPhase::drape) return true;
+  if (!scene_.start.empty() || !sewn()) {
+    outfit_ = scene_.start.empty() ? outfit_of_shapes(cloth_) : start_from(scene_.start, cloth_, body_x_);
+    settling_.to_rest = sewn() && awaits_rest();
+    free_start(false);
+    return true;
+  }
+  for (std::size_t k = place_.cloth; k < cloth_.size(); ++k) {
+    const bool is_on = resumes() && place_.phase == RunPhase::inner_drape;
+    if (!is_on && !sew(k)) return false;
+    if (k + 1 < cloth_.size() && !drape_inner(k)) return false;
+  }
+  return true;
+}
+
+// The garments that were on when the run was left, but for where they were.
+void Run::wear_again() {
+  if (!scene_.start.empty() || !sewn()) {
+    outfit_ = scene_.start.empty() ? outfit_of_shapes(cloth_) : start_from(scene_.start, cloth_, body_x_);
+    outfit_.thickness_scale.assign(outfit_.state.x.size(), 1);
+    settling_.to_rest = sewn() && awaits_rest();
+    return;
+  }
+  const std::size_t worn = static_cast<std::size_t>(place_.cloth) + (place_.phase == RunPhase::sewing ? 0 : 1);
+  std::vector<std::string> told_before;
+  for (std::size_t k = 0; k < worn; ++k) {
+    const LoadedCloth& cloth = cloth_[k];
+    const Index before = outfit_.mesh.particle_count;
+    LabelSprings labels = wear(outfit_, cloth.garment, cloth.fabrics, cloth.rest_stretch, heights_of(k, told_before));
+    settling_ = {true, before, std::move(labels), awaits_rest()};
+  }
+}
+
+// Leaves the outfit welded, with the garment on.
+bool Run::sew(std::size_t k) {
+  const bool resumed = resumes();
+  if (!resumed) place_ = {RunPhase::sewing, k, 0};
+  LoadedCloth& cloth = cloth_[k];
+  GarmentMesh& garment = cloth.garment;
+  place(garment, !resumed);
+  SewingOptions sewing_options;
+  sewing_options.step_max_s = scene_.step_max_s.value_or(1 / sewing_options.fps);
+  sewing_options.paper_scaling = scene_.paper_scaling;
+  sewing_options.damping_jacobian = scene_.damping_jacobian;
+  std::vector<std::string> told_before;
+  sewing_options.label_heights = heights_of(k, resumed ? told_before : report_.warnings);
+  sewing_options.stop = options_.stop;
+  Dressing dressing(outfit_, garment, cloth.fabrics, cloth.rest_stretch, body(), step_, sewing_options);
+  Sewing& sewing = dressing.sewing();
+  const bool filmed = k == 0;  // the panels of the others come with what is worn: another mesh
+  if (resumed) {
+    restore(sewing);
+  } else {
+    if (dressing.tangled()) bad_start(garment.name, "placed panels pass through each other");
+    checkpoints_->wait();
+    if (filmed) writer_->begin_sewing(garment.mesh, garment.name, garment.x);
+    end_startup();
+    keep(sewing);
+  }
+  const FrameReport frame = sew_frames(dressing, filmed);
+  PhaseReport& phase = report_.sewing;
+  phase.simulated_s += sewing.time_s();
+  add_seconds(phase, sewing.seconds());
+  const std::string which = cloth_.size() > 1 ? printable(garment.name) + ": " : "";
+  switch (sewing.status()) {
+    case SewingStatus::closed:
+      break;
+    case SewingStatus::sewing:
+      end(reason::interrupted, which + "while sewing, after " + std::to_string(place_.frame) + " frames");
+      break;
+    case SewingStatus::blocked:
+      end(reason::seam_blocked, which + dressing.explain() + (frame.ok ? "" : "; then " + frame.diagnosis));
+      break;
+    case SewingStatus::failed:
+      collapse(which + "while sewing (" + dressing.explain() + ")", frame, sewing.model().mesh, sewing.state().x);
+      break;
+  }
+  if (sewing.status() != SewingStatus::closed) {
+    outfit_.state = sewing.state();  // for the hash
+    return false;
+  }
+  settling_ = {true, outfit_.mesh.particle_count, dressing.labels(), awaits_rest()};
+  outfit_ = dressing.worn();
+  free_start(true);
+  return true;
+}
+
+// Until the seams are closed or will not close; returns what the last frame was.
+FrameReport Run::sew_frames(Dressing& dressing, bool filmed) {
+  Sewing& sewing = dressing.sewing();
+  const int every = std::max(1, static_cast<int>(std::lround(SewingOptions{}.fps / sewing_film_fps)));
+  const Stopwatch watch;
+  FrameReport frame;
+  while (sewing.status() == SewingStatus::sewing && !stopped()) {
+    {
+      const Timed timed(report_.sewing.seconds);
+      frame = sewing.frame();
+    }
+    if (frame.interrupted) break;
+    add_frame(report_.sewing, frame);
+    ++place_.frame;
+    if (filmed && (place_.frame % every == 0 || sewing.status() != SewingStatus::sewing))
+      writer_->sewing_frame(sewing.state().x);
+    if (sewing.status() == SewingStatus::sewing) keep_if_due(sewing);
+    const double share = sewing.closed_share();
+    say("sewing", share, share > 0.05 ? watch.seconds() * (1 - share) / share : -1);
+  }
+  return frame;
+}
+
+// A garment that another one goes over comes to rest first; nothing of it is written.
+bool Run::drape_inner(std::size_t k) {
+  OutfitRun run(scene_, outfit_, body(), step_, settling_, options_.stop);
+  if (resumes()) {
+    restore(run);
+  } else {
+    place_ = {RunPhase::inner_drape, k, 0};
+    before_inner_ = outfit_.state.x;
+    slow_inner_ = 0;
+    keep(run);
+  }
+  const int frames = frames_in(scene_.drape_seconds);
+  while (place_.frame + 1 < frames && slow_inner_ < inner_rest_s * scene_.fps) {
+    const FrameReport frame = run.frame();
+    if (frame.interrupted || !frame.ok) {
+      const std::string when = "while " + printable(cloth_[k].garment.name) + " was draped";
+      if (frame.ok)
+        end(reason::interrupted, when);
+      else
+        collapse(when, frame, outfit_.mesh, outfit_.state.x);
+      return false;
+    }
+    ++place_.frame;
+    const bool slow =
+        run.settled() && speed_p99_mm_per_s(before_inner_, outfit_.state.x, scene_.fps) < inner_rest_mm_per_s;
+    slow_inner_ = slow ? slow_inner_ + 1 : 0;
+    before_inner_ = outfit_.state.x;
+    keep_if_due(run);
+    say("draping", static_cast<double>(place_.frame) / frames);
+  }
+  outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
+  return true;
+}
+
+}  // namespace toile

@@ -1,0 +1,36 @@
+// verify/integrity.hpp: whether the files of a run are what the run wrote, by the checksums of its report.
+//
+// A checksum is not a signature: it tells a disk's error, a cut file or a stray edit, not a forger.
+#pragma once
+#include "io/json.hpp"
+#include "io/pc2.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace toile {
+
+class Integrity {
+ public:
+  // `text` is that of report.json, `report` the same parsed.  Files of `directory` that are checked whole are read here.
+  Integrity(const std::string& directory, std::string_view text, const Json& report);
+
+  // The frame that the reader of cache `name` has just read.
+  void check_frame(std::string_view name, int frame, const Pc2Reader& reader);
+  // Before its frames: header and number.
+  void check_header(std::string_view name, const Pc2Reader& reader);
+  // A cache that nobody else reads.
+  void check_cache(const std::string& directory, std::string_view name);
+
+  // One sentence each, for a person.
+  const std::vector<std::string>& changes() const { return changes_; }
+
+ private:
+  const Json* entry(std::string_view name) const;
+
+  const Json* files_ = nullptr;
+  std::vector<std::string> changes_;
+};
+
+}  // namespace toile

@@ -1,0 +1,144 @@
+// A run that is left anywhere and taken up again ends with the bits of one that was not.
+#include "core/parallel.hpp"
+#include "io/file.hpp"
+#include "io/json.hpp"
+#include "io/scratch.hpp"
+#include "sim/simulate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace toile {
+namespace {
+
+RunOptions options_of(const std::string& directory) {
+  RunOptions options;
+  options.directory = directory;
+  options.command = "toile run s.json";
+  options.arguments = {"run", "s.json"};
+  options.checkpoints.every_frames = 1;
+  return options;
+}
+
+// Bytes of all files but the report, and what the report says that is not time.
+std::map<std::string, std::string> contents(const std::string& directory) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+    const std::string name = entry.path().filename().string();
+    if (name != "report.json") files[name] = read_file(entry.path().string());
+  }
+  const Json report = Json::load(directory + "/report.json");
+  for (const char* key : {"state_hash", "input_hash", "verdict", "ended"}) files[key] = report.at(key).string();
+  for (const char* key : {"frames", "steps", "steps_rejected"}) files[key] = std::to_string(report.at(key).integer());
+  files["still"] = std::to_string(report.at("still").at("speed_mm_per_s_p99").number());
+  files["sewing steps"] =
+      report.at("sewing").is_null() ? "" : std::to_string(report.at("sewing").at("steps").integer());
+  files["warnings"] = std::to_string(report.at("warnings").array().size());
+  if (const Json& jitter = report.at("jitter"); jitter.is_object())
+    files["jitter"] = std::to_string(jitter.at("speed_mm_per_s_max").number());
+  return files;
+}
+
+// Stopped after every so many questions whether it should, each time by another number of threads.
+void compare(const Scene& scene, const std::vector<int>& stops) {
+  const Scratch scratch;
+  simulate(scene, options_of(scratch / "whole"));
+  const auto whole = contents(scratch / "whole");
+  for (const int stop : stops) {
+    SCOPED_TRACE("stopped after " + std::to_string(stop));
+    RunOptions options = options_of(scratch / "parts");
+    int left = 0, parts = 0;
+    options.stop = [&] { return --left < 0; };
+    Report report;
+    do {
+      left = stop * (parts / 4 + 1);  // a stop in the first frame of a part leads nowhere: then a later one
+      with_threads(parts % 2 == 0 ? 1 : 3, [&] { report = simulate(scene, options); });
+      options.resume = true;
+      ASSERT_LT(++parts, 60);
+    } while (report.ended == reason::interrupted);
+    EXPECT_GT(parts, 1);
+    EXPECT_EQ(contents(scratch / "parts"), whole);
+    std::filesystem::remove_all(scratch / "parts");
+  }
+}
+
+TEST(Resume, OfShapesThatAreLedAndPulled) {
+  compare(parse_scene(R"({"cloth": [
+      {"name": "flag", "grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.05}, "placement": {"translation_m": [0, 0.3, 0], "rotation_deg": [-90, 0, 0]},
+       "pins": [{"near_m": [-0.15, 0.3, -0.15], "to_s": 0.2}, {"in_box_m": [[0.14, 0.2, -0.2], [0.2, 0.4, 0.2]], "hold": "moves", "from_s": 0.1, "moves": [{"t_s": 0.1}, {"t_s": 0.4, "shift_m": [0.1, 0, 0], "rotation_deg": [0, 30, 0]}]}],
+       "panels": {"flag": {"rest_stretch_path": [[0.1, 1, 1], [0.4, 0.9, 0.95]]}}},
+      {"name": "other", "grid": {"width_m": 0.3, "height_m": 0.2, "edge_m": 0.05}, "placement": {"translation_m": [0, 0.26, 0], "rotation_deg": [-90, 0, 0]},
+       "drags": [{"near_m": [0.1, 0.26, 0.1], "path_m": [[0, 0.1, 0.3, 0.1], [0.3, 0.2, 0.4, 0.1]]}]}],
+      "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.4, "top_m": [0, 0.2, 0]}},
+      "solids": [{"sphere": {"radius_m": 0.06}, "edge_m": 0.03, "placement": {"translation_m": [0.2, 0.1, 0]}, "moves": [{"t_s": 0}, {"t_s": 0.3, "shift_m": [0, 0.2, 0]}]}],
+      "time": {"seconds": 0.6, "drape_seconds": 0.2}, "world": {"wind_m_per_s": [1, 0, 0]}})",
+                      "s.json"),
+          {5, 17});
+}
+
+TEST(Resume, OfALayerOnALayerWithOtherSolvers) {
+  for (const char* solver :
+       {R"("solver": {"newton_iterations": 2}, "time": {"seconds": 0.5, "integrator": "bdf2"})",
+        R"("solver": {"preconditioner": "block_ssor", "procedure": "paper_1998"}, "time": {"seconds": 0.5, "step_max_ms": 10})"})
+    compare(parse_scene(R"({"cloth": [
+      {"name": "a", "grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.04}, "placement": {"translation_m": [0, 0.21, 0], "rotation_deg": [-90, 0, 0]}},
+      {"name": "b", "grid": {"width_m": 0.25, "height_m": 0.25, "edge_m": 0.04}, "placement": {"translation_m": [0.02, 0.23, 0], "rotation_deg": [-90, 20, 0]}}],
+      "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.4, "top_m": [0, 0.2, 0]}}, )" +
+                            std::string(solver) + "}",
+                        "s.json"),
+            {7});
+}
+
+// Cloth that starts through itself: what pushes it apart goes on, too.
+TEST(Resume, OfCrossingCloth) {
+  compare(parse_scene(R"({"cloth": [
+      {"name": "a", "grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.03}, "pins": [{"in_box_m": [[-0.2, 0.14, -0.1], [0.2, 0.16, 0.1]]}]},
+      {"name": "b", "grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.03}, "placement": {"translation_m": [0.05, -0.04, 0], "rotation_deg": [0, 80, 0]},
+       "pins": [{"in_box_m": [[-0.2, 0.1, -0.2], [0.2, 0.12, 0.2]]}]}], "time": {"seconds": 0.4}})",
+                      "s.json"),
+          {6});
+}
+
+// Sewing, the drape of what goes below, sewing over it, settling, drape and motion: a stop in each.
+TEST(Resume, OfAnOutfitThatMoves) {
+  const std::string folder = std::string(TOILE_SOURCE_DIR) + "/patterns/";
+  compare(parse_scene(R"({"cloth": [{"pattern": ")" + folder + R"(short_skirt.json", "resolution_cm": 7}, {"pattern": ")" +
+                          folder + R"(tshirt.json", "resolution_cm": 7}],
+      "body": {"mannequin": "woman", "motion": "sway"}, "time": {"seconds": 0.3, "drape_seconds": 0.8}})",
+                      "s.json"),
+          {37});
+}
+
+TEST(Resume, RefusesOtherInputsAndADamagedState) {
+  const Scratch scratch;
+  const auto scene = [](const char* gravity) {
+    return parse_scene(R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05}}], "time": {"seconds": 1},
+      "world": {"gravity_m_per_s2": [0, )" + std::string(gravity) + ", 0]}}", "s.json");
+  };
+  RunOptions options = options_of(scratch / "out");
+  int left = 10;
+  options.stop = [&] { return --left < 0; };
+  const Scene same = scene("-9.81");
+  ASSERT_EQ(simulate(same, options).ended, reason::interrupted);
+  options.resume = true;
+  EXPECT_NE(message_of<InputError>([&] { simulate(scene("-9.8"), options); }).find("input_hash"), std::string::npos);
+  const std::string state = scratch.get("out/checkpoint.bin");
+  for (std::size_t k = 0; k < state.size(); k += 1 + state.size() / 97) {
+    std::string changed = state;
+    changed[k] = static_cast<char>(changed[k] ^ 4);
+    scratch.put("out/checkpoint.bin", changed);
+    EXPECT_THROW(simulate(same, options), InputError) << k;
+    scratch.put("out/checkpoint.bin", state.substr(0, k));
+    EXPECT_THROW(simulate(same, options), InputError) << k;
+  }
+  scratch.put("out/checkpoint.bin", state);
+  options.stop = {};
+  EXPECT_EQ(simulate(same, options).ended, "time");
+  EXPECT_THROW(simulate(same, options), InputError) << "it is finished";
+}
+
+}  // namespace
+}  // namespace toile
