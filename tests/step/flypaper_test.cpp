@@ -33,7 +33,8 @@ struct Jaws {
 
 struct Between : ClothRun {
   using Height = std::function<double(double t_s)>;
-  Between(Jaws& jaws, const Height& lower, const Height& upper) : ClothRun(sheet_on(lower(0)), Fabric{}, test::weightless()) {
+  Between(Jaws& jaws, const Height& lower, const Height& upper)
+      : ClothRun(sheet_on(lower(0)), Fabric{}, test::weightless()) {
     world.body = &jaws.body;
     step.flypaper = true;
     world.body_at = [&jaws, lower, upper](double t_s, std::span<Vec3> x) { jaws.place(lower(t_s), upper(t_s), x); };
@@ -52,7 +53,8 @@ TEST(Flypaper, GoesWithTheMeanOfBothSurfacesWhileTheyAreWithinEachOther) {
   // The upper one closes by 5 cm at 0.1 m/s, 2 cm into the lower one, and opens again.
   Jaws jaws(0.1);
   const auto upper = [](double t_s) { return 0.03 - 0.1 * std::min(t_s, std::max(0.0, 1.0 - t_s)); };
-  Between run(jaws, [](double) { return 0.0; }, upper);
+  Between run(
+      jaws, [](double) { return 0.0; }, upper);
   const std::size_t all = run.state.x.size();
   double fastest = 0;
   for (int frame = 1; frame <= 36; ++frame) {
@@ -80,7 +82,8 @@ TEST(Flypaper, WithRoomItKeepsItsPlaceBetweenTheTwo) {
     const double frame = 60 * t_s, share = std::clamp(std::min(frame, frames - frame) / way, 0.0, 1.0);
     return (3.3 - 2.3 * share) * offset;
   };
-  Between run(jaws, [](double) { return 0.0; }, upper);
+  Between run(
+      jaws, [](double) { return 0.0; }, upper);
   bool all = false;
   for (int frame = 1; frame <= frames; ++frame) {
     const FrameReport report = run.frame(1.0 / 60);
@@ -176,10 +179,12 @@ TEST(Flypaper, ThinThingsAreNotTwoSurfaces) {  // 2 mm, less than two offsets: a
 
 TEST(Flypaper, ANarrowPlaceThatDoesNotCloseIsNoPinch) {
   Jaws jaws(0.1);
-  Between still(jaws, [](double) { return 0.0; }, [](double) { return 1.5 * offset; });
+  Between still(
+      jaws, [](double) { return 0.0; }, [](double) { return 1.5 * offset; });
   still.run(5);
   EXPECT_EQ(pinched(still), 0u);
-  Between moving(jaws, [](double t_s) { return 0.3 * t_s; }, [](double t_s) { return 1.5 * offset + 0.3 * t_s; });
+  Between moving(
+      jaws, [](double t_s) { return 0.3 * t_s; }, [](double t_s) { return 1.5 * offset + 0.3 * t_s; });
   moving.run(5);
   EXPECT_EQ(pinched(moving), 0u);
 }

@@ -63,8 +63,7 @@ struct Spinning : ClothRun {
   explicit Spinning(double omega_per_s)
       : ClothRun(test::equilateral_sheet(0.2, 0.2, 0.02), test::linear_cotton(), weightless()) {
     const Vec3 centre = centre_of_mass(*this);
-    for (std::size_t i = 0; i < state.x.size(); ++i)
-      state.v[i] = Vec3(0, omega_per_s, 0).cross(state.x[i] - centre);
+    for (std::size_t i = 0; i < state.x.size(); ++i) state.v[i] = Vec3(0, omega_per_s, 0).cross(state.x[i] - centre);
   }
 };
 
