@@ -1,5 +1,5 @@
 # The commands of the README.  Everything real happens in CMake; this file only says what is run.
-.PHONY: configure build demo test test-long bench tidy format clean packages
+.PHONY: configure build demo test test-golden test-clang test-sanitizers test-long bench tidy format clean packages
 JOBS ?= $(shell nproc)
 
 configure: packages
@@ -13,8 +13,36 @@ demo: configure
 	@cmake --build --preset release --target toile -j $(JOBS)
 	build/release/toile demo
 
-test: build
+# And the program by clang, its hashes and its lower modules.
+test: build test-golden
 	ctest --preset release -LE long -j $(JOBS)
+
+# The scenes whose last state is known to the bit, and the modules whose arithmetic everything else rests on, by clang.
+clang_modules := core material constraint assembly solver golden
+test-golden: packages
+	@cmake --preset clang >/dev/null
+	@cmake --build --preset clang --target toile $(clang_modules:%=toile_test_%) -j $(JOBS)
+	ctest --preset clang -LE long -R '$(call any_of,$(clang_modules))' -j $(JOBS)
+
+test-clang: packages
+	@cmake --preset clang >/dev/null
+	@cmake --build --preset clang -j $(JOBS)
+	ctest --preset clang -LE long -j $(JOBS)
+
+# With little optimisation too: by g++ for addresses and undefined behaviour, by clang for threads.
+all_modules := core mesh io material constraint contact assembly solver step garment body verify preview sim golden
+threaded_modules := core contact assembly solver step golden
+test-sanitizers: packages
+	@cmake --preset dev >/dev/null
+	@cmake --build --preset dev --target $(all_modules:%=toile_test_%) -j $(JOBS)
+	ctest --preset dev -LE long -R '$(call any_of,$(all_modules))' -j $(JOBS)
+	@cmake --preset tsan >/dev/null
+	@cmake --build --preset tsan --target $(threaded_modules:%=toile_test_%) -j $(JOBS)
+	ctest --preset tsan -LE long -R '$(call any_of,$(threaded_modules))' -j $(JOBS)
+
+# core mesh -> ^(core|mesh)[.]        a regular expression for the names of their tests
+empty :=
+any_of = ^($(subst $(empty) $(empty),|,$(strip $(1))))[.]
 
 test-long: build
 	ctest --preset release -L long

@@ -16,10 +16,16 @@ add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-s
 add_compile_options(-fvisibility=hidden)
 add_compile_definitions(EIGEN_MPL2_ONLY EIGEN_DONT_PARALLELIZE)
 
-option(TOILE_SANITIZE "AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
-if(TOILE_SANITIZE)
+set(TOILE_SANITIZE "" CACHE STRING "`address` (with undefined behaviour) or `thread`; empty: none")
+if(TOILE_SANITIZE STREQUAL "address")
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+elseif(TOILE_SANITIZE STREQUAL "thread")
+  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
+  add_compile_definitions(TOILE_THREAD_SANITIZER)
+  add_link_options(-fsanitize=thread)
+elseif(TOILE_SANITIZE)
+  message(FATAL_ERROR "TOILE_SANITIZE is `${TOILE_SANITIZE}`; expected `address`, `thread` or nothing")
 endif()
 
 find_program(CCACHE_PROGRAM ccache)

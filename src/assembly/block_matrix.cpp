@@ -29,6 +29,11 @@ BlockMatrix<T>::BlockMatrix(std::shared_ptr<const BlockPattern> pattern)
       grounded_columns_(grounded_.size() * 3, to_lane<T>(Vec3::Zero())),
       unbalanced_(static_cast<std::size_t>(pattern_->piece_sizes().size())) {}
 
+template <>
+BlockRows BlockMatrix<float>::block_rows() const {
+  return {pattern_.get(), below_.data(), grounded_.data()};
+}
+
 template <class T>
 void BlockMatrix<T>::update_diagonal() {
   version_ = next_version();

@@ -17,7 +17,6 @@
 #include "assembly/lane.hpp"
 
 #include <Eigen/Core>
-#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -75,9 +74,7 @@ class BlockMatrix {
   Eigen::MatrixXd to_dense() const;  // for tests and small inspections only
 
  private:
-  BlockRows block_rows() const requires std::same_as<T, float> {
-    return {pattern_.get(), below_.data(), grounded_.data()};
-  }
+  BlockRows block_rows() const;  // of single precision alone
 
   std::shared_ptr<const BlockPattern> pattern_;
   std::vector<Block<T>> below_;
@@ -87,6 +84,8 @@ class BlockMatrix {
   mutable std::vector<Vec3> unbalanced_;   // [piece]
 };
 
+template <>
+BlockRows BlockMatrix<float>::block_rows() const;
 extern template class BlockMatrix<float>;
 extern template class BlockMatrix<double>;
 

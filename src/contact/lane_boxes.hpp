@@ -36,9 +36,10 @@ struct OuterBox {
                              static_cast<int>(a.low[2] <= b.high[2]) & static_cast<int>(b.low[2] <= a.high[2]));
   }
   bool within(const OuterBox& other) const {
-    bool inside = true;
-    for (std::size_t k = 0; k < 3; ++k) inside &= (other.low[k] <= low[k]) & (high[k] <= other.high[k]);
-    return inside;
+    int inside = 1;
+    for (std::size_t k = 0; k < 3; ++k)
+      inside &= static_cast<int>(other.low[k] <= low[k]) & static_cast<int>(high[k] <= other.high[k]);
+    return inside != 0;
   }
   void grow(float by) {
     for (std::size_t k = 0; k < 3; ++k) {

@@ -1,7 +1,5 @@
 #include "core/team.hpp"
 
-#include <tbb/task_group.h>
-
 #include <algorithm>
 #include <thread>
 
@@ -19,10 +17,6 @@ void pause() {
 
 }  // namespace
 
-struct Team::Tasks {
-  tbb::task_group group;
-};
-
 Team::Team(int members) : members_(std::max(members, 1)) {
   if (members_ > 1) tasks_ = std::make_unique<Tasks>();
 }
@@ -35,14 +29,15 @@ void Team::run(const std::function<void(int, int)>& work) {
   }
   work_ = &work;
   came_.store(0, std::memory_order_release);
-  for (int other = 1; other < members_; ++other) tasks_->group.run([this] { join(); });
+  for (int other = 1; other < members_; ++other)
+    tasks_->run([](void* team) { static_cast<Team*>(team)->join(); }, this);
   for (int k = 0; k < spins && came_.load(std::memory_order_relaxed) + 1 < static_cast<unsigned>(members_); ++k)
     pause();
   present_ = static_cast<int>(came_.fetch_or(closed, std::memory_order_acq_rel)) + 1;
   begun_.fetch_add(1, std::memory_order_release);
   work(0, present_);
-  barrier();             // all have returned
-  tasks_->group.wait();  // of those who came late there is nothing left
+  barrier();       // all have returned
+  tasks_->wait();  // of those who came late there is nothing left
 }
 
 void Team::join() {

@@ -6,6 +6,8 @@
 // Members wait by spinning, and give their core away when the wait grows long: on a machine with other work a spinning member would
 // keep the one it waits for from running.
 #pragma once
+#include "core/tasks.hpp"
+
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -34,7 +36,6 @@ class Team {
   void barrier();
 
  private:
-  struct Tasks;
   void join();
   void wait_until(const std::atomic<unsigned>& value, unsigned differs_from);
 

@@ -65,6 +65,8 @@ class Sewing {
   // `body` may be null (panels sewn in the air).  The garment must outlive this object.
   Sewing(const GarmentMesh& garment, std::span<const Fabric> fabric_of_panel, BodySurface* body,
          const StepOptions& step, const SewingOptions& options);
+  Sewing(const Sewing&) = delete;  // the stepper points at model and world, and the world's springs at this object
+  Sewing& operator=(const Sewing&) = delete;
 
   // Advances by one frame of 1/fps; does nothing once it has ended.
   FrameReport frame();

@@ -119,6 +119,8 @@ class JsonBuilder {
         read_(begin_),
         previous_(begin_),
         counter_(begin_) {}
+  JsonBuilder(const JsonBuilder&) = delete;  // iterators point at it
+  JsonBuilder& operator=(const JsonBuilder&) = delete;
 
   Json build() {
     nlohmann::json::sax_parse(ReadingIterator(begin_, &read_), ReadingIterator(end_, &read_), this);

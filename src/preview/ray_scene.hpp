@@ -32,6 +32,8 @@ class RayScene {
  public:
   RayScene();
   ~RayScene();
+  RayScene(const RayScene&) = delete;  // the ray tracer reads the meshes where they are
+  RayScene& operator=(const RayScene&) = delete;
 
   // Throws InputError when sizes or indices do not fit together.  Reads the scene's spans until the next build.
   void build(const PreviewScene& scene, const Vec3& origin);

@@ -86,6 +86,8 @@ class Untangler {
     };
     begin();
   }
+  Untangler(const Untangler&) = delete;  // its members point at each other, and the world's springs at this object
+  Untangler& operator=(const Untangler&) = delete;
 
   Look look(const Vec3s& x) {
     Look look;

@@ -19,7 +19,9 @@ namespace toile {
 template <class T>
 class LinearSystem {
  public:
+  // The matrix must outlive this object.
   explicit LinearSystem(const BlockMatrix<T>& A) : A_(&A) {}
+  explicit LinearSystem(BlockMatrix<T>&&) = delete;
 
   // Call when A, the rows or the constraints have changed.  The spans must outlive the solve.
   void update(std::span<const ImplicitRow> rows, const ParticleConstraints& constraints);

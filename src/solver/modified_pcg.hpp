@@ -51,6 +51,8 @@ template <class T>
 class ModifiedPcg {
  public:
   explicit ModifiedPcg(const ClothMesh& mesh) : coarse_(mesh) {}
+  ModifiedPcg(const ModifiedPcg&) = delete;  // team_ is one of its own
+  ModifiedPcg& operator=(const ModifiedPcg&) = delete;
 
   // Call when the system's A, rows or constraints have changed.
   void prepare(const LinearSystem<T>& system, const PcgOptions& options);

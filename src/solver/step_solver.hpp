@@ -19,6 +19,8 @@ namespace toile {
 class StepSolver {
  public:
   StepSolver(std::shared_ptr<const BlockPattern> pattern, const ClothMesh& mesh);
+  StepSolver(const StepSolver&) = delete;  // the systems point at their matrices
+  StepSolver& operator=(const StepSolver&) = delete;
 
   // fill(A) writes grounded parts and blocks of a BlockMatrix, and calls its update_diagonal.
   template <class Fill>
@@ -44,6 +46,8 @@ class StepSolver {
   struct Precision {
     Precision(std::shared_ptr<const BlockPattern> pattern, const ClothMesh& mesh)
         : A(std::move(pattern)), system(A), pcg(mesh) {}
+    Precision(const Precision&) = delete;
+    Precision& operator=(const Precision&) = delete;
     BlockMatrix<T> A;
     LinearSystem<T> system;
     ModifiedPcg<T> pcg;

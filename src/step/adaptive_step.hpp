@@ -50,6 +50,8 @@ class AdaptiveStep {
  public:
   AdaptiveStep(const ClothModel& model, const StepWorld& world, const StepOptions& step, const AdaptiveOptions& options)
       : integrator_(model, world, step), options_(options) {}
+  AdaptiveStep(const AdaptiveStep&) = delete;  // as the integrator
+  AdaptiveStep& operator=(const AdaptiveStep&) = delete;
 
   // Advances from t_s by exactly frame_s.  When the step collapses, `state` stays where it last was accepted.
   FrameReport advance(ClothState& state, double t_s, double frame_s);

@@ -81,7 +81,10 @@ struct StepWorld {
 
 class ImplicitEuler {
  public:
+  // Model and world must outlive this object.
   ImplicitEuler(const ClothModel& model, const StepWorld& world, const StepOptions& options);
+  ImplicitEuler(const ImplicitEuler&) = delete;  // its members point at each other
+  ImplicitEuler& operator=(const ImplicitEuler&) = delete;
 
   // Evaluates elements and near pairs at the state (at time t_s).  `h_s` is the longest step that will be tried from it,
   // `base_h_s` >= h_s the one before any halving.

@@ -64,7 +64,7 @@ std::vector<Crossing> edges_through(const Surface& of_edges, const Surface& of_t
   parallel_blocks(edges.size(), grain, [&](std::size_t begin, std::size_t end) {
     std::vector<Index> triangles;
     for (std::size_t e = begin; e < end; ++e) {
-      const auto [i, j] = edges[e];
+      const Index i = edges[e][0], j = edges[e][1];
       const Vec3 &p = of_edges.at(i), &q = of_edges.at(j);
       ExactBox box;
       box.add(p);

@@ -107,9 +107,13 @@ TEST(BodyContacts, MatchTheRulesOnAThousandRandomFrames) {
     const double rough = random.in(0, 0.4);
     Mesh body = contact_test::ball(7, 5, [&](const Vec3&) { return 0.03 * random.in(1 - rough, 1); });
     Mesh cloth;
-    contact_test::add_sheet(cloth, 4, 4, random.in(0.006, 0.015), Vec3(-0.025, random.in(-0.005, 0.035), -0.025));
+    const double bottom = random.in(-0.005, 0.035);
+    contact_test::add_sheet(cloth, 4, 4, random.in(0.006, 0.015), Vec3(-0.025, bottom, -0.025));
     const double height = random.in(0, 0.006);
-    for (Vec3& p : cloth.x) p += Vec3(random.in(-1e-3, 1e-3), random.in(-height, height), random.in(-1e-3, 1e-3));
+    for (Vec3& p : cloth.x) {
+      const double z = random.in(-1e-3, 1e-3), y = random.in(-height, height), x = random.in(-1e-3, 1e-3);
+      p += Vec3(x, y, z);
+    }
     const Scene scene(std::move(cloth), body);
     const ProximityOptions options{random.in(2e-3, 8e-3), random.in(2e-3, 12e-3)};
     const auto expected = reference(scene, options);

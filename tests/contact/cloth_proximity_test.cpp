@@ -199,13 +199,16 @@ Mesh small_layers(Random& random) {
   }
   const Index layers = 1 + random.below(3);
   for (Index layer = 0; layer < layers; ++layer) {
-    contact_test::add_sheet(mesh, 2 + random.below(4), 2 + random.below(4), 0.01,
-                            Vec3(random.in(-0.01, 0.01), 0.003 * layer, random.in(-0.01, 0.01)));
+    const double z = random.in(-0.01, 0.01), x = random.in(-0.01, 0.01);
+    const Index rows = 2 + random.below(4), columns = 2 + random.below(4);
+    contact_test::add_sheet(mesh, columns, rows, 0.01, Vec3(x, 0.003 * layer, z));
   }
   // From nearly flat, with flat edges, to crumpled.
   const double height = random.unit() < 0.3 ? 2e-4 : random.in(0, 0.012), sideways = random.in(0, 0.003);
-  for (Vec3& p : mesh.x)
-    p += Vec3(random.in(-sideways, sideways), random.in(-height, height), random.in(-sideways, sideways));
+  for (Vec3& p : mesh.x) {
+    const double z = random.in(-sideways, sideways), y = random.in(-height, height), x = random.in(-sideways, sideways);
+    p += Vec3(x, y, z);
+  }
   return mesh;
 }
 
@@ -252,7 +255,10 @@ TEST(ClothContacts, MatchTheRulesWithSeamsOpenAndClosed) {
     contact_test::add_sheet(mesh, 3, 3, 0.01, Vec3(0.03 + gap, 0, 0));
     contact_test::add_sheet(mesh, 4, 3, 0.01, Vec3(0.01, 0.003, 0.002));
     const double height = random.in(0, 0.004);
-    for (Vec3& p : mesh.x) p += Vec3(random.in(-5e-4, 5e-4), random.in(-height, height), random.in(-5e-4, 5e-4));
+    for (Vec3& p : mesh.x) {
+      const double z = random.in(-5e-4, 5e-4), y = random.in(-height, height), x = random.in(-5e-4, 5e-4);
+      p += Vec3(x, y, z);
+    }
     std::vector<Index> merged(mesh.x.size());
     for (std::size_t i = 0; i < merged.size(); ++i) merged[i] = static_cast<Index>(i);
     for (Index row = 0; row < 4; ++row) merged[static_cast<std::size_t>(16 + 4 * row)] = 3 + 4 * row;

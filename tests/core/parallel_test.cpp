@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <cstdlib>
 #include <mutex>
 #include <set>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -84,6 +87,23 @@ TEST(ParallelFor, HandsAnExceptionToTheCaller) {
                  std::runtime_error);
   }
 }
+
+#ifdef TOILE_THREAD_SANITIZER
+// Or what core/pool_order.hpp says of the pool would hide what it is there to show.
+TEST(ThreadSanitizerDeathTest, SeesTwoBlocksThatWriteToOnePlace) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_DEATH(with_threads(2,
+                            [] {
+                              long shared = 0;
+                              parallel_blocks(1000, 1, [&](std::size_t begin, std::size_t) {
+                                shared += static_cast<long>(begin);
+                                std::this_thread::sleep_for(std::chrono::microseconds(10));
+                              });
+                              std::exit(shared == 0 ? 1 : 0);  // 66 where it has seen one
+                            }),
+               "data race");
+}
+#endif
 
 TEST(WithThreads, LimitsTheLoopsInside) {
   for (const int threads : thread_counts) {

@@ -68,7 +68,10 @@ Outline star_shaped(Random& random, int count, double low, double high) {
 // A simple polygon through random points: crossing edges are exchanged until none is left (the length falls each time).
 Outline random_simple(Random& random, int count) {
   Outline o;
-  for (int i = 0; i < count; ++i) o.emplace_back(random(0, 0.4), random(0, 0.4));
+  for (int i = 0; i < count; ++i) {
+    const double y = random(0, 0.4), x = random(0, 0.4);
+    o.emplace_back(x, y);
+  }
   const auto side = [](const Vec2& a, const Vec2& b, const Vec2& c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()) > 0;
   };

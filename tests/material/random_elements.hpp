@@ -30,7 +30,10 @@ class Random {
     const double z = uniform(-1, 1), angle = uniform(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
     return {r * std::cos(angle), r * std::sin(angle), z};
   }
-  Mat3 rotation() { return Eigen::AngleAxisd(uniform(-3, 3), direction()).toRotationMatrix(); }
+  Mat3 rotation() {
+    const Vec3 axis = direction();
+    return Eigen::AngleAxisd(uniform(-3, 3), axis).toRotationMatrix();
+  }
   template <std::size_t N>
   std::array<Vec3, N> vectors(double size) {
     std::array<Vec3, N> out;
@@ -69,7 +72,10 @@ inline RestTriangle random_rest_triangle(Random& random) {
   for (;;) {
     const double size = random.uniform(0.005, 0.05);
     std::array<Vec2, 3> uv;
-    for (Vec2& p : uv) p = Vec2(random.uniform(-size, size), random.uniform(-size, size));
+    for (Vec2& p : uv) {
+      const double v = random.uniform(-size, size), u = random.uniform(-size, size);
+      p = Vec2(u, v);
+    }
     const Vec2 d1 = uv[1] - uv[0], d2 = uv[2] - uv[0];
     const double d = d1.x() * d2.y() - d2.x() * d1.y();
     const double longest = std::max({d1.norm(), d2.norm(), (uv[2] - uv[1]).norm()});

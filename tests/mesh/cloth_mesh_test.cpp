@@ -29,14 +29,20 @@ TEST(MaterialFrame, FindsTheColumnsOfAnyLinearMap) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 1000; ++trial) {
     // x = c + w_u u + w_v v on some triangle of 1 cm to 1 m.
-    const auto point = [&] { return Vec2(uniform(random, -1, 1), uniform(random, -1, 1)); };
+    const auto point = [&] {
+      const double y = uniform(random, -1, 1), x = uniform(random, -1, 1);
+      return Vec2(x, y);
+    };
     std::array<Vec2, 3> uv = {point(), point(), point()};
     Mat2 sides;
     sides << uv[1] - uv[0], uv[2] - uv[0];
     if (sides.determinant() < 0) std::swap(uv[1], uv[2]);
     if (std::abs(sides.determinant()) < 0.01) continue;
 
-    const auto vector = [&] { return Vec3(uniform(random, -2, 2), uniform(random, -2, 2), uniform(random, -2, 2)); };
+    const auto vector = [&] {
+      const double z = uniform(random, -2, 2), y = uniform(random, -2, 2), x = uniform(random, -2, 2);
+      return Vec3(x, y, z);
+    };
     const Vec3 c = vector(), w_u = vector(), w_v = vector();
     std::array<Vec3, 3> x;
     for (std::size_t i = 0; i < 3; ++i) x[i] = c + w_u * uv[i].x() + w_v * uv[i].y();

@@ -12,17 +12,20 @@ constexpr double gravity = 9.81;
 const double offset = BodyContactOptions{}.offset_m;
 
 // A sheet that lies on a slab tilted by `angle_deg` (downhill is -x), at the offset.
-ClothRun on_incline(double angle_deg, double friction, BodySurface& slab) {
-  Sheet sheet = test::equilateral_sheet(0.2, 0.2, 0.02);
-  const Eigen::AngleAxisd turn(angle_deg * 3.14159265358979323846 / 180, Vec3::UnitZ());
-  for (Vec3& p : sheet.x) p = turn * Vec3(p.x() - 0.1, offset, p.z() + 0.1);
-  ClothRun run(sheet, Fabric{});
-  run.world.body = &slab;
-  run.step.body.friction = friction;
-  run.step.body.offset_m = offset;
-  run.adaptive.step_max_s = 1.0 / 60;
-  return run;
-}
+struct OnIncline : ClothRun {
+  OnIncline(double angle_deg, double friction, BodySurface& slab) : ClothRun(tilted(angle_deg), Fabric{}) {
+    world.body = &slab;
+    step.body.friction = friction;
+    step.body.offset_m = offset;
+    adaptive.step_max_s = 1.0 / 60;
+  }
+  static Sheet tilted(double angle_deg) {
+    Sheet sheet = test::equilateral_sheet(0.2, 0.2, 0.02);
+    const Eigen::AngleAxisd turn(angle_deg * 3.14159265358979323846 / 180, Vec3::UnitZ());
+    for (Vec3& p : sheet.x) p = turn * Vec3(p.x() - 0.1, offset, p.z() + 0.1);
+    return sheet;
+  }
+};
 
 Vec3 mean(const Vec3s& x) {
   Vec3 sum = Vec3::Zero();
@@ -32,7 +35,7 @@ Vec3 mean(const Vec3s& x) {
 
 TEST(Incline, AtMuThreeTenthsItSticksAtSixteenDegreesWithoutCreep) {
   BodySurface slab = test::tilted_slab(2, 0.2, 16);
-  ClothRun run = on_incline(16, 0.3, slab);
+  OnIncline run(16, 0.3, slab);
   run.run(15);
   const Vec3 settled = mean(run.state.x);
   run.run(285);
@@ -42,7 +45,7 @@ TEST(Incline, AtMuThreeTenthsItSticksAtSixteenDegreesWithoutCreep) {
 
 TEST(Incline, AtMuThreeTenthsItSlidesAtSeventeenAndAHalfDegreesAsCoulombSays) {
   BodySurface slab = test::tilted_slab(3, 0.2, 17.5);
-  ClothRun run = on_incline(17.5, 0.3, slab);
+  OnIncline run(17.5, 0.3, slab);
   run.run(30);
   const Vec3 before = mean(run.state.v);
   run.run(60);
@@ -53,7 +56,7 @@ TEST(Incline, AtMuThreeTenthsItSlidesAtSeventeenAndAHalfDegreesAsCoulombSays) {
 
 TEST(Incline, WithoutFrictionItSlidesFreely) {
   BodySurface slab = test::tilted_slab(3, 0.2, 20);
-  ClothRun run = on_incline(20, 0, slab);
+  OnIncline run(20, 0, slab);
   run.run(15);
   EXPECT_NEAR(mean(run.state.v).norm() / (gravity * std::sin(20 * 3.14159265358979323846 / 180) * run.time_s), 1, 0.01);
 }
@@ -196,7 +199,7 @@ void tilt(ClothRun& run, double degrees) {
 
 TEST(Incline, ASheetThatStuckSlidesWhenTheSlopeGrows) {
   BodySurface slab = test::tilted_slab(3, 0.2, 0);
-  ClothRun run = on_incline(0, 0.3, slab);
+  OnIncline run(0, 0.3, slab);
   tilt(run, 10);
   run.run(30);
   EXPECT_LT(run.fastest(), 1e-4);
@@ -208,7 +211,7 @@ TEST(Incline, ASheetThatStuckSlidesWhenTheSlopeGrows) {
 
 TEST(Incline, WhatBrokeLooseSlidesOnForATenthOfASecondBeforeItSticksAgain) {
   BodySurface slab = test::tilted_slab(3, 0.2, 0);
-  ClothRun run = on_incline(0, 0.3, slab);
+  OnIncline run(0, 0.3, slab);
   const auto sticking = [&] {
     const auto& body = run.stepper->integrator().body_constraints();
     std::ptrdiff_t count = 0;
@@ -249,7 +252,7 @@ void run_on_moving_slab(ClothRun& run, BodySurface& slab, const Vec3& speed, int
 
 TEST(BodyContact, AConveyorTakesTheSheetAlongByFriction) {
   BodySurface slab = test::tilted_slab(3, 0.2, 0);
-  ClothRun run = on_incline(0, 0.3, slab);
+  OnIncline run(0, 0.3, slab);
   run_on_moving_slab(run, slab, Vec3(0.5, 0, 0), 6);
   EXPECT_NEAR(mean(run.state.v).x() / (0.3 * gravity * 0.1), 1, 0.1);  // it slips, and friction pulls it on
   run_on_moving_slab(run, slab, Vec3(0.5, 0, 0), 20);
@@ -259,7 +262,7 @@ TEST(BodyContact, AConveyorTakesTheSheetAlongByFriction) {
 TEST(BodyContact, ALiftCarriesTheSheetUp) {
   for (const double friction : {0.0, 0.3}) {
     BodySurface slab = test::tilted_slab(3, 0.2, 0);
-    ClothRun run = on_incline(0, friction, slab);
+    OnIncline run(0, friction, slab);
     run.run(10);
     run_on_moving_slab(run, slab, Vec3(0, 0.3, 0), 10);
     for (std::size_t i = 0; i < run.state.x.size(); ++i) {
@@ -280,7 +283,7 @@ void carry(ClothRun& run, const BodySurface& slab) {
 TEST(BodyContact, ABodyGivenInTimeCarriesTheSheetAtEveryStepLength) {
   for (const double step_max_s : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
     BodySurface slab = test::tilted_slab(3, 0.2, 0);
-    ClothRun run = on_incline(0, 0.3, slab);
+    OnIncline run(0, 0.3, slab);
     run.adaptive.step_max_s = step_max_s;
     carry(run, slab);
     for (int k = 0; k < 15; ++k) run.frame(1.0 / 30);
@@ -290,7 +293,7 @@ TEST(BodyContact, ABodyGivenInTimeCarriesTheSheetAtEveryStepLength) {
 
 TEST(BodyContact, AHalvedStepTakesTheBodyHalfAsFar) {
   BodySurface slab = test::tilted_slab(3, 0.2, 0);
-  ClothRun run = on_incline(0, 0.3, slab);
+  OnIncline run(0, 0.3, slab);
   carry(run, slab);
   for (int k = 0; k < 15; ++k) run.frame(1.0 / 30);
   ImplicitEuler& euler = run.stepper->integrator();

@@ -31,18 +31,21 @@ struct Jaws {
   }
 };
 
-ClothRun between(Jaws& jaws, const std::function<double(double)>& lower, const std::function<double(double)>& upper) {
-  test::Sheet sheet = test::equilateral_sheet(0.2, 0.2, 0.02);
-  for (Vec3& p : sheet.x) p += Vec3(-0.1, lower(0) + offset, 0.1);
-  ModelOptions options;
-  options.gravity_m_per_s2.setZero();
-  ClothRun run(sheet, Fabric{}, options);
-  run.world.body = &jaws.body;
-  run.step.flypaper = true;
-  run.world.body_at = [&jaws, lower, upper](double t_s, std::span<Vec3> x) { jaws.place(lower(t_s), upper(t_s), x); };
-  run.adaptive.step_max_s = 1.0 / 60;
-  return run;
-}
+struct Between : ClothRun {
+  using Height = std::function<double(double t_s)>;
+  Between(Jaws& jaws, const Height& lower, const Height& upper)
+      : ClothRun(sheet_on(lower(0)), Fabric{}, test::weightless()) {
+    world.body = &jaws.body;
+    step.flypaper = true;
+    world.body_at = [&jaws, lower, upper](double t_s, std::span<Vec3> x) { jaws.place(lower(t_s), upper(t_s), x); };
+    adaptive.step_max_s = 1.0 / 60;
+  }
+  static test::Sheet sheet_on(double height) {
+    test::Sheet sheet = test::equilateral_sheet(0.2, 0.2, 0.02);
+    for (Vec3& p : sheet.x) p += Vec3(-0.1, height + offset, 0.1);
+    return sheet;
+  }
+};
 
 std::size_t pinched(const ClothRun& run) { return run.stepper->integrator().flypaper().count(); }
 
@@ -50,7 +53,7 @@ TEST(Flypaper, GoesWithTheMeanOfBothSurfacesWhileTheyAreWithinEachOther) {
   // The upper one closes by 5 cm at 0.1 m/s, 2 cm into the lower one, and opens again.
   Jaws jaws(0.1);
   const auto upper = [](double t_s) { return 0.03 - 0.1 * std::min(t_s, std::max(0.0, 1.0 - t_s)); };
-  ClothRun run = between(
+  Between run(
       jaws, [](double) { return 0.0; }, upper);
   const std::size_t all = run.state.x.size();
   double fastest = 0;
@@ -79,7 +82,7 @@ TEST(Flypaper, WithRoomItKeepsItsPlaceBetweenTheTwo) {
     const double frame = 60 * t_s, share = std::clamp(std::min(frame, frames - frame) / way, 0.0, 1.0);
     return (3.3 - 2.3 * share) * offset;
   };
-  ClothRun run = between(
+  Between run(
       jaws, [](double) { return 0.0; }, upper);
   bool all = false;
   for (int frame = 1; frame <= frames; ++frame) {
@@ -166,7 +169,7 @@ TEST(Flypaper, ACreaseThatHasOpenedLetsGo) {
 TEST(Flypaper, ThinThingsAreNotTwoSurfaces) {  // 2 mm, less than two offsets: a plate that lifts the sheet
   Jaws jaws(0.002);
   const auto lower = [](double t_s) { return 0.05 * t_s; };
-  ClothRun run = between(jaws, lower, [](double) { return 1.0; });
+  Between run(jaws, lower, [](double) { return 1.0; });
   for (int frame = 0; frame < 15; ++frame) {
     run.frame();
     EXPECT_EQ(pinched(run), 0u) << frame;
@@ -176,11 +179,11 @@ TEST(Flypaper, ThinThingsAreNotTwoSurfaces) {  // 2 mm, less than two offsets: a
 
 TEST(Flypaper, ANarrowPlaceThatDoesNotCloseIsNoPinch) {
   Jaws jaws(0.1);
-  ClothRun still = between(
+  Between still(
       jaws, [](double) { return 0.0; }, [](double) { return 1.5 * offset; });
   still.run(5);
   EXPECT_EQ(pinched(still), 0u);
-  ClothRun moving = between(
+  Between moving(
       jaws, [](double t_s) { return 0.3 * t_s; }, [](double t_s) { return 1.5 * offset + 0.3 * t_s; });
   moving.run(5);
   EXPECT_EQ(pinched(moving), 0u);
@@ -226,7 +229,8 @@ TEST(NearestOpposite, IsTheNearestOfTheFacesThatLookBackFromAbove) {
   EXPECT_LT(jaws.body.nearest_opposite({0.34, 0.01, 0}, Vec3(0, 1, 0), 0.1).triangle, 0) << "63 degrees aside";
   test::Random random(8);
   for (int n = 0; n < 100; ++n) {
-    const Vec3 p(random(-0.2, 0.2), random(0.0, 0.03), random(-0.2, 0.2));
+    const double z = random(-0.2, 0.2), y = random(0.0, 0.03), x = random(-0.2, 0.2);
+    const Vec3 p(x, y, z);
     const BodyPoint above = jaws.body.nearest_opposite(p, Vec3(0, 1, 0), 0.05);
     ASSERT_GE(above.triangle, 0) << n;
     EXPECT_NEAR(above.gap_m, 0.03 - p.y(), 1e-12) << "the upper one's bottom, from below";

@@ -21,16 +21,17 @@ BodySurface two_spheres(const Vec3& one, const Vec3& two, double radius_m) {
 }
 
 // A weightless sheet of 20 cm, its middle at the height y.
-ClothRun sheet_at(BodySurface& body, double y) {
-  test::Sheet sheet = test::equilateral_sheet(0.2, 0.2, 0.02);
-  for (Vec3& p : sheet.x) p += Vec3(-0.1, y, 0.1);
-  ModelOptions options;
-  options.gravity_m_per_s2.setZero();
-  ClothRun run(sheet, Fabric{}, options);
-  run.world.body = &body;
-  run.adaptive.step_max_s = 1.0 / 60;
-  return run;
-}
+struct SheetAt : ClothRun {
+  SheetAt(BodySurface& body, double y) : ClothRun(sheet_at(y), Fabric{}, test::weightless()) {
+    world.body = &body;
+    adaptive.step_max_s = 1.0 / 60;
+  }
+  static test::Sheet sheet_at(double y) {
+    test::Sheet sheet = test::equilateral_sheet(0.2, 0.2, 0.02);
+    for (Vec3& p : sheet.x) p += Vec3(-0.1, y, 0.1);
+    return sheet;
+  }
+};
 
 double least_gap(const ClothRun& run, const BodySurface& body) {
   double least = 1e9;
@@ -49,7 +50,7 @@ bool is_through(const ClothRun& run, const BodySurface& body) {
 
 TEST(Swallowed, ASheetFiveCentimetresWithinABallIsOutOfItInASecond) {
   BodySurface body = test::sphere(Vec3(0, 0, 0), 0.3, 4);
-  ClothRun run = sheet_at(body, 0.25);
+  SheetAt run(body, 0.25);
   ASSERT_LT(least_gap(run, body), -0.04);
   double fastest = 0;
   for (int frame = 0; frame < 30; ++frame) {
@@ -65,7 +66,7 @@ TEST(Swallowed, ASheetFiveCentimetresWithinABallIsOutOfItInASecond) {
 TEST(Swallowed, ItGoesWithTheBodyWhileItComesOut) {
   BodySurface body = test::sphere(Vec3(0, 0, 0), 0.3, 4);
   const Vec3s start(body.positions().begin(), body.positions().end());
-  ClothRun run = sheet_at(body, 0.25);
+  SheetAt run(body, 0.25);
   run.world.body_at = [start](double t_s, std::span<Vec3> x) {
     for (std::size_t i = 0; i < start.size(); ++i) x[i] = start[i] + Vec3(0, 1.5 * t_s, 0);
   };
@@ -77,7 +78,7 @@ TEST(Swallowed, WhereTwoPartsAreWithinEachOtherThereIsNoWayOutUntilTheyPart) {
   // The balls overlap by 20 cm, the sheet is in the middle of it.
   BodySurface body = two_spheres(Vec3(0, -0.2, 0), Vec3(0, 0.2, 0), 0.3);
   const Vec3s start(body.positions().begin(), body.positions().end());
-  ClothRun run = sheet_at(body, 0);
+  SheetAt run(body, 0);
   const Vec3s before = run.state.x;
   for (int frame = 0; frame < 15; ++frame) run.frame();
   double farthest = 0;

@@ -10,12 +10,20 @@
 
 namespace toile::test {
 
+inline ModelOptions weightless() {
+  ModelOptions options;
+  options.gravity_m_per_s2.setZero();
+  return options;
+}
+
 struct ClothRun {
   ClothRun(const Sheet& sheet, const Fabric& fabric, const ModelOptions& options = {})
       : model(build_model(sheet.mesh, {&fabric, 1}, options)) {
     state.x = sheet.x;
     state.v.assign(sheet.x.size(), Vec3::Zero());
   }
+  ClothRun(const ClothRun&) = delete;  // the stepper points at model and world
+  ClothRun& operator=(const ClothRun&) = delete;
   void pin(Index particle) {
     Pin pin;
     pin.particle = particle;

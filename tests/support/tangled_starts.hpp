@@ -80,6 +80,7 @@ inline void add_crumpled_sheet(TangledStart& start, Random& random, double edge_
       edge_m);
 }
 
+// Numbers are drawn one at a time: the order of arguments is the compiler's choice.
 inline TangledStart tangled_start(int kind, int seed) {
   Random random(static_cast<std::uint64_t>(1000 * kind + seed) + 1);
   TangledStart start;
@@ -87,8 +88,10 @@ inline TangledStart tangled_start(int kind, int seed) {
   switch (kind) {
     case 0: {
       start.name = "two sheets that cross";
-      const Mat3 R = turn(random(25, 90), Vec3::UnitX()) * turn(random(-20, 20), Vec3::UnitY());
-      const Vec3 shift(random(-0.02, 0.02), random(-0.02, 0.02), random(-0.05, 0.05));
+      const double about_y = random(-20, 20), about_x = random(25, 90);
+      const Mat3 R = turn(about_x, Vec3::UnitX()) * turn(about_y, Vec3::UnitY());
+      const double z = random(-0.05, 0.05), y = random(-0.02, 0.02), x = random(-0.02, 0.02);
+      const Vec3 shift(x, y, z);
       const Vec3 within(0, 0, random(-0.12, 0.12));
       add_sheet(start, 0.4, 0.4, as_it_is);
       add_sheet(start, random(0.3, 0.5), 0.4, [&](const Vec3& p) { return Vec3(R * (p + within) + shift); });
@@ -96,19 +99,22 @@ inline TangledStart tangled_start(int kind, int seed) {
     }
     case 1: {
       start.name = "a corner through a sheet";
-      const Mat3 R = turn(random(50, 85), Vec3::UnitX()) * turn(random(35, 55), Vec3::UnitY());
-      const Vec3 shift(random(-0.04, 0.04), random(0.14, 0.18), random(-0.04, 0.04));
+      const double about_y = random(35, 55), about_x = random(50, 85);
+      const Mat3 R = turn(about_x, Vec3::UnitX()) * turn(about_y, Vec3::UnitY());
+      const double z = random(-0.04, 0.04), y = random(0.14, 0.18), x = random(-0.04, 0.04);
+      const Vec3 shift(x, y, z);
       add_sheet(start, 0.5, 0.5, as_it_is);
       add_sheet(start, 0.3, 0.3, [&](const Vec3& p) { return Vec3(R * p + shift); });
       break;
     }
     case 2: {
       start.name = "a sheet through a sphere, a quarter below its centre";
-      const double r = random(0.08, 0.12);
-      const BodySurface ball = sphere(Vec3(random(-0.02, 0.02), 0.25 * r, random(-0.02, 0.02)), r, 4);
+      const double r = random(0.08, 0.12), z = random(-0.02, 0.02), x = random(-0.02, 0.02);
+      const BodySurface ball = sphere(Vec3(x, 0.25 * r, z), r, 4);
       start.body = {{ball.positions().begin(), ball.positions().end()},
                     {ball.triangles().begin(), ball.triangles().end()}};
-      const Mat3 R = turn(random(0, 8), random.vector(1));
+      const Vec3 axis = random.vector(1);
+      const Mat3 R = turn(random(0, 8), axis);
       add_sheet(start, 0.5, 0.5, [&](const Vec3& p) { return Vec3(R * p); });
       break;
     }
@@ -137,7 +143,8 @@ inline TangledStart tangled_start(int kind, int seed) {
     case 4: {
       start.name = "a layer dented through another";
       const double gap = random(0.004, 0.008), depth = random(0.02, 0.05), width = random(0.03, 0.07);
-      const Vec3 centre(random(-0.08, 0.08), 0, random(-0.08, 0.08));
+      const double z = random(-0.08, 0.08), x = random(-0.08, 0.08);
+      const Vec3 centre(x, 0, z);
       add_sheet(start, 0.4, 0.4, as_it_is);
       add_sheet(start, 0.4, 0.4, [&](const Vec3& p) {
         return Vec3(p + Vec3(0.003, gap - depth * std::exp(-(p - centre).squaredNorm() / (width * width)), 0.004));
@@ -164,15 +171,18 @@ inline TangledStart tangled_start(int kind, int seed) {
       start.name = "a sleeve that overlaps an arm";
       const double arm = random(0.04, 0.05), sleeve = arm + random(0.004, 0.012);
       start.body = rounded_cylinder(arm, 0.6, Vec3(0, 0.3, 0));
-      const Mat3 R = turn(random(0, 6), random.vector(1));
-      const Vec3 shift(random(0.012, 0.02), -0.15, random(-0.01, 0.01));
+      const Vec3 axis = random.vector(1);
+      const Mat3 R = turn(random(0, 6), axis);
+      const double z = random(-0.01, 0.01), x = random(0.012, 0.02);
+      const Vec3 shift(x, -0.15, z);
       add_tube(start, sleeve, 0.3, [&](const Vec3& p) { return Vec3(R * p + shift); });
       break;
     }
     case 7: {
       start.name = seed < 3 ? "a tube through a sheet" : "a tube through a tube";
       const double out = random(0.04, 0.1);
-      const Mat3 R = turn(random(0, 25), random.vector(1));
+      const Vec3 axis = random.vector(1);
+      const Mat3 R = turn(random(0, 25), axis);
       if (seed < 3) {
         add_sheet(start, 0.4, 0.4, as_it_is);
       } else {
@@ -184,7 +194,8 @@ inline TangledStart tangled_start(int kind, int seed) {
     case 8: {
       start.name = "two sheets slotted into each other";
       const double overlap = random(0.05, 0.15);
-      const Mat3 R = turn(random(60, 120), Vec3::UnitX()) * turn(random(-10, 10), Vec3::UnitZ());
+      const double about_z = random(-10, 10), about_x = random(60, 120);
+      const Mat3 R = turn(about_x, Vec3::UnitX()) * turn(about_z, Vec3::UnitZ());
       add_sheet(start, 0.3, 0.3, as_it_is);
       add_sheet(start, 0.3, 0.3, [&](const Vec3& p) { return Vec3(R * p + Vec3(0.3 - overlap, 0.005, 0.01)); });
       break;
@@ -195,7 +206,8 @@ inline TangledStart tangled_start(int kind, int seed) {
       if (seed < 3) {
         start.name = "a tube around the mannequin's hips, moved into them";
         const double radius = random(0.165, 0.18), low = random(0.72, 0.82);
-        const Vec3 shift(random(-0.03, 0.03), low, random(-0.03, 0.03));
+        const double z = random(-0.03, 0.03), x = random(-0.03, 0.03);
+        const Vec3 shift(x, low, z);
         add_tube(start, radius, 0.3, [&](const Vec3& p) { return Vec3(p + shift); });
       } else {
         start.name = "a sleeve around the mannequin's arm, moved into it";
@@ -203,7 +215,8 @@ inline TangledStart tangled_start(int kind, int seed) {
                                       [](const Joint& joint) { return joint.name == "elbow_left"; });
         const Vec3 along = (arm->end_m - arm->position_m).normalized();
         const Mat3 R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitY(), along).toRotationMatrix();
-        const Vec3 shift(random(-0.025, 0.025), random(-0.01, 0.01), random(-0.025, 0.025));
+        const double z = random(-0.025, 0.025), y = random(-0.01, 0.01), x = random(-0.025, 0.025);
+        const Vec3 shift(x, y, z);
         add_tube(start, random(0.045, 0.055), 0.18,
                  [&](const Vec3& p) { return Vec3(arm->position_m + R * p + shift); });
       }

@@ -1,0 +1,26 @@
+// core/tasks.hpp: tasks of the pool of core/parallel.hpp that run beside their caller; for core/team.hpp.
+#pragma once
+#include "core/pool_order.hpp"
+
+#include <memory>
+
+namespace toile {
+
+class Tasks {
+ public:
+  Tasks();
+  ~Tasks();  // after wait()
+  Tasks(const Tasks&) = delete;
+  Tasks& operator=(const Tasks&) = delete;
+
+  // work(of), some time until wait() returns.  It allocates nothing.
+  void run(void (*work)(void*), void* of);
+  void wait();
+
+ private:
+  struct Group;
+  std::unique_ptr<Group> group_;
+  PoolOrder order_;
+};
+
+}  // namespace toile
