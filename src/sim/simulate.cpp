@@ -229,7 +229,7 @@ class Run {
     if (!body_) return;
     const Timed timed(startup(&StartupReport::placement));
     say("placing", 0);
-    const Placement placement = place_garment(garment, *body_);
+    const Placement placement = place_garment(garment, *body_, person_vertices_);
     report_.shift_m = placement.shift_m;
     if (placement.panel_crossings > 0)
       bad_start(garment.name,
@@ -399,7 +399,7 @@ class Run {
     const int frames = frames_in(whole ? motion_->duration_s : scene_.seconds);
     Stopwatch watch;
     for (int k = 1; k <= frames; ++k) {
-      motion_->at(static_cast<double>(k) * frame_s(), body_x_);
+      motion_->at(static_cast<double>(k) * frame_s(), body_x_, body_x_);
       const double drape_seconds = report_.drape.seconds;
       const bool good = frame(run, report_.drape, "moving", k, &phase);
       phase.seconds += report_.drape.seconds - drape_seconds;
