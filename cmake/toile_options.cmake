@@ -15,6 +15,8 @@ add_compile_options(-ffp-contract=off -fno-fast-math)
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-qual -Werror)
 add_compile_options(-fvisibility=hidden)
 add_compile_definitions(EIGEN_MPL2_ONLY EIGEN_DONT_PARALLELIZE)
+# Eigen leaves vectors unfilled, resize() too.  With assertions they hold NaN until something is written, so that what reads them is seen.
+add_compile_definitions($<$<CONFIG:Debug>:EIGEN_INITIALIZE_MATRICES_BY_NAN>)
 
 set(TOILE_SANITIZE "" CACHE STRING "`address` (with undefined behaviour) or `thread`; empty: none")
 if(TOILE_SANITIZE STREQUAL "address")

@@ -21,6 +21,27 @@ constexpr double farthest_m = 1e6;
 constexpr double facing_cosine = 0.5;
 constexpr double cancelled_normal = 1e-6;  // a sum of unit normals shorter than this says nothing (a knife's edge)
 
+// Triangles that share an edge or a vertex are equally far from what is nearest to that, and both sides of a body from its middle: the
+// one with the smaller number is taken, in whichever order the tree comes to them.
+class Nearest {
+ public:
+  explicit Nearest(double reach_m) : best2_(reach_m * reach_m) {}
+
+  // Whether triangle t, at this squared distance, is the nearest up to now.
+  bool takes(Index t, double distance2) {
+    if (!(distance2 < best2_ || (distance2 == best2_ && t < triangle_))) return false;
+    best2_ = distance2;
+    triangle_ = t;
+    return true;
+  }
+  // A hair beyond, for boxes and heights: what is as near, but for the rounding of coordinates of some metres, is still looked at.
+  double bound2() const { return best2_ * (1 + 1e-8) + 1e-22; }
+
+ private:
+  double best2_;
+  Index triangle_ = -1;  // nothing at the reach itself is taken
+};
+
 Vec3 unit_or_zero(const Vec3& v) {
   const double length = v.norm();
   return length > 0 ? Vec3(v / length) : Vec3::Zero();
@@ -164,15 +185,16 @@ BodyPoint BodySurface::nearest(const Vec3& p, double reach_m) const {
   const auto x = [&](Index i) -> const Vec3& { return start_[static_cast<std::size_t>(i)]; };
   BodyPoint result;
   VertexTriangle closest;
-  tree_now_.nearest(p, reach_m * reach_m, [&](Index t, double bound2) {
+  Nearest nearest(reach_m);
+  tree_now_.nearest(p, nearest.bound2(), [&](Index t, double bound2) {
     const Triangle& c = triangle(t);
     const double height = face_normal(t).dot(p - x(c[0]));
     if (height * height >= bound2) return bound2;
     const VertexTriangle candidate = closest_vertex_triangle(p, x(c[0]), x(c[1]), x(c[2]));
-    if (!(candidate.distance2 < bound2)) return bound2;
+    if (!nearest.takes(t, candidate.distance2)) return bound2;
     closest = candidate;
     result.triangle = t;
-    return candidate.distance2;
+    return nearest.bound2();
   });
   if (result.triangle < 0) return result;
 
@@ -193,16 +215,17 @@ BodyPoint BodySurface::nearest(const Vec3& p, double reach_m) const {
 BodyPoint BodySurface::nearest_facing(const Vec3& p, const Vec3& direction, double reach_m) const {
   const auto x = [&](Index i) -> const Vec3& { return start_[static_cast<std::size_t>(i)]; };
   BodyPoint result;
-  tree_now_.nearest(p, reach_m * reach_m, [&](Index t, double bound2) {
+  Nearest nearest(reach_m);
+  tree_now_.nearest(p, nearest.bound2(), [&](Index t, double bound2) {
     const Vec3& n = face_normal(t);
     if (n.dot(direction) <= facing_cosine * direction.norm()) return bound2;
     const Triangle& c = triangle(t);
     const double height = n.dot(p - x(c[0]));
     if (height * height >= bound2) return bound2;
     const VertexTriangle candidate = closest_vertex_triangle(p, x(c[0]), x(c[1]), x(c[2]));
-    if (!(candidate.distance2 < bound2)) return bound2;
+    if (!nearest.takes(t, candidate.distance2)) return bound2;
     result = {t, candidate.barycentric, n, height};
-    return candidate.distance2;
+    return nearest.bound2();
   });
   return result;
 }
@@ -211,16 +234,16 @@ BodyPoint BodySurface::nearest_facing(const Vec3& p, const Vec3& direction, doub
 BodyPoint BodySurface::nearest_opposite(const Vec3& p, const Vec3& normal, double reach_m) const {
   const auto x = [&](Index i) -> const Vec3& { return start_[static_cast<std::size_t>(i)]; };
   BodyPoint result;
-  double best2 = reach_m * reach_m;
-  tree_now_.nearest(p + reach_m * normal, best2, [&](Index t, double bound2) {
+  Nearest nearest(reach_m);
+  tree_now_.nearest(p + reach_m * normal, nearest.bound2(), [&](Index t, double bound2) {
     const Vec3& n = face_normal(t);
     if (n.dot(normal) >= -facing_cosine) return bound2;
     const Triangle& c = triangle(t);
     const VertexTriangle candidate = closest_vertex_triangle(p, x(c[0]), x(c[1]), x(c[2]));
-    if (!(candidate.distance2 < best2)) return bound2;
+    if (candidate.distance2 > nearest.bound2()) return bound2;
     const Vec3 way = position(t, candidate.barycentric) - p;
     if (way.dot(normal) <= facing_cosine * way.norm()) return bound2;
-    best2 = candidate.distance2;
+    if (!nearest.takes(t, candidate.distance2)) return bound2;
     result = {t, candidate.barycentric, n, n.dot(p - x(c[0]))};
     return bound2;
   });

@@ -72,14 +72,14 @@ int edges_in_body(const GarmentMesh& garment, const BodyLines& body, const Vec3&
 
 }  // namespace
 
-Placement place_garment(GarmentMesh& garment, const BodySurface& body) {
+Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size_t person_vertices) {
   Placement placement;
-  double low = 1e300, high = -1e300;
-  for (const Vec3& p : body.positions()) {
-    low = std::min(low, p.y());
-    high = std::max(high, p.y());
-  }
-  if (garment.legacy_frame) {
+  if (garment.legacy_frame && person_vertices > 0) {
+    double low = 1e300, high = -1e300;
+    for (const Vec3& p : body.positions().first(person_vertices)) {
+      low = std::min(low, p.y());
+      high = std::max(high, p.y());
+    }
     const Vec3 raise(0, low + legacy_origin * (high - low), 0);
     for (Vec3& p : garment.x) p += raise;
     placement.shift_m += raise;

@@ -20,7 +20,11 @@ struct Placement {
 };
 
 // Finds the shift and applies it to garment.x.  Patterns in the frame of the 2021 tool (GarmentMesh::legacy_frame) are first raised by 0.68
-// of the body's height: their origin is near the pelvis.
-Placement place_garment(GarmentMesh& garment, const BodySurface& body);
+// of the body's height: their origin is near the pelvis.  Of the body's vertices the first `person_vertices` are the person's; what comes
+// behind them, solids, has no part in that height.
+Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size_t person_vertices);
+inline Placement place_garment(GarmentMesh& garment, const BodySurface& body) {
+  return place_garment(garment, body, body.positions().size());
+}
 
 }  // namespace toile

@@ -112,7 +112,9 @@ void OutfitRun::start_motion(BodyAt body_at) {
   motion_ = std::move(body_at);
   motion_start_s_ = time_s();
   choose_steps();
-  world_.body_at = [this](double t_s, std::span<Vec3> x) { motion_(std::max(0.0, t_s - motion_start_s_), x); };
+  world_.body_at = [this](double t_s, std::span<Vec3> x) {
+    motion_.function()(std::max(0.0, t_s - motion_start_s_), x);
+  };
 }
 
 // The pins of the coming frame.

@@ -19,9 +19,6 @@
 
 namespace toile {
 
-// Where a body's vertices are, t seconds after the motion began.
-using BodyAt = std::function<void(double t_s, std::span<Vec3> x)>;
-
 struct Settling {            // of a garment that has just been sewn
   bool sewn = false;         // false: nothing to settle (a grid, or a drape that is taken up again)
   Index held_particles = 0;  // worn before
@@ -64,7 +61,7 @@ class OutfitRun {
   FrameReport frame();
   void set_events(Events events) { events_ = std::move(events); }
   const Events& events() const { return events_; }
-  // From the next frame on the body moves: `body_at(0)` is where it is now.
+  // From the next frame on the body moves: at 0 s it is where it is now.
   void start_motion(BodyAt body_at);
 
   double time_s() const { return static_cast<double>(frames_) * (1 / scene_->fps); }

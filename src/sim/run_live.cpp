@@ -79,7 +79,7 @@ void Run::animate(OutfitRun& run) {
   run.start_motion(motion_->at);
   if (resumes()) {
     restore(run);
-    motion_->at(static_cast<double>(place_.frame) * frame_s(), body_x_);
+    motion_->at(static_cast<double>(place_.frame) * frame_s(), body_x_, body_x_);
   } else {
     place_.phase = RunPhase::motion;
     place_.frame = 0;
@@ -96,7 +96,7 @@ void Run::animate(OutfitRun& run) {
   const std::int64_t first = place_.frame;
   const Stopwatch watch;
   while (place_.frame < frames) {
-    motion_->at(static_cast<double>(place_.frame + 1) * frame_s(), body_x_);
+    motion_->at(static_cast<double>(place_.frame + 1) * frame_s(), body_x_, body_x_);
     const double drape_seconds = report_.drape.seconds;
     const bool good = frame(run, report_.drape, "moving", place_.frame + 1, &phase);
     phase.seconds += report_.drape.seconds - drape_seconds;

@@ -96,7 +96,7 @@ void Run::place(GarmentMesh& garment, bool tell) {
   if (!body_) return;
   const Timed timed(startup(&StartupReport::placement));
   say("placing", 0);
-  const Placement placement = place_garment(garment, *body_);
+  const Placement placement = place_garment(garment, *body_, person_vertices_);
   if (!tell) return;
   report_.shift_m = placement.shift_m;
   if (placement.panel_crossings > 0)

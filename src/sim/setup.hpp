@@ -14,7 +14,7 @@
 namespace toile {
 
 struct BodyMovement {
-  BodyAt at;  // at(0) is where the body stands before it moves
+  BodyAt at;  // since it began to move; at 0 s the body is where it stands
   std::string name;
   double duration_s = 0;  // until the body holds still; infinite for what repeats
 };

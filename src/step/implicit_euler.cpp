@@ -39,19 +39,16 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
 void ImplicitEuler::move_body(double t_s, double h_s) {
   if (world_->body == nullptr || !world_->body_at) return;
   const Timed timed(seconds_.body);
-  const std::size_t count = world_->body->positions().size();
   const bool first = body_start_.empty(), same_start = !first && body_start_s_ == t_s;
   if (same_start && body_end_s_ == t_s + h_s) return;
-  body_start_.resize(count);
-  body_end_.resize(count);
   if (!same_start) {
     if (!first && body_end_s_ == t_s) {
       std::swap(body_start_, body_end_);
     } else {
-      world_->body_at(t_s, body_start_);
+      world_->body_at(t_s, world_->body->next_positions(), body_start_);
     }
   }
-  world_->body_at(t_s + h_s, body_end_);
+  world_->body_at(t_s + h_s, body_start_, body_end_);
   body_start_s_ = t_s;
   body_end_s_ = t_s + h_s;
   if (same_start) {

@@ -13,6 +13,7 @@
 #include "assembly/air.hpp"
 #include "assembly/elements.hpp"
 #include "solver/step_solver.hpp"
+#include "step/body_at.hpp"
 #include "step/body_constraints.hpp"
 #include "step/contact_rows.hpp"
 #include "step/drag.hpp"
@@ -69,7 +70,7 @@ struct StepWorld {
   BodySurface* body = nullptr;
   // Where the body's vertices are at time t, m; empty: it moves only as its owner says (BodySurface::set_motion).  Every
   // step, however short, asks for its own two ends, so that cloth follows the body's velocity over just that step.
-  std::function<void(double t_s, std::span<Vec3> x)> body_at;
+  BodyAt body_at;
   std::vector<Pin> pins;  // both may change between steps: what is let go is free from the next step on
   std::vector<Drag> drags;
   // Extra springs (sewing, attachments) at a state, for a step of h_s that ends at end_s.

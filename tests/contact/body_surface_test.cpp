@@ -126,6 +126,41 @@ TEST(BodySurface, ReportsNothingBeyondReach) {
   EXPECT_EQ(body.nearest({0.5, 0.5, 0.5}, 0.49).triangle, -1);
 }
 
+// Of what is equally near, that with the smallest number, however the tree is cut: a thing far away cuts it in another way.
+TEST(BodySurface, IsTheSameBesideAThingFarAway) {
+  const auto shifted = [](Mesh mesh, const Vec3& by) {
+    for (Vec3& x : mesh.x) x += by;
+    return mesh;
+  };
+  const Mesh ball = contact_test::ball(24, 12, [](const Vec3&) { return 1.0; });
+  const BodySurface body(ball.x, ball.triangles);
+  Random random(5);
+  for (const Vec3& by : {Vec3(50, 0, 0), Vec3(-50, 3, 2), Vec3(0, 50, 1)}) {
+    Mesh both = ball;
+    const Mesh far = shifted(ball, by);
+    const auto first = static_cast<Index>(both.x.size());
+    both.x.insert(both.x.end(), far.x.begin(), far.x.end());
+    for (const auto& [a, b, c] : far.triangles) both.triangles.push_back({a + first, b + first, c + first});
+    const BodySurface beside(both.x, both.triangles);
+    const auto expect_same = [&](const BodyPoint& a, const BodyPoint& b) {
+      EXPECT_EQ(a.triangle, b.triangle);
+      EXPECT_EQ(a.barycentric, b.barycentric);
+      EXPECT_EQ(a.normal, b.normal);
+      EXPECT_EQ(a.gap_m, b.gap_m);
+    };
+    for (int k = 0; k < 300; ++k) {
+      Vec3 p = random.vector(2);
+      if (k % 3 == 0) p[k / 3 % 3] = 0;                                            // between two sides
+      if (k % 3 == 1) p = random.in(-2, 2) * ball.x[static_cast<std::size_t>(random.below(266))];  // nearest to a vertex
+      if (k == 2) p = Vec3::Zero();
+      expect_same(body.nearest(p, 3), beside.nearest(p, 3));
+      expect_same(body.nearest_facing(p, Vec3(0, 1, 0), 3), beside.nearest_facing(p, Vec3(0, 1, 0), 3));
+      expect_same(body.nearest_opposite(p, Vec3(0, 0, 1), 3), beside.nearest_opposite(p, Vec3(0, 0, 1), 3));
+      EXPECT_EQ(body.winding_number(p), beside.winding_number(p));
+    }
+  }
+}
+
 TEST(BodySurface, FollowsTheMotionOfItsPoints) {
   const Mesh mesh = contact_test::torus(12, 8, 1, 0.3);
   BodySurface body(mesh.x, mesh.triangles);

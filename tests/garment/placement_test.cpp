@@ -120,6 +120,25 @@ TEST(Placement, ATubeAroundASphereIsRaisedFromBelowItsMiddle) {
   EXPECT_LT(placement.shift_m.y(), 0.021);
 }
 
+TEST(Placement, SolidsBesideThePersonDoNotRaiseAnOldPattern) {
+  GarmentMesh garment = mesh_garment(test::tube_pattern(0.1, 0.1, 0.3), 0.02);
+  garment.legacy_frame = true;
+  std::vector<Vec3> x;
+  std::vector<Triangle> triangles;
+  for (const BodySurface& part : {box({0, 0.5, 0}, {0.01, 0.5, 0.01}), box({50, 7, 0}, {1, 1, 1})}) {
+    for (const auto& [a, b, c] : part.triangles()) {
+      const auto first = static_cast<Index>(x.size());
+      triangles.push_back({a + first, b + first, c + first});
+    }
+    x.insert(x.end(), part.positions().begin(), part.positions().end());
+  }
+  const Placement placement = place_garment(garment, BodySurface(x, triangles), 8);
+  EXPECT_LT((placement.shift_m - Vec3(0, 0.68, 0)).norm(), 1e-12);
+  GarmentMesh alone = mesh_garment(test::tube_pattern(0.1, 0.1, 0.3), 0.02);
+  alone.legacy_frame = true;
+  EXPECT_EQ(place_garment(alone, box({50, 7, 0}, {1, 1, 1}), 0).shift_m, Vec3(0, 0, 0)) << "nobody there";
+}
+
 TEST(Placement, AnOldPatternIsRaisedFromThePelvis) {
   GarmentMesh garment = mesh_garment(test::tube_pattern(0.1, 0.1, 0.3), 0.02);
   garment.legacy_frame = true;

@@ -4,6 +4,7 @@
 #include "sim/simulate.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +66,29 @@ TEST(MovingThings, ASolidThatRisesTakesTheClothAlong) {
   for (const Vec3& x : frames.cloth.back()) top = std::max(top, x.y());
   EXPECT_GT(top, 0.5);
   EXPECT_LT(top, 0.515);
+}
+
+// Whatever memory held before, which is where the body was taken to be.
+TEST(MovingThings, ABodyThatStandsStillStaysBesideASolidThatMoves) {
+  const auto scene = [](const std::string& key) {
+    return R"({"cloth": [{"grid": {"width_m": 0.5, "height_m": 0.5, "edge_m": 0.05},
+                          "placement": {"translation_m": [0, 0.02, 0], "rotation_deg": [-90, 0, 0]}}],
+               "body": {"cylinder": {"radius_m": 0.2, "height_m": 0.5}},
+               "solids": [{"box": {"size_m": [0.1, 0.1, 0.1]}, "placement": {"translation_m": [5, 0, 0]},
+                           "moves": [{"t_s": 0}, {"t_s": 1)" +
+           key + R"(}]}], "time": {"seconds": 0.4}})";
+  };
+  const Frames still = run(scene(""));
+  mallopt(M_PERTURB, 165);
+  const Frames moving = run(scene(R"(, "shift_m": [0.1, 0, 0])"));
+  mallopt(M_PERTURB, 0);
+  EXPECT_TRUE(moving.report.verdict.pass);
+  EXPECT_EQ(moving.report.state_hash, still.report.state_hash);
+  ASSERT_EQ(moving.body.size(), still.body.size());
+  const std::size_t own = still.body.front().size() - 8;
+  for (const Vec3s& frame : moving.body)
+    for (std::size_t i = 0; i < own; ++i) ASSERT_EQ(frame[i], moving.body.front()[i]) << i;
+  EXPECT_GT((moving.body.back().back() - moving.body.front().back()).norm(), 0.03);
 }
 
 TEST(MovingThings, ASolidGrowsAboutItsOwnPlace) {

@@ -29,8 +29,8 @@ struct Ball {
     long most = 0;
     for (int f = 0; f < frames; ++f) {
       run.frame(1.0 / 60);
-      Vec3s now(body.positions().size());
-      run.world.body_at(run.time_s, now);
+      Vec3s now;
+      run.world.body_at(run.time_s, body.next_positions(), now);
       body.set_motion(now, now);
       (void)mark_through_body(cloth, tree, run.state.x, body, workspace, marked);
       most = std::max(most, static_cast<long>(std::count(marked.begin(), marked.end(), 1)));

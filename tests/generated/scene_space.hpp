@@ -1,0 +1,9 @@
+// tests/generated/scene_space.hpp: the features of a scene, as users write it, and which of them cannot meet.
+#pragma once
+#include "generated/covering.hpp"
+
+namespace toile::generated {
+
+const Space& scene_space();
+
+}  // namespace toile::generated
