@@ -127,6 +127,7 @@ RunFolder::RunFolder(std::string directory, Use use, const Owner& owner, std::sp
     }
     was_unfinished_ = is_there(path("unfinished.json"));
     begun_ = use_ == Use::resume;
+    if (begun_ && !was_unfinished_) throw IoError(directory_, "no unfinished run to go on with");
     refuse_strangers(run_file_names);
     const AtomicFile probe(path("report.json"));  // not committed: leaves nothing, but fails now if it must fail
     if (use_ == Use::new_run) write_unfinished({});

@@ -137,7 +137,7 @@ TEST(Resume, RefusesOtherInputsAndADamagedState) {
   scratch.put("out/checkpoint.bin", state);
   options.stop = {};
   EXPECT_EQ(simulate(same, options).ended, "time");
-  EXPECT_THROW(simulate(same, options), InputError) << "it is finished";
+  EXPECT_THROW(simulate(same, options), IoError) << "it is finished";
 }
 
 }  // namespace
