@@ -81,6 +81,7 @@ class Run {
     report_.startup.scene = options_.seconds_before;
     load_cloth(inputs);
     load_solids(inputs);
+    if (!scene_.start.empty()) add_start(scene_.start, inputs);
     double edge_m = 0;
     for (const LoadedCloth& cloth : cloth_) edge_m = std::max(edge_m, cloth.edge_m);
     step_ = step_options(scene_, cloth_.front().fabrics.front(), edge_m);
