@@ -1,5 +1,5 @@
 # The commands of the README.  Everything real happens in CMake; this file only says what is run.
-.PHONY: configure build demo test test-golden test-clang test-sanitizers test-long bench tidy format clean packages
+.PHONY: configure build demo test test-golden test-clang test-sanitizers test-long bench settings tidy format clean packages
 JOBS ?= $(shell nproc)
 
 configure: packages
@@ -49,6 +49,10 @@ test-long: build
 
 bench: build
 	build/release/bench/toile_bench
+
+# Schema and tables of docs/, from the descriptions of the settings.
+settings: configure
+	@cmake --build --preset release --target settings -j $(JOBS)
 
 # These need clang's tools, which `packages` does not install.
 tidy: build

@@ -11,7 +11,7 @@ Checked in documents (*.md in the root and in docs/):
   `name_m = 0.02`            a source in src/ gives that name that value
 Checked in sources, scripts and build files:
   docs/...#anchor            the file and the heading exist
-  reason codes, scene keys   docs/reason-codes.md and docs/scene.schema.json know them
+  reason codes               docs/reason-codes.md knows them
 """
 import glob
 import itertools
@@ -150,25 +150,12 @@ class Checker:
                         number = text.count("\n", 0, block.start(1) + code.start()) + 1
                         self.complain(path, number, f"'{code.group(1)}': docs/reason-codes.md must say what it means and what to do")
 
-    def check_scene_keys(self):
-        """Every key that a scene may have, by its reader, is one of the schema's; editors refuse what it does not know."""
-        schema = self.root / "docs/scene.schema.json"
-        known = set(re.findall(r'"(\w+)":', schema.read_text(encoding="utf-8"))) if schema.exists() else set()
-        for path in sorted(self.root.glob("src/sim/scene*.cpp")):
-            text = path.read_text(encoding="utf-8")
-            for keys in re.finditer(r"allow_only\(\s*\{([^}]*)\}", text):
-                for key in re.finditer(r'"(\w+)"', keys.group(1)):
-                    if key.group(1) not in known:
-                        number = text.count("\n", 0, keys.start(1) + key.start()) + 1
-                        self.complain(path, number, f"'{key.group(1)}': docs/scene.schema.json must know it")
-
     def run(self):
         for path in self.documents:
             self.check_document(path)
         for path in self.sources:
             self.check_source(path)
         self.check_reason_codes()
-        self.check_scene_keys()
         return self.offences
 
 

@@ -84,6 +84,7 @@ void add_variation(BenchRow& facts, std::string_view fact, std::string_view titl
 PcgOptions block_jacobi() {
   PcgOptions options;
   options.preconditioner = Preconditioner::block_jacobi;
+  options.tolerance = usual_tolerance(options.preconditioner, options.procedure);
   options.max_iterations = most_iterations;
   return options;
 }

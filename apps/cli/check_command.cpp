@@ -105,9 +105,7 @@ std::string check_pattern_text(const std::string& path, const std::string& text,
 
 std::string check_scene(const std::string& path, const std::string& text, JsonText& json) {
   const Scene scene = parse_scene(text, path);
-  CommandLine as_run;
-  as_run.inputs = {path};
-  output_folder(as_run, scene);
+  output_folder({}, scene);
   Hash hash;
   Index vertices = 0, triangles = 0;
   for (const SceneCloth& cloth : scene.cloth) {

@@ -21,7 +21,7 @@ namespace toile {
 
 struct AirOptions {
   Vec3 wind_m_per_s{0, 0, 0};
-  double density_kg_per_m3 = 0;          // 0: no air;  1.2 at sea level
+  double density_kg_per_m3 = 1.2;        // at sea level;  0: no air
   double normal_coefficient = 1.2;       // c_n: a flat plate across the stream
   double tangential_coefficient = 0.02;  // c_t: both sides of a plate along it
 };

@@ -24,7 +24,7 @@ class MovingMannequin : public BodyMotion::Source {
   double lead_in_s() const override { return motion_.lead_in_s(); }
   void add_to(Hash& hash) const override {
     for (const std::string_view text : {std::string_view(motion_.name()), to_string(motion_.kind())})
-      hash.add_bytes(text.data(), text.size());
+      hash.add_text(text);
     const double lead_in = motion_.lead_in_s();
     hash.add_bytes(&lead_in, sizeof lead_in);
   }
@@ -106,7 +106,7 @@ void BodyMotion::positions(double t_s, std::span<Vec3> x) const {
 }
 
 void BodyMotion::add_to(Hash& hash) const {
-  hash.add(std::span<const Triangle>(triangles_));
+  hash.add_counted(std::span<const Triangle>(triangles_));
   source_->add_to(hash);
 }
 

@@ -134,8 +134,8 @@ void BodySamples::positions(double t_s, std::span<Vec3> x) const {
 }
 
 void BodySamples::add_to(Hash& hash) const {
-  hash.add(std::span<const Vec3>(drape_));
-  hash.add(std::span<const Vec3f>(samples_));
+  hash.add_counted(std::span<const Vec3>(drape_));
+  hash.add_counted(std::span<const Vec3f>(samples_));
   const double numbers[] = {options_.rate_hz, lead_in_s_};
   hash.add(std::span<const double>(numbers));
 }

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace toile {
 
@@ -48,6 +49,14 @@ class Hash {
   void add(std::span<const T> values) {
     add_bytes(values.data(), values.size_bytes());
   }
+  // With their number, so that what follows cannot be taken for a part of them.
+  template <class T>
+  void add_counted(std::span<const T> values) {
+    const std::uint64_t size = values.size();
+    add_bytes(&size, sizeof size);
+    add(values);
+  }
+  void add_text(std::string_view text) { add_counted(std::span(text.data(), text.size())); }
   std::uint64_t value() const { return value_; }
   std::string hex() const { return hex_of(value_); }
 

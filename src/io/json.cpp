@@ -411,12 +411,12 @@ std::string Json::string_or(std::string_view key, std::string_view fallback) con
   return value ? value->string() : std::string(fallback);
 }
 
-void Json::allow_only(std::initializer_list<std::string_view> keys) const {
+void Json::allow_only(std::span<const std::string_view> keys) const {
   for (const auto& [name, value] : object()) {
     if (std::find(keys.begin(), keys.end(), name) != keys.end()) continue;
     // A key of a megabyte is no misspelling, and its edit distance would take a while.
     const std::string_view nearest =
-        name.size() <= 100 ? nearest_name(name, keys.begin(), keys.size()) : std::string_view();
+        name.size() <= 100 ? nearest_name(name, keys.data(), keys.size()) : std::string_view();
     value.fail(nearest.empty() ? "a known key" : "a known key (nearest: " + in_quotes(nearest) + ")", in_quotes(name));
   }
 }

@@ -12,6 +12,7 @@
 
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -65,7 +66,8 @@ class Json {
   std::string string_or(std::string_view key, std::string_view fallback) const;
 
   // Throws InputError for the first key not in `keys`, naming the nearest valid one.
-  void allow_only(std::initializer_list<std::string_view> keys) const;
+  void allow_only(std::span<const std::string_view> keys) const;
+  void allow_only(std::initializer_list<std::string_view> keys) const { allow_only(std::span(keys.begin(), keys.size())); }
 
   // An error at this value.
   [[noreturn]] void fail(std::string_view expected, std::string_view got) const;

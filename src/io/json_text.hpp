@@ -46,9 +46,11 @@ class JsonText {
     char digits[32];
     text_.append(digits, std::to_chars(digits, digits + sizeof digits, x).ptr);
   }
-  void null() {
+  void null() { raw("null"); }
+  // What is JSON already.
+  void raw(std::string_view json) {
     next();
-    text_ += "null";
+    text_ += json;
   }
   template <class T>
   void member(std::string_view name, const T& v) {

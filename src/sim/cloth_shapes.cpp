@@ -2,9 +2,11 @@
 #include "sim/cloth_shapes.hpp"
 
 #include "core/elementary.hpp"
+#include "core/error.hpp"
 #include "garment/triangulate.hpp"
 #include "sim/rigid_path.hpp"
 
+#include <fmt/printf.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -45,6 +47,13 @@ Drawing draw(double width_m, double height_m, double edge_m, bool joined) {
   return drawing;
 }
 
+// One number and a message for every way to ask for too much: the triangulation counts in 2^-20 m, with 25 bits.
+void check_length(std::string_view key, std::string_view what, double length_m) {
+  constexpr double longest_m = 32;
+  if (length_m <= longest_m) return;
+  throw InputError("", key, fmt::sprintf("at most %g m %s", longest_m, std::string(what)), fmt::sprintf("%.4g m", length_m));
+}
+
 template <class Grain, class Where>
 GarmentMesh mesh_of(const Drawing& drawing, const SceneCloth& cloth, const Grain& grain, const Where& where) {
   GarmentMesh garment;
@@ -81,6 +90,7 @@ GarmentMesh make_grid(const SceneCloth& cloth) {
 GarmentMesh make_tube(const SceneCloth& cloth) {
   const SceneTube& tube = *cloth.tube;
   const double around_m = 2 * std::numbers::pi * tube.radius_m;
+  check_length("radius_m", "around it", around_m);
   return mesh_of(draw(around_m, tube.length_m, tube.edge_m, true), cloth, upright, [&](const Vec2& p) {
     const double angle = p.x() / tube.radius_m;  // from z to x: seen from outside it runs to the right
     return Vec3(tube.radius_m * ieee_sin(angle), p.y() - 0.5 * tube.length_m, tube.radius_m * ieee_cos(angle));
@@ -172,9 +182,28 @@ Curve curve_of(const SceneRibbon& ribbon) {
   return curve;
 }
 
+// A ribbon lies beside its middle line: where that turns back, or bends in its plane more narrowly than half its width, it would
+// lie on itself.  `!(... > 0)` holds for what is not a number, too.
+void check_bends(const Curve& curve, double width_m) {
+  const auto fail = [&](std::size_t k, const char* expected, const char* got) {
+    const Vec3& x = curve.x[k];
+    throw InputError("", "path_m", expected, fmt::sprintf("%s near (%.3g, %.3g, %.3g) m", got, x.x(), x.y(), x.z()));
+  };
+  for (std::size_t k = 1; k < curve.x.size(); ++k) {
+    const Vec3 piece = curve.x[k] - curve.x[k - 1];
+    if (k > 1 && !(piece.dot(curve.x[k - 1] - curve.x[k - 2]) > 0))
+      fail(k - 1, "a line that goes on within a quarter of edge_m", "one that turns back");
+    for (const double side : {-0.5 * width_m, 0.5 * width_m})
+      if (!((piece + side * (curve.across[k] - curve.across[k - 1])).dot(piece) > 0))
+        fail(k - 1, "bends wider than half of width_m", "a ribbon that folds onto itself");
+  }
+}
+
 GarmentMesh make_ribbon(const SceneCloth& cloth) {
   const SceneRibbon& ribbon = *cloth.ribbon;
   const Curve curve = curve_of(ribbon);
+  check_length("path_m", "along it", curve.s.back());
+  check_bends(curve, ribbon.width_m);
   const auto along = [](const Vec2& p) { return p; };
   return mesh_of(draw(curve.s.back(), ribbon.width_m, ribbon.edge_m, ribbon.closed), cloth, along, [&](const Vec2& p) {
     return Vec3(curve.at_length(p.x(), curve.x) +

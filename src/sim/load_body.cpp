@@ -74,7 +74,7 @@ LoadedBody load_body(const SceneBody& body, Hash& inputs) {
     }
     case SceneBody::Kind::mesh: {
       const std::string text = read_file(body.mesh);
-      inputs.add_bytes(text.data(), text.size());
+      inputs.add_text(text);
       CollisionBody read = make_collision_body(parse_obj(text, printable(body.mesh)), printable(body.mesh), body.unit);
       check_areas(printable(body.mesh), read.positions, read.triangles);
       if (body.motion) loaded.movement = movement_from_file(body, read, inputs);
@@ -98,18 +98,19 @@ SolidMesh shape_of(const SceneSolid& solid, Hash& inputs) {
     }
     SolidMesh operator()(const SceneSolid::Mesh& mesh) const {
       const std::string text = read_file(mesh.path), file = printable(mesh.path);
-      inputs.add_bytes(text.data(), text.size());
-      SolidMesh read = whole_of(parse_obj(text, file));
-      check_closed(file, read.positions, read.triangles);
-      check_areas(file, read.positions, read.triangles);
-      return read;
+      inputs.add_text(text);
+      return whole_of(parse_obj(text, file));
     }
   };
   SolidMesh shape;
+  const auto* const mesh = std::get_if<SceneSolid::Mesh>(&solid.shape);
   try {
     shape = std::visit(Make{solid, inputs}, solid.shape);
+    const std::string file = mesh != nullptr ? printable(mesh->path) : std::string();
+    check_closed(file, shape.positions, shape.triangles);
+    check_areas(file, shape.positions, shape.triangles);
   } catch (const InputError& error) {
-    if (std::holds_alternative<SceneSolid::Mesh>(solid.shape)) throw;  // names its own file
+    if (mesh != nullptr) throw;  // names its own file
     throw Error(error.code(), solid.where + ": " + solid.pointer + ": " + error.what());
   }
   if (solid.inside_out) turn_inside_out(shape);

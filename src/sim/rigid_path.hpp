@@ -34,7 +34,9 @@ class RigidPath {
 
   bool empty() const { return keys_.empty(); }
   const std::vector<RigidKey>& keys() const { return keys_; }
+  std::vector<RigidKey>& keys() { return keys_; }
   const Vec3& centre() const { return centre_; }
+  Vec3& centre() { return centre_; }
   double duration_s() const { return keys_.empty() ? 0 : keys_.back().t_s; }
 
   // The fastest piece, by the key at its end: no point that was within `reach_m` of the centre is faster on it.

@@ -3,17 +3,23 @@
 // Every key has a default, so that {"cloth": [{"pattern": "p.json"}], "body": {"mesh": "b.obj"}} is a complete scene.
 // The command `dress` fills the same struct from its options.
 //
+// The members' own values are the defaults of the keys, and those of what runs the defaults of the members; each key is described
+// in one place, sim/settings_scene.hpp.
+//
 // What is easily got wrong: a key that is understood but not available yet is an error here, never ignored; a scene
 // that runs has been obeyed in every word.
 #pragma once
 #include "assembly/air.hpp"
+#include "body/body_motion.hpp"
 #include "body/collision_body.hpp"
+#include "body/mannequin.hpp"
 #include "garment/label_heights.hpp"
 #include "io/json.hpp"
 #include "material/fabric.hpp"
 #include "material/membrane.hpp"
 #include "sim/rigid_path.hpp"
 #include "solver/modified_pcg.hpp"
+#include "step/drag.hpp"
 #include "step/implicit_euler.hpp"
 
 #include <array>
@@ -29,8 +35,8 @@ namespace toile {
 
 // The panel's (b_u, b_v) in time, ascending; straight in between: a cloth that shrinks while it is simulated.
 struct RestStretchKey {
-  double t_s;
-  Vec2 b;
+  double t_s = 0;
+  Vec2 b{1, 1};
 };
 
 struct ScenePanel {  // what one panel has of its own
@@ -45,10 +51,11 @@ struct ScenePanel {  // what one panel has of its own
 struct ScenePin {
   Vec3 near_m{0, 0, 0};                         // the particle nearest to it at the start is held
   std::optional<std::array<Vec3, 2>> in_box_m;  // instead: all between two corners of a box at the start
-  bool on_path = false;
+  enum class Hold { fixed, path, moves };
+  Hold hold = Hold::fixed;
   struct Key {
-    double t_s;
-    Vec3 x_m;
+    double t_s = 0;
+    Vec3 x_m{0, 0, 0};
   };
   std::vector<Key> path;  // ascending times; straight in between, at rest before and after
   RigidPath moves;        // instead: all that is held moves as one, from where it is when it is taken; times from there
@@ -60,7 +67,8 @@ struct ScenePin {
 struct SceneDrag {
   Vec3 near_m{0, 0, 0};
   std::vector<ScenePin::Key> path;  // of the hand
-  double stiffness_N_per_m = 50, damping_N_s_per_m = 0.5, max_force_N = 5;
+  double stiffness_N_per_m = Drag{}.stiffness_N_per_m, damping_N_s_per_m = Drag{}.damping_N_s_per_m,
+         max_force_N = Drag{}.max_force_N;
   double from_s = 0, to_s = 0;  // it holds the cloth in this time
 };
 
@@ -85,6 +93,7 @@ struct SceneCloth {
   std::optional<SceneGrid> grid;
   std::optional<SceneTube> tube;
   std::optional<SceneRibbon> ribbon;
+  std::string shape_where, shape_pointer;  // of the shape in the file, for what is found when it is meshed
   bool is_sewn() const { return !pattern.empty(); }
   // Of its triangles: of the outlines of a pattern, or of its shape.
   double edge_m() const { return grid ? grid->edge_m : tube ? tube->edge_m : ribbon ? ribbon->edge_m : resolution_m; }
@@ -114,8 +123,8 @@ struct SceneCylinder {  // an upright solid whose rims are rounded: body/solid_s
 struct SceneMotion {
   std::string name;      // of the mannequin's own: walk, twist, dance ...; empty: from a file
   std::string path;      // resolved: .pc2, or a folder of OBJ files
-  double fps = 30;       // of the file
-  double lead_in_s = 1;  // from the body's own pose into the motion
+  double fps = SampleOptions{}.rate_hz;          // of the file
+  double lead_in_s = SampleOptions{}.lead_in_s;  // from the body's own pose into the motion
   std::string where, pointer;
 };
 
@@ -131,20 +140,25 @@ struct SceneBody {
   std::optional<double> offset_m;  // absent: by the cloth's edges, sim/setup.hpp
 };
 
+struct SceneSphere {
+  double radius_m = 0;
+};
+struct SceneBox {
+  Vec3 size_m{0, 0, 0};
+};
+struct SceneRevolved {
+  std::vector<Vec2> profile_m;
+};
+struct SceneSolidMesh {
+  std::string path;  // resolved; in metres
+};
+
 // A thing beside the body, or instead of one, that cloth collides with: body/solid_shapes.hpp.
 struct SceneSolid {
-  struct Sphere {
-    double radius_m;
-  };
-  struct Box {
-    Vec3 size_m;
-  };
-  struct Revolved {
-    std::vector<Vec2> profile_m;
-  };
-  struct Mesh {
-    std::string path;  // resolved; in metres
-  };
+  using Sphere = SceneSphere;
+  using Box = SceneBox;
+  using Revolved = SceneRevolved;
+  using Mesh = SceneSolidMesh;
   std::variant<Sphere, Box, Revolved, Mesh> shape;
   double edge_m = 0.02;     // of curved shapes
   bool inside_out = false;  // a room
@@ -159,32 +173,34 @@ struct Scene {
   std::vector<SceneCloth> cloth;
   SceneBody body;
   std::vector<SceneSolid> solids;
-  Vec3 gravity_m_per_s2{0, -9.81, 0};
-  AirOptions air{.density_kg_per_m3 = 1.2};  // still, at sea level; density 0: none
+  Vec3 gravity_m_per_s2 = ModelOptions{}.gravity_m_per_s2;
+  AirOptions air;
 
   double fps = 30, seconds = 5;      // of the motion, where the body moves; otherwise of the drape
-  bool seconds_given = false;        // false: a motion from a file runs to its end
+  bool seconds_given = false;        // false: a motion that ends runs to its end
   double drape_seconds = 10;         // before the motion, and of garments that others go over: a limit
   std::optional<double> step_max_s;  // absent: 1/60 s for patterns, a frame for grids
   bool until_still = false;          // stop when at rest; then `seconds` is a limit, and moving at the end a failure
 
   std::optional<Preconditioner> preconditioner;  // absent: the best for the size
-  double tolerance = 1e-2;                       // with the coarse space
-  PcgProcedure procedure = PcgProcedure::prefiltered;
-  Integrator integrator = Integrator::backward_euler;
-  int newton_iterations = 1;
-  int relinearisations = 6;
-  bool paper_scaling = false;
-  DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
+  std::optional<double> tolerance;               // absent: usual_tolerance of the two beside it
+  PcgProcedure procedure = PcgOptions{}.procedure;
+  double solver_tolerance() const;
+  Integrator integrator = StepOptions{}.integrator;
+  int newton_iterations = StepOptions{}.newton_iterations;
+  int relinearisations = StepOptions{}.relinearisations;
+  bool paper_scaling = ModelOptions{}.paper_scaling;
+  DampingJacobian damping_jacobian = ModelOptions{}.damping_jacobian;
 
   std::optional<double> contact_thickness_m, contact_friction;  // of all fabrics, when given
   std::vector<PairFriction> friction_between;
-  bool self_contact = true;
-  bool flypaper = true;  // step/flypaper.hpp
+  bool self_contact = ContactRowOptions{}.cloth_cloth;
+  bool flypaper = StepOptions{}.flypaper;
   bool strict_start = false;
 
   std::string start;       // directory of a run whose last frame is where this one begins; empty: from the panels
   std::string output_dir;  // empty: out/<name>
+  std::string output_dir_where, output_dir_pointer;  // in the file
   std::optional<bool> preview;
   std::vector<int> picture_frames;  // of frames.png, sim/picture_run.hpp
 };

@@ -1,156 +1,149 @@
-// sim/scene_hash.cpp: every number of a scene that changes the result.
+// sim/scene_hash.cpp: every setting of a scene that changes the result, in the order of its description (sim/settings.hpp).
+//
+// A setting is its key, whether it is given where that may be left open, how many there are where there may be more, and its value.
+// So no two scenes are told by one row of bytes.  Of a file only that there is one: who reads it adds what it holds.
+#include "sim/settings_scene.hpp"
 #include "sim/setup.hpp"
 
+#include <optional>
+#include <string>
 #include <string_view>
-#include <variant>
+#include <type_traits>
+#include <vector>
 
 namespace toile {
 namespace {
 
-void add(Hash& hash, double x) { hash.add_bytes(&x, sizeof x); }
-void add(Hash& hash, const Vec3& v) { hash.add_bytes(v.data(), 3 * sizeof(double)); }
-void add(Hash& hash, std::string_view text) {
-  add(hash, static_cast<double>(text.size()));
-  hash.add_bytes(text.data(), text.size());
-}
-void add(Hash& hash, const std::optional<double>& x) {
-  add(hash, x ? 1.0 : 0.0);
-  add(hash, x.value_or(0));
-}
-void add(Hash& hash, const Fabric& f) {
-  for (const double x : {f.density_kg_per_m2, f.stretch_u_N_per_m, f.stretch_v_N_per_m, f.shear_N_per_m,
-                         f.compression_ratio, f.strain_limit, f.bend_u_N_m, f.bend_v_N_m, f.stretch_damping_s,
-                         f.shear_damping_s, f.bend_damping_s, f.friction, f.thickness_m})
-    add(hash, x);
-}
+class SettingsHash {
+ public:
+  explicit SettingsHash(Hash& hash) : hash_(&hash) {}
 
-void add(Hash& hash, const RigidPath& moves) {
-  add(hash, static_cast<double>(moves.keys().size()));
-  add(hash, moves.centre());
-  for (const RigidKey& key : moves.keys()) {
-    add(hash, key.t_s);
-    add(hash, key.shift_m);
-    add(hash, key.rotation_deg);
-    add(hash, key.scale);
+  template <class Member>
+  void number(const Setting& s, const Range&, const Member& x) {
+    if (key(s)) add(x);
   }
-}
-void add(Hash& hash, const SceneRibbon& ribbon) {
-  for (const double x : {ribbon.width_m, ribbon.edge_m, ribbon.closed ? 1.0 : 0.0}) add(hash, x);
-  for (const Vec3& p : ribbon.path_m) add(hash, p);
-  add(hash, ribbon.across);
-}
-void add(Hash& hash, const SceneSolid& solid) {
-  struct Add {
-    Hash& hash;
-    void operator()(const SceneSolid::Sphere& sphere) const { add(hash, sphere.radius_m); }
-    void operator()(const SceneSolid::Box& box) const { add(hash, box.size_m); }
-    void operator()(const SceneSolid::Revolved& revolved) const {
-      for (const Vec2& p : revolved.profile_m)
-        for (const double x : {p.x(), p.y()}) add(hash, x);
+  void number(const Setting& s, const Range&, double x, bool given) {
+    if (!key(s)) return;
+    add(given);
+    add(x);
+  }
+  template <class Member>
+  void whole(const Setting& s, const Range&, const Member& x) {
+    if (key(s)) add(x);
+  }
+  void wholes(const Setting& s, const Range&, const std::vector<int>& x) {
+    if (!key(s)) return;
+    add(x.size());
+    for (const int one : x) add(one);
+  }
+  template <class Member>
+  void flag(const Setting& s, const Member& x) {
+    if (key(s)) add(x);
+  }
+  void text(const Setting& s, const std::string& x) {
+    if (key(s)) hash_->add_text(x);
+  }
+  void text_among(const Setting& s, std::span<const std::string_view>, const std::string& x) { text(s, x); }
+  void path(const Setting& s, const std::string& x) {
+    if (key(s)) add(!x.empty());
+  }
+  template <class E>
+  void name(const Setting& s, std::type_identity_t<Names<E>> names, const E& x) {
+    if (!key(s)) return;
+    for (const auto& [word, meant] : names)
+      if (meant == x) return hash_->add_text(word);
+    hash_->add_text("");
+  }
+  void fabric(const Setting& s, const Fabric& x) { text(s, x.name); }
+  void vector(const Setting& s, const Range&, const Vec3& x) {
+    if (key(s)) add(x);
+  }
+  void box(const Setting& s, const Range&, const std::optional<std::array<Vec3, 2>>& x) {
+    if (!key(s)) return;
+    add(x.has_value());
+    if (x)
+      for (const Vec3& corner : *x) add(corner);
+  }
+  template <class T, class Row>
+  void rows(const Setting& s, const Rows&, std::vector<T>& x, const Row& row_of) {
+    if (!key(s)) return;
+    add(x.size());
+    for (T& row : x) row_of(*this, row);
+  }
+  // The columns of a row.
+  void column(std::string_view, const Range&, double x) { add(x); }
+  void fabric_column(std::string_view, const std::string& x) { hash_->add_text(x); }
+
+  template <class T>
+  void list(const Setting& s, std::vector<T>& x, std::size_t = 0) {
+    if (!key(s)) return;
+    add(x.size());
+    for (T& one : x) describe(*this, one);
+  }
+  template <class T>
+  void table(const Setting& s, std::vector<T>& x, std::string T::*name) {
+    if (!key(s)) return;
+    add(x.size());
+    for (T& one : x) {
+      hash_->add_text(one.*name);
+      describe(*this, one);
     }
-    void operator()(const SceneSolid::Mesh&) const {}  // its bytes count
-  };
-  add(hash, static_cast<double>(solid.shape.index()));
-  std::visit(Add{hash}, solid.shape);
-  add(hash, solid.edge_m);
-  add(hash, solid.inside_out ? 1.0 : 0.0);
-  add(hash, solid.translation_m);
-  add(hash, solid.rotation_deg);
-  add(hash, solid.moves);
-}
+  }
+  void heights(const Setting& s, const Range&, const std::vector<LabelHeight>& x) {
+    if (!key(s)) return;
+    add(x.size());
+    for (const LabelHeight& one : x) {
+      hash_->add_text(one.label);
+      add(one.height_m);
+    }
+  }
+  template <class T>
+  void object(const Setting& s, T& x, const Shorthand& = {}) {
+    if (key(s)) describe(*this, x);
+  }
+  template <class T>
+  void object(const Setting& s, std::optional<T>& x, const Shorthand& = {}) {
+    if (!key(s)) return;
+    add(x.has_value());
+    if (x) describe(*this, *x);
+  }
+  template <class Describe>
+  void group(const Setting& s, const Describe& describe_members) {
+    if (key(s)) describe_members(*this);
+  }
+  template <class Choose, class Describe>
+  void alternative(std::string_view, bool chosen, const Choose&, const Describe& describe_it) {
+    if (chosen) describe_it(*this);
+  }
+  void exactly_one(std::initializer_list<std::string_view>) {}
+  void at_most_one(std::initializer_list<std::string_view>) {}
+
+ private:
+  // Whether it counts at all.
+  bool key(const Setting& s) {
+    if (s.in_result) hash_->add_text(s.key);
+    return s.in_result;
+  }
+  void add(double x) { hash_->add_bytes(&x, sizeof x); }
+  void add(bool x) { add(x ? 1.0 : 0.0); }
+  void add(int x) { add(static_cast<double>(x)); }
+  void add(std::size_t x) { add(static_cast<double>(x)); }
+  void add(const Vec3& x) { hash_->add_bytes(x.data(), 3 * sizeof(double)); }
+  template <class T>
+  void add(const std::optional<T>& x) {
+    add(x.has_value());
+    if (x) add(*x);
+  }
+
+  Hash* hash_;
+};
 
 }  // namespace
 
 void add_to_hash(const Scene& scene, Hash& hash) {
-  for (const SceneCloth& cloth : scene.cloth) {
-    if (cloth.grid)
-      for (const double x : {cloth.grid->width_m, cloth.grid->height_m, cloth.grid->edge_m}) add(hash, x);
-    if (cloth.tube)
-      for (const double x : {cloth.tube->radius_m, cloth.tube->length_m, cloth.tube->edge_m}) add(hash, x);
-    if (cloth.ribbon) add(hash, *cloth.ribbon);
-    add(hash, cloth.resolution_m);
-    add(hash, static_cast<double>(cloth.vertices.value_or(0)));
-    add(hash, cloth.fabric);
-    for (const ScenePanel& panel : cloth.panels) {
-      add(hash, std::string_view(panel.name));
-      add(hash, panel.fabric.value_or(cloth.fabric));
-      add(hash, panel.rest_stretch_u);
-      add(hash, panel.rest_stretch_v);
-    }
-    for (const ScenePanel& panel : cloth.panels)
-      for (const RestStretchKey& key : panel.rest_stretch_path)
-        for (const double x : {key.t_s, key.b.x(), key.b.y()}) add(hash, x);
-    for (const SceneDrag& drag : cloth.drags) {
-      add(hash, drag.near_m);
-      for (const double x : {drag.stiffness_N_per_m, drag.damping_N_s_per_m, drag.max_force_N, drag.from_s, drag.to_s})
-        add(hash, x);
-      for (const ScenePin::Key& key : drag.path) {
-        add(hash, key.t_s);
-        add(hash, key.x_m);
-      }
-    }
-    add(hash, cloth.translation_m);
-    add(hash, cloth.rotation_deg);
-    for (const LabelHeight& height : cloth.label_heights) {
-      add(hash, std::string_view(height.label));
-      add(hash, height.height_m);
-    }
-    for (const ScenePin& pin : cloth.pins) {
-      add(hash, pin.near_m);
-      if (pin.in_box_m)
-        for (const Vec3& corner : *pin.in_box_m) add(hash, corner);
-      add(hash, pin.moves);
-      add(hash, pin.from_s);
-      add(hash, pin.to_s);
-      for (const ScenePin::Key& key : pin.path) {
-        add(hash, key.t_s);
-        add(hash, key.x_m);
-      }
-    }
-  }
-  for (const SceneSolid& solid : scene.solids) add(hash, solid);
-  const SceneBody& body = scene.body;
-  add(hash, static_cast<double>(body.kind));
-  add(hash, static_cast<double>(body.unit));
-  add(hash, static_cast<double>(body.mannequin));
-  add(hash, body.motion ? 1.0 : 0.0);
-  if (body.motion) {
-    add(hash, std::string_view(body.motion->name));
-    add(hash, body.motion->fps);
-    add(hash, body.motion->lead_in_s);
-  }
-  if (body.kind == SceneBody::Kind::cylinder) {
-    add(hash, body.cylinder.radius_m);
-    add(hash, body.cylinder.height_m);
-    add(hash, body.cylinder.top_m);
-  }
-  add(hash, body.friction);
-  add(hash, body.offset_m);
-  add(hash, scene.gravity_m_per_s2);
-  add(hash, scene.air.wind_m_per_s);
-  add(hash, scene.air.density_kg_per_m3);
-  add(hash, scene.fps);
-  add(hash, scene.seconds);
-  add(hash, scene.drape_seconds);
-  add(hash, scene.step_max_s);
-  add(hash, scene.until_still ? 1.0 : 0.0);
-  add(hash, scene.preconditioner ? 1.0 + static_cast<double>(*scene.preconditioner) : 0.0);
-  add(hash, scene.tolerance);
-  add(hash, static_cast<double>(scene.procedure));
-  add(hash, static_cast<double>(scene.integrator));
-  add(hash, static_cast<double>(scene.newton_iterations));
-  add(hash, static_cast<double>(scene.relinearisations));
-  add(hash, scene.paper_scaling ? 1.0 : 0.0);
-  add(hash, static_cast<double>(scene.damping_jacobian));
-  add(hash, scene.contact_thickness_m);
-  add(hash, scene.contact_friction);
-  for (const PairFriction& pair : scene.friction_between) {
-    add(hash, std::string_view(pair.first));
-    add(hash, std::string_view(pair.second));
-    add(hash, pair.friction);
-  }
-  add(hash, scene.self_contact ? 1.0 : 0.0);
-  if (!scene.flypaper) add(hash, 2.0);
+  Scene asked = scene;  // a description may write, too
+  SettingsHash settings(hash);
+  describe(settings, asked);
 }
 
 }  // namespace toile

@@ -1,37 +1,57 @@
-// sim/scene_reading.cpp: see the header.
 #include "sim/scene_reading.hpp"
+
+#include "sim/scene_reader.hpp"
 
 #include <fmt/printf.h>
 
+#include <array>
+#include <cmath>
 #include <filesystem>
-#include <utility>
-#include <vector>
 
 namespace toile::scene_reading {
+namespace {
 
-double number_in(const Json& value, double low, double high, bool open) {
+std::string in_words(const Range& range) {
+  const std::string least = range.least == 0 && range.above ? "zero" : fmt::sprintf("%g", range.least);
+  return fmt::sprintf("%s %s and at most %g", range.above ? "above" : "of at least", least, range.most);
+}
+
+std::string quoted(std::span<const std::string_view> names, std::string_view between) {
+  std::string list;
+  for (const std::string_view name : names) {
+    if (!list.empty()) list += between;
+    list += '"' + std::string(name) + '"';
+  }
+  return list;
+}
+
+}  // namespace
+
+double number_in(const Json& value, const Range& range) {
   const double x = value.number();
-  if (x > high || x < low || (open && x == low))
-    value.fail(fmt::sprintf("a number %s %g and at most %g", open ? "above" : "of at least", low, high),
-               value.describe());
+  if (!range.contains(x)) value.fail("a number " + in_words(range), value.describe());
   return x;
 }
 
-Vec3 vector_of(const Json& value, double most) {
+int whole_in(const Json& value, const Range& range) {
+  const double x = value.number();
+  if (!range.contains(x) || x != std::floor(x)) value.fail("a whole number " + in_words(range), value.describe());
+  return static_cast<int>(x);
+}
+
+Vec3 vector_of(const Json& value, const Range& each) {
   if (!value.is_array() || value.array().size() != 3) value.fail("three numbers [x, y, z]", value.describe());
   Vec3 v;
-  for (std::size_t k = 0; k < 3; ++k) v[static_cast<Eigen::Index>(k)] = number_in(value.array()[k], -most, most);
+  for (std::size_t k = 0; k < 3; ++k) v[static_cast<Eigen::Index>(k)] = number_in(value.array()[k], each);
   return v;
 }
 
 std::size_t one_of(const Json& value, std::span<const std::string_view> names) {
   const std::string& name = value.string();
-  std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] == name) return i;
-    list += (i == 0 ? "\"" : ", \"") + std::string(names[i]) + '"';
-  }
-  value.fail("one of " + list + "; nearest is \"" + std::string(nearest_name(name, names.data(), names.size())) + '"',
+  value.fail("one of " + quoted(names, ", ") + "; nearest is \"" +
+                 std::string(nearest_name(name, names.data(), names.size())) + '"',
              value.describe());
 }
 
@@ -43,29 +63,49 @@ std::string resolve(const std::string& scene_file, const Json& value) {
   return (std::filesystem::path(scene_file).parent_path() / given).lexically_normal().string();
 }
 
-void read_placement(const Json& value, Vec3& translation_m, Vec3& rotation_deg) {
-  const Json* placement = value.find("placement");
-  if (placement == nullptr) return;
-  placement->allow_only({"translation_m", "rotation_deg"});
-  if (const Json* t = placement->find("translation_m")) translation_m = vector_of(*t);
-  if (const Json* r = placement->find("rotation_deg")) rotation_deg = vector_of(*r);
+void check_least(const Json& array, std::size_t least, std::string_view element) {
+  const std::size_t count = array.array().size();
+  if (count >= least) return;
+  if (least == 1) array.fail("at least one " + std::string(element), "an empty array");
+  array.fail("at least " + std::to_string(least) + " points " + std::string(element), std::to_string(count));
 }
 
-RigidPath read_moves(const Json& moves, const Vec3& centre) {
-  std::vector<RigidKey> keys;
-  for (const Json& key : moves.array()) {
-    key.allow_only({"t_s", "shift_m", "rotation_deg", "scale"});
-    RigidKey next = keys.empty() ? RigidKey{} : keys.back();
-    next.t_s = number_in(key.at("t_s"), 0, most_seconds);
-    if (!keys.empty() && !(next.t_s > keys.back().t_s))
-      key.at("t_s").fail("times that ascend", "a time not after the one before");
-    if (const Json* shift = key.find("shift_m")) next.shift_m = vector_of(*shift);
-    if (const Json* rotation = key.find("rotation_deg")) next.rotation_deg = vector_of(*rotation, 1e6);
-    read_number(key, "scale", next.scale, 1, 0.01, 100);
-    keys.push_back(next);
+void KeyVisitor::check(const Json& object) const {
+  object.allow_only(keys_);
+  for (const Group& group : groups_) {
+    std::size_t given = 0;
+    for (const std::string_view key : group.keys)
+      if (object.find(key) != nullptr) ++given;
+    if (given == 1 || (given == 0 && !group.one_needed)) continue;
+    if (given == 0) object.fail("one of " + quoted(group.keys, ", "), "none of them");
+    if (group.keys.size() == 2) object.at(group.keys[0]).fail("either " + quoted(group.keys, " or "), "both");
+    object.fail("one of " + quoted(group.keys, ", "), std::to_string(given) + " of them");
   }
-  if (keys.empty()) moves.fail("at least one {\"t_s\": ...}", "an empty array");
-  return {std::move(keys), centre};
+}
+
+std::string ColumnVisitor::shape() const {
+  std::string text = "[";
+  for (const std::string_view column : columns_) text += (text.size() > 1 ? ", " : "") + std::string(column);
+  return text + ']';
+}
+
+std::string ColumnVisitor::words() const {
+  static constexpr std::array<std::string_view, 5> counts = {"no", "one", "two", "three", "four"};
+  return (only_numbers_ ? std::string(counts.at(count())) + " numbers " : "an array ") + shape();
+}
+
+void RowReader::fabric_column(std::string_view, std::string& name) {
+  const Json& given = next();
+  name = fabric_preset(given.string(), given.where(), given.pointer()).name;
+}
+
+void SceneReader::box(const Setting& s, const Range& each, std::optional<std::array<Vec3, 2>>& x) {
+  const Json* value = find(s);
+  if (value == nullptr) return;
+  if (!value->is_array() || value->array().size() != 2)
+    value->fail("two corners [[x, y, z], [x, y, z]]", value->describe());
+  const Vec3 a = vector_of(value->array()[0], each), b = vector_of(value->array()[1], each);
+  x = {a.cwiseMin(b), a.cwiseMax(b)};
 }
 
 }  // namespace toile::scene_reading

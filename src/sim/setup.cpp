@@ -3,6 +3,7 @@
 
 #include "body/measure.hpp"
 #include "core/error.hpp"
+#include "mesh/check.hpp"
 #include "sim/cloth_shapes.hpp"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ Vec3 along(const std::vector<ScenePin::Key>& path, double t_s) {
 GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& inputs,
                          std::optional<double>& counted_edge_m) {
   const std::string text = read(cloth.pattern);
-  inputs.add_bytes(text.data(), text.size());
+  inputs.add_text(text);
   const std::string file = printable(cloth.pattern);
   const Pattern pattern = parse_pattern(text, file);
   GarmentMesh garment;
@@ -59,6 +60,19 @@ GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& 
     for (Vec3& x : garment.x) x = turn * x + cloth.translation_m;
   }
   return garment;
+}
+
+// The shape of the cloth, or the refusal of one that has none, at its place in the scene.
+GarmentMesh load_shape(const SceneCloth& cloth) {
+  try {
+    GarmentMesh shape = shaped_cloth(cloth);
+    check_cloth("", shape.mesh, shape.x);
+    check_areas("", shape.x, shape.mesh.triangles);
+    return shape;
+  } catch (const InputError& error) {
+    if (cloth.shape_where.empty()) throw;  // no scene file
+    throw Error(error.code(), cloth.shape_where + ": " + cloth.shape_pointer + ": " + error.what());
+  }
 }
 
 std::vector<Fabric> fabrics_of(const Scene& scene, const SceneCloth& cloth, const ClothMesh& mesh) {
@@ -125,7 +139,7 @@ std::vector<TimedPin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) 
       timed.to_s = given.to_s;
       timed.moves = given.moves;
       timed.pin.particle = i;
-      if (given.on_path) timed.pin.path = [path = given.path](double t_s) { return along(path, t_s); };
+      if (given.hold == ScenePin::Hold::path) timed.pin.path = [path = given.path](double t_s) { return along(path, t_s); };
       pins.push_back(std::move(timed));
     }
   }
@@ -137,7 +151,7 @@ std::vector<TimedPin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) 
 LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read, Hash& inputs) {
   LoadedCloth loaded;
   std::optional<double> counted_edge_m;
-  loaded.garment = cloth.is_sewn() ? load_garment(cloth, read, inputs, counted_edge_m) : shaped_cloth(cloth);
+  loaded.garment = cloth.is_sewn() ? load_garment(cloth, read, inputs, counted_edge_m) : load_shape(cloth);
   loaded.fabrics = fabrics_of(scene, cloth, loaded.garment.mesh);
   loaded.rest_stretch = rest_stretch_of(cloth, loaded.garment.mesh);
   loaded.pins = pins_of(cloth, loaded.garment.x);
@@ -224,7 +238,7 @@ double default_offset_m(double edge_m) { return std::clamp(0.2 * edge_m, 1.5e-3,
 StepOptions step_options(const Scene& scene, const Fabric& fabric, double edge_m) {
   StepOptions step;
   if (scene.preconditioner) step.pcg.preconditioner = *scene.preconditioner;
-  step.pcg.tolerance = scene.tolerance;
+  step.pcg.tolerance = scene.solver_tolerance();
   step.pcg.procedure = scene.procedure;
   step.integrator = scene.integrator;
   step.newton_iterations = scene.newton_iterations;

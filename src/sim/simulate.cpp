@@ -5,6 +5,7 @@
 #include "sim/offenders.hpp"
 #include "sim/run.hpp"
 #include "sim/scene_inputs.hpp"
+#include "sim/start_run.hpp"
 
 #include <sys/resource.h>
 
@@ -62,6 +63,7 @@ void Run::load(Hash& inputs) {
   person_vertices_ = loaded.solid.positions.size();
   person_triangles_ = loaded.solid.triangles.size();
   add_solids(scene_.solids, loaded, inputs);
+  if (!scene_.start.empty()) add_start(scene_.start, inputs);
   motion_ = std::move(loaded.movement);
   SolidMesh& solid = loaded.solid;
   body_x_ = solid.positions;

@@ -143,6 +143,15 @@ void check_body(const std::filesystem::path& run, std::span<const Vec3> body_x) 
 
 }  // namespace
 
+void add_start(const std::string& directory, Hash& inputs) {
+  const std::filesystem::path run(directory);
+  const std::string cache = (run / "cloth.pc2").string();
+  draped_frame(run, std::numeric_limits<int>::max());  // a finished run, before anything large is read
+  inputs.add_text(read_file((run / "cloth.obj").string()));
+  const Vec3s x = draped(run, cache, at(Pc2Reader(cache).points()));
+  inputs.add_counted(std::span<const Vec3>(x));
+}
+
 Outfit start_from(const std::string& directory, std::span<const LoadedCloth> cloth, std::span<const Vec3> body_x) {
   const std::filesystem::path run_directory(directory);
   const std::string obj = (run_directory / "cloth.obj").string(), pc2 = (run_directory / "cloth.pc2").string();

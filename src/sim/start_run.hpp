@@ -13,4 +13,7 @@ namespace toile {
 // elsewhere than `body_x` begins.
 Outfit start_from(const std::string& directory, std::span<const LoadedCloth> cloth, std::span<const Vec3> body_x);
 
+// Adds what a start from `directory` is made of: drawing, and the positions in which it is draped.  Throws as above.
+void add_start(const std::string& directory, Hash& inputs);
+
 }  // namespace toile

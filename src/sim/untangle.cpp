@@ -81,6 +81,7 @@ class Untangler {
         push_(topology_, all_, start_of(x)),
         eased_(model_.bend.size(), 0) {
     if (!body.empty()) surface_.emplace(body_x, std::vector<Triangle>(body.begin(), body.end()));
+    world_.air.density_kg_per_m3 = 0;  // nothing falls
     world_.springs = [this](const ClothState&, double, double, std::vector<LinearSpring>& springs) {
       springs.insert(springs.end(), springs_.begin(), springs_.end());
     };
@@ -139,6 +140,8 @@ class Untangler {
   void begin() {
     StepOptions options;
     options.pcg.tolerance = 1e-2;
+    options.relinearisations = 0;  // a trial: how far its threads stretch decides nothing
+    options.flypaper = false;
     options.max_passes = 3;
     step_.emplace(model_, world_, options);
   }

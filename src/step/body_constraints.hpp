@@ -38,7 +38,7 @@ namespace toile {
 
 struct BodyContactOptions {
   double offset_m = 2.5e-3;  // r: where cloth rests above the body
-  double friction = 0.4;     // mu; kinetic, the static one is 2 % larger
+  double friction = Fabric{}.friction;  // mu; kinetic, the static one is 2 % larger
 };
 
 enum class Touch : std::uint8_t { none, slides, sticks };

@@ -21,9 +21,9 @@ struct Drag {
   std::array<Index, 3> particle{-1, -1, -1};  // corners of a triangle, or one particle; -1: unused
   std::array<double, 3> weight{1, 0, 0};      // barycentric
   std::function<Vec3(double t_s)> target;     // m
-  double stiffness_N_per_m = 0;               // k > 0
-  double damping_N_s_per_m = 0;               // c
-  double max_force_N = std::numeric_limits<double>::infinity();
+  double stiffness_N_per_m = 50;              // k > 0
+  double damping_N_s_per_m = 0.5;             // c
+  double max_force_N = 5;                     // infinite: however far away
 };
 
 // Appends the rows of a step from t_s to t_s + h_s.

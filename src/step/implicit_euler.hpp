@@ -47,14 +47,14 @@ struct StepOptions {
   Integrator integrator = Integrator::backward_euler;
   int newton_iterations = 1;  // linear solves per step, each about the end that the last one found; the paper: 1
   // More solves about where the last one ended, while a thread changes by more than it may, and one where turning makes energy; the
-  // paper: none.  Scenes run with six (sim/scene.hpp).
-  int relinearisations = 0;
+  // paper: none.
+  int relinearisations = 6;
   // Of the speed that free fall gives in a step: slower turning is not solved again for the energy that it makes, and is braked by it.
   double slow_motion = 1;
   int max_passes = 8;              // of the active set, per linear solve
   double max_speed_m_per_s = 100;  // beyond this the step is refused
   bool guard_body = true;          // the safe filter keeps cloth out of the body too
-  bool flypaper = false;           // what the body pinches goes with it (step/flypaper.hpp)
+  bool flypaper = true;            // what the body pinches goes with it (step/flypaper.hpp)
 };
 
 // What a step must not do.

@@ -5,6 +5,7 @@
 #include "garments.hpp"
 #include "material/bend.hpp"
 #include "step/adaptive_step.hpp"
+#include "support/bare_step.hpp"
 
 #include <gtest/gtest.h>
 
@@ -137,7 +138,7 @@ TEST(Fold, PanelsAreSewnFlat) {
   pattern.panels.push_back(folded_panel(0.2, 0.1, 1));
   const GarmentMesh garment = mesh_garment(pattern, 0.02);
   const Fabric fabric;
-  const Sewing sewing(garment, {&fabric, 1}, nullptr, StepOptions{}, SewingOptions{});
+  const Sewing sewing(garment, {&fabric, 1}, nullptr, test::bare_step(), SewingOptions{});
   EXPECT_TRUE(bent_hinges(sewing.model()).empty());
 }
 
@@ -150,8 +151,8 @@ TEST(Fold, ClothFoldsItselfToTheAngleAndRestsThere) {
     options.drag_per_s = 5;
     ClothModel model = build_model(garment.mesh, {&fabric, 1}, options);
     ClothState state{garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
-    StepWorld world;
-    AdaptiveStep stepper(model, world, StepOptions{}, AdaptiveOptions{});
+    StepWorld world = test::vacuum();
+    AdaptiveStep stepper(model, world, test::bare_step(), AdaptiveOptions{});
     for (int frame = 0; frame < 60; ++frame) {
       set_folds(model, std::min(1.0, frame / 20.0));
       const FrameReport report = stepper.advance(state, frame / 30.0, 1 / 30.0);

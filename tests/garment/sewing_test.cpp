@@ -4,6 +4,7 @@
 #include "core/parallel.hpp"
 #include "garments.hpp"
 #include "mesh/check.hpp"
+#include "support/bare_step.hpp"
 #include "support/bodies.hpp"
 #include "support/crossings.hpp"
 #include "support/sheets.hpp"
@@ -55,7 +56,7 @@ BodySurface capsule(double radius, double half_length) {
 struct SewingRun {
   SewingRun(const Pattern& pattern, double resolution, BodySurface* body = nullptr, const SewingOptions& options = {})
       : garment(mesh_garment(pattern, resolution)) {
-    sewing.emplace(garment, std::span<const Fabric>(&fabric, 1), body, StepOptions{}, options);
+    sewing.emplace(garment, std::span<const Fabric>(&fabric, 1), body, test::bare_step(), options);
   }
   void run(int most_frames) {
     for (int f = 0; f < most_frames && sewing->status() == SewingStatus::sewing; ++f) {
@@ -195,7 +196,7 @@ TEST(Sewing, ATubeTooSmallForTheBodyIsBlockedAndItsSeamsAreStretched) {
 TEST(Sewing, AStepThatCollapsesOverTautClothIsBlockedAndNotAFault) {
   const GarmentMesh garment = mesh_garment(test::tube_pattern(0.12, 0.12, 0.1), 0.02);
   const Fabric fabric;
-  StepOptions step;
+  StepOptions step = test::bare_step();
   step.max_speed_m_per_s = 1e-6;  // no step is accepted
   for (const bool taut : {false, true}) {
     SewingOptions options;
@@ -256,7 +257,7 @@ TEST(Sewing, ClothIsAsStiffAsLeatherUntilTheWeldAndNeverSofterThanItsFabric) {
     Fabric fabric, stiff;
     fabric.bend_u_N_m = fabric.bend_v_N_m = bend;
     stiff.bend_u_N_m = stiff.bend_v_N_m = std::max(bend, SewingOptions{}.bend_N_m);
-    const Sewing sewing(garment, {&fabric, 1}, nullptr, StepOptions{}, SewingOptions{});
+    const Sewing sewing(garment, {&fabric, 1}, nullptr, test::bare_step(), SewingOptions{});
     const ClothModel wanted = build_model(garment.mesh, {&stiff, 1});
     ASSERT_EQ(sewing.model().bend.size(), wanted.bend.size());
     for (std::size_t h = 0; h < wanted.bend.size(); ++h)

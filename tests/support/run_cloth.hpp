@@ -1,6 +1,7 @@
 // tests/support/run_cloth.hpp: a cloth that runs for a while, for tests of the step.
 #pragma once
 #include "step/adaptive_step.hpp"
+#include "support/bare_step.hpp"
 #include "support/fabrics.hpp"
 #include "support/sheets.hpp"
 
@@ -46,8 +47,8 @@ struct ClothRun {
     return speed;
   }
   ClothModel model;
-  StepWorld world;
-  StepOptions step;
+  StepWorld world = vacuum();
+  StepOptions step = bare_step();
   AdaptiveOptions adaptive;
   ClothState state;
   std::optional<AdaptiveStep> stepper;

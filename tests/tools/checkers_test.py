@@ -100,12 +100,6 @@ class Checkers(unittest.TestCase):
         self.refuses(tool, {**source, "docs/reason-codes.md": page}, "what to do")
         self.accepts(tool, {**source, "docs/reason-codes.md": page + "\n| `lost_cloth` | look for it |\n"})
 
-    def test_scene_keys(self):
-        tool = "check_docs.py"
-        source = {"src/sim/scene_cloth.cpp": '\nvalue.allow_only({"name",\n  "felted"});\n'}
-        self.refuses(tool, source, "src/sim/scene_cloth.cpp:3: 'felted'")
-        self.accepts(tool, {**source, "docs/scene.schema.json": '{"properties": {"name": {}, "felted": {}}}'})
-
     def test_commands(self):
         tool = "run_docs_commands.py"
         text = self.accepts(tool)

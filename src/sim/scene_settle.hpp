@@ -1,0 +1,27 @@
+// sim/scene_settle.hpp: what one key of an object asks of another, and what it settles where that one is not given.
+//
+// `value` is the JSON that the object was read from; throws InputError with its place.
+#pragma once
+#include "io/json.hpp"
+#include "sim/scene.hpp"
+
+namespace toile {
+
+template <class T>
+void settle(const Json&, T&) {}  // nothing: every key stands for itself
+
+void settle(const Json& value, SceneTube& tube);
+void settle(const Json& value, SceneRibbon& ribbon);
+void settle(const Json& value, ScenePanel& panel);
+void settle(const Json& value, ScenePin& pin);
+void settle(const Json& value, SceneDrag& drag);
+void settle(const Json& value, SceneCloth& cloth);
+void settle(const Json& value, SceneMotion& motion);
+void settle(const Json& value, SceneBody& body);
+void settle(const Json& value, SceneSolid& solid);
+void settle(const Json& value, Scene& scene);
+
+// Throws at the time of the first of the keys that `moves` gave which does not come after the one before.
+void check_ascending(const Json& moves, const std::vector<RigidKey>& keys);
+
+}  // namespace toile

@@ -1,0 +1,177 @@
+// sim/settings_cloth.hpp: the keys of a cloth, its shape, fabric, pins and hands.                  sim/settings.hpp
+#pragma once
+#include "sim/scene.hpp"
+#include "sim/settings.hpp"
+
+#include <limits>
+#include <vector>
+
+namespace toile {
+
+inline constexpr double most_seconds = 3600, most_fps = 1000;
+inline constexpr double farthest_m = 1e4;  // from the origin
+inline constexpr Range anywhere{-farthest_m, farthest_m}, within_a_run{0, most_seconds};
+inline constexpr Range any_angle{-1e6, 1e6};  // degrees: turns are counted, 720 are two
+
+template <class V>
+void describe_times_and_place(V& row, double& t_s, Vec3& x_m) {
+  row.column("t_s", within_a_run, t_s);
+  row.column("x", anywhere, x_m.x());
+  row.column("y", anywhere, x_m.y());
+  row.column("z", anywhere, x_m.z());
+}
+inline constexpr auto path_row = [](auto& row, ScenePin::Key& key) { describe_times_and_place(row, key.t_s, key.x_m); };
+inline constexpr auto point_row = [](auto& row, Vec3& p) {
+  row.column("x", anywhere, p.x());
+  row.column("y", anywhere, p.y());
+  row.column("z", anywhere, p.z());
+};
+
+struct Placement {  // the two members of whatever is placed
+  Vec3 &translation_m, &rotation_deg;
+};
+template <>
+inline constexpr std::string_view shared_name<Placement> = "placement";
+template <class V>
+void describe(V& v, Placement& placement) {
+  v.vector({"translation_m", "where its origin goes"}, anywhere, placement.translation_m);
+  v.vector({"rotation_deg", "turned first, R = Rz Ry Rx; [-90, 0, 0] lays a grid down, right side up"}, {-1e4, 1e4},
+           placement.rotation_deg);
+}
+
+template <>
+inline constexpr std::string_view shared_name<RigidKey> = "moves";
+template <class V>
+void describe(V& v, RigidKey& key) {
+  constexpr std::string_view as_before = "as in the key before";
+  v.number(Setting{"t_s", "when; times ascend"}.needs(), within_a_run, key.t_s);
+  v.vector({"shift_m", "how far it has gone", as_before}, anywhere, key.shift_m);
+  v.vector({"rotation_deg", "how far it has turned, R = Rz Ry Rx; 720 are two turns", as_before}, any_angle,
+           key.rotation_deg);
+  v.number({"scale", "how much it has grown", as_before}, {0.01, 100}, key.scale);
+}
+
+template <>
+inline constexpr std::string_view shared_name<Fabric> = "fabric";
+inline const Shorthand fabric_by_name = [](const std::string&) { return std::string_view("base"); };
+template <class V>
+void describe(V& v, Fabric& fabric) {
+  constexpr std::string_view as_base = "the base's";
+  v.fabric({"base", "the preset from which the others differ"}, fabric);
+  v.number({"density_kg_per_m2", "mass per area", as_base}, {0, 1e3, 1, true}, fabric.density_kg_per_m2);
+  v.number({"stretch_u_N_per_m", "stiffness of the warp", as_base}, {0, 1e9, 1, true}, fabric.stretch_u_N_per_m);
+  v.number({"stretch_v_N_per_m", "stiffness of the weft", as_base}, {0, 1e9, 1, true}, fabric.stretch_v_N_per_m);
+  v.number({"shear_N_per_m", "stiffness against shear", as_base}, {0, 1e9}, fabric.shear_N_per_m);
+  v.number({"compression_ratio", "of the stretch stiffness, in threads that are shorter than at rest", as_base},
+           {0, 1, 1, true}, fabric.compression_ratio);
+  v.number({"strain_limit", "0.05: no thread gets more than 5 % longer; 0: no limit", as_base}, {0, 1},
+           fabric.strain_limit);
+  v.number({"bend_u_N_m", "bending rigidity of the warp", as_base}, {0, 1e6}, fabric.bend_u_N_m);
+  v.number({"bend_v_N_m", "bending rigidity of the weft", as_base}, {0, 1e6}, fabric.bend_v_N_m);
+  v.number({"stretch_damping_s", "relaxation time of stretch", as_base}, {0, 1e3}, fabric.stretch_damping_s);
+  v.number({"shear_damping_s", "relaxation time of shear", as_base}, {0, 1e3}, fabric.shear_damping_s);
+  v.number({"bend_damping_s", "relaxation time of bending", as_base}, {0, 1e3}, fabric.bend_damping_s);
+  v.number({"friction", "on another layer; the larger of two counts", as_base}, {0, 100}, fabric.friction);
+  v.number({"thickness_m", "distance of two layers that lie on each other", as_base}, {0, 0.1, 1, true},
+           fabric.thickness_m);
+}
+
+inline constexpr Range length_of_a_shape{1e-3, 10}, edge_of_a_shape{5e-4, 1};
+
+template <class V>
+void describe(V& v, SceneGrid& grid) {
+  v.number({"width_m", "along x"}, length_of_a_shape, grid.width_m);
+  v.number({"height_m", "along y"}, length_of_a_shape, grid.height_m);
+  v.number({"edge_m", "edge length of its triangles"}, edge_of_a_shape, grid.edge_m);
+}
+
+template <class V>
+void describe(V& v, SceneTube& tube) {
+  v.number({"radius_m", "about the y axis"}, length_of_a_shape, tube.radius_m);
+  v.number({"length_m", "along the y axis"}, length_of_a_shape, tube.length_m);
+  v.number({"edge_m", "edge length of its triangles, at most the radius"}, edge_of_a_shape, tube.edge_m);
+}
+
+template <class V>
+void describe(V& v, SceneRibbon& ribbon) {
+  v.number({"width_m", "its breadth"}, length_of_a_shape, ribbon.width_m);
+  v.number({"edge_m", "edge length of its triangles"}, edge_of_a_shape, ribbon.edge_m);
+  v.flag({"closed", "from the last point back to the first"}, ribbon.closed);
+  v.rows(Setting{"path_m", "points that its middle runs through, smoothly"}.needs(), Rows{}, ribbon.path_m, point_row);
+  v.vector({"across", "direction of its breadth at the first point; it turns as little as it can from there"}, anywhere,
+           ribbon.across);
+}
+
+template <class V>
+void describe(V& v, ScenePanel& panel) {
+  constexpr std::string_view as_pattern = "the pattern's";
+  constexpr Range shrunk_or_not{0.2, 5};
+  v.object({"fabric", "of this panel", "the pattern's, or the cloth's"}, panel.fabric, fabric_by_name);
+  v.number({"rest_stretch_u",
+            "of the warp, up the panel; 0.9 is an elastic that wants to be 10 % shorter, and pulls after the sewing",
+            as_pattern},
+           shrunk_or_not, panel.rest_stretch_u);
+  v.number({"rest_stretch_v", "of the weft", as_pattern}, shrunk_or_not, panel.rest_stretch_v);
+  v.rows({"rest_stretch_path", "for a cloth that shrinks during the run", "constant"}, Rows{1, true},
+         panel.rest_stretch_path, [=](auto& row, RestStretchKey& key) {
+           row.column("t_s", within_a_run, key.t_s);
+           row.column("b_u", shrunk_or_not, key.b.x());
+           row.column("b_v", shrunk_or_not, key.b.y());
+         });
+}
+
+template <class V>
+void describe(V& v, ScenePin& pin) {
+  static constexpr std::array<std::pair<std::string_view, ScenePin::Hold>, 3> holds = {
+      {{"fixed", ScenePin::Hold::fixed}, {"path", ScenePin::Hold::path}, {"moves", ScenePin::Hold::moves}}};
+  v.exactly_one({"near_m", "in_box_m"});
+  v.vector({"near_m", "holds the particle nearest to it at the start", "nothing"}, anywhere, pin.near_m);
+  v.box({"in_box_m", "holds all between two corners of a box at the start", "nothing"}, anywhere, pin.in_box_m);
+  v.name({"hold", "\"path\" has `path_m`; \"moves\" have `moves`, and take what they hold along"}, holds, pin.hold);
+  v.rows({"path_m", "where the particle is led, from the first frame on", "nowhere"}, Rows{1, true}, pin.path, path_row);
+  v.list({"moves", "of all that it holds, [below](#moves)", "nowhere"}, pin.moves.keys(), 1);
+  v.vector({"about_m", "centre of `moves`"}, anywhere, pin.moves.centre());
+  v.number({"from_s", "when it takes hold"}, within_a_run, pin.from_s);
+  v.number({"to_s", "when it lets go", "never"}, within_a_run, pin.to_s);
+}
+
+template <class V>
+void describe(V& v, SceneDrag& drag) {
+  v.vector(Setting{"near_m", "pulls the particle nearest to it"}.needs(), anywhere, drag.near_m);
+  v.rows(Setting{"path_m", "of the hand; times count from the first frame"}.needs(), Rows{1, true}, drag.path, path_row);
+  v.number({"stiffness_N_per_m", "of the spring in between"}, {0, 1e6, 1, true}, drag.stiffness_N_per_m);
+  v.number({"damping_N_s_per_m", "of the spring"}, {0, 1e6}, drag.damping_N_s_per_m);
+  v.number({"max_force_N", "of the spring, as a step begins"}, {0, 1e6, 1, true}, drag.max_force_N);
+  v.number({"from_s", "when it takes hold", "the path's first time"}, within_a_run, drag.from_s);
+  v.number({"to_s", "when it lets go", "the path's last time"}, within_a_run, drag.to_s);
+}
+
+template <class V>
+void describe(V& v, SceneCloth& cloth) {
+  v.text({"name", "of the cloth; where there are several, their panels are named after them",
+          "the pattern's, or \"sheet\", \"tube\", \"ribbon\""},
+         cloth.name);
+  v.exactly_one({"pattern", "grid", "tube", "ribbon"});
+  v.path({"pattern", "a sewing pattern ([pattern-format.md](pattern-format.md))", "a shape"}, cloth.pattern);
+  v.object({"grid", "near-equilateral triangles, drawn upright around the origin, facing +z", "no"}, cloth.grid);
+  v.object({"tube", "around the y axis, open above and below", "no"}, cloth.tube);
+  v.object({"ribbon", "along a curve", "no"}, cloth.ribbon);
+  v.at_most_one({"resolution_cm", "vertices"});
+  v.number({"resolution_cm", "edge length of a pattern's triangles"}, {0.1, 20, 0.01}, cloth.resolution_m);
+  v.whole({"vertices", "instead: how many vertices the welded garment shall have, within 1 %", "by `resolution_cm`"},
+          {20, 2e6}, cloth.vertices);
+  v.object({"fabric", "a name, or an object with what differs from it", "cotton"}, cloth.fabric, fabric_by_name);
+  v.table({"panels", "what some panels have of their own, by their names ([extension](pattern-format.md#the-extension))",
+           "the pattern's"},
+          cloth.panels, &ScenePanel::name);
+  Placement placement{cloth.translation_m, cloth.rotation_deg};
+  v.object({"placement", "where the drawing goes", "as drawn"}, placement);
+  v.heights({"label_heights_m",
+             "y at which edges with a label are held, from the end of the sewing until half a second after the weld",
+             "the waist for `lower_interface`: where the body is narrowest"},
+            {-10, 10}, cloth.label_heights);
+  v.list({"drags", "hands that pull", "none"}, cloth.drags);
+  v.list({"pins", "what is held, of a cloth that is not sewn", "none"}, cloth.pins);
+}
+
+}  // namespace toile

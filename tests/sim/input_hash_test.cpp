@@ -1,0 +1,86 @@
+// What `input_hash` is made of besides the settings: the bytes of the files that a scene names.
+#include "io/scratch.hpp"
+#include "sim/setup.hpp"
+#include "sim/simulate.hpp"
+#include "sim/start_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace toile {
+namespace {
+
+// As simulate() makes it.
+std::string input_hash(const Scene& scene) {
+  Hash inputs;
+  add_to_hash(scene, inputs);
+  for (const SceneCloth& cloth : scene.cloth) load_cloth(scene, cloth, read_text_file, inputs);
+  LoadedBody body = load_body(scene.body, inputs);
+  add_solids(scene.solids, body, inputs);
+  if (!scene.start.empty()) add_start(scene.start, inputs);
+  return inputs.hex();
+}
+
+std::string box(double width) {
+  std::string text;
+  for (const char* corner : {"0 0 0", "1 0 0", "0 1 0", "1 1 0", "0 0 1", "1 0 1", "0 1 1"})
+    text += std::string("v ") + corner + "\n";
+  text += "v " + std::to_string(width) + " 1 1\n";
+  return text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+}
+
+TEST(InputHash, OfAFileItsBytesCountAndNotItsName) {
+  const Scratch scratch;
+  scratch.put("a.obj", box(1));
+  scratch.put("b.obj", box(1));
+  scratch.put("c.obj", box(1.25));
+  const auto solid = [&](const std::string& file) {
+    return input_hash(
+        parse_scene(R"({"cloth": [{"grid": {"edge_m": 0.2}}], "solids": [{"mesh": ")" + file + R"("}]})", scratch / "s.json"));
+  };
+  EXPECT_EQ(solid("a.obj"), solid("b.obj"));
+  EXPECT_NE(solid("a.obj"), solid("c.obj"));
+}
+
+TEST(InputHash, TextsThatFollowEachOtherDoNotRunIntoEachOther) {
+  Hash one, other;
+  one.add_text("ab");
+  one.add_text("c");
+  other.add_text("a");
+  other.add_text("bc");
+  EXPECT_NE(one.hex(), other.hex());
+}
+
+// Two scenes that differ in nothing but the run that they start from.
+TEST(InputHash, AStartIsTheRunThatItStartsFrom) {
+  const Scratch scratch;
+  const auto run = [&](const std::string& name, const std::string& start, const std::string& gravity) {
+    const std::string from = start.empty() ? "" : R"(, "start": ")" + start + '"';
+    const Scene scene = parse_scene(R"({"cloth": [{"grid": {"width_m": 0.4, "height_m": 0.4, "edge_m": 0.1}}],
+      "world": {"gravity_m_per_s2": [0, )" + gravity + R"(, 0]}, "time": {"seconds": 0.1})" + from + "}",
+                                    scratch / "s.json");
+    RunOptions options;
+    options.directory = scratch / name;
+    return simulate(scene, options).input_hash;
+  };
+  run("slow", "", "-1");
+  run("fast", "", "-20");
+  const std::string from_slow = run("x", "slow", "-9");
+  EXPECT_NE(from_slow, run("y", "fast", "-9"));
+  EXPECT_EQ(from_slow, run("z", "slow", "-9"));
+  EXPECT_NE(from_slow, run("w", "", "-9"));
+}
+
+TEST(InputHash, SecondsThatAreGivenCount) {
+  const auto with = [](const std::string& time) {
+    return input_hash(parse_scene(R"({"cloth": [{"grid": {"edge_m": 0.2}}],
+      "solids": [{"sphere": {"radius_m": 0.1}, "moves": [{"t_s": 0}, {"t_s": 2, "shift_m": [0, 1, 0]}]}])" + time + "}",
+                                  "s.json"));
+  };
+  EXPECT_NE(with(""), with(R"(, "time": {"seconds": 5})")) << "2 s of moves, or 5";
+}
+
+}  // namespace
+}  // namespace toile

@@ -1,0 +1,23 @@
+// tests/support/bare_step.hpp: the step as the paper has it, for tests that look at one thing alone.  What a scene gets when it says
+// nothing (StepOptions{}, AirOptions{}) solves again where threads stretch too much, holds what the body pinches, and has air.
+#pragma once
+#include "step/implicit_euler.hpp"
+
+namespace toile::test {
+
+inline StepOptions bare_step() {
+  StepOptions options;
+  options.pcg.tolerance = 1e-3;
+  options.relinearisations = 0;
+  options.flypaper = false;
+  options.body.friction = 0.4;
+  return options;
+}
+
+inline StepWorld vacuum() {
+  StepWorld world;
+  world.air.density_kg_per_m3 = 0;
+  return world;
+}
+
+}  // namespace toile::test
