@@ -20,7 +20,8 @@ add_compile_definitions($<$<CONFIG:Debug>:EIGEN_INITIALIZE_MATRICES_BY_NAN>)
 
 set(TOILE_SANITIZE "" CACHE STRING "`address` (with undefined behaviour) or `thread`; empty: none")
 if(TOILE_SANITIZE STREQUAL "address")
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_compile_options(-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)  # an index beyond a span or vector, wherever its memory ends
   add_link_options(-fsanitize=address,undefined)
 elseif(TOILE_SANITIZE STREQUAL "thread")
   add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
