@@ -100,6 +100,20 @@ void BodySurface::set_motion(std::span<const Vec3> start, std::span<const Vec3> 
   update_normals();
 }
 
+double BodySurface::travel_near(const Vec3& p, double reach_m) const {
+  OuterBox box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double c = p[static_cast<Eigen::Index>(k)];
+    box.low[k] = OuterBox::below(c - reach_m);
+    box.high[k] = OuterBox::above(c + reach_m);
+  }
+  double travel2 = 0;
+  tree_.visit_overlapping(box, [&](Index t) {
+    for (const Index i : triangle(t)) travel2 = std::max(travel2, vertex_travel(i).squaredNorm());
+  });
+  return std::sqrt(travel2);
+}
+
 Vec3 BodySurface::normal_midway(Index triangle, const Vec3& normal) const {
   const auto& [a, b, c] = triangles_[static_cast<std::size_t>(triangle)];
   const auto x = [&](Index i) -> const Vec3& { return end_[static_cast<std::size_t>(i)]; };

@@ -81,6 +81,10 @@ class BodySurface {
     return end_[static_cast<std::size_t>(vertex)] - start_[static_cast<std::size_t>(vertex)];
   }
 
+  // No point of the body that comes within `reach_m` of p in the step goes farther than this; 0 when none does.  A hand that swings says
+  // nothing about a foot that stands.
+  double travel_near(const Vec3& p, double reach_m) const;
+
   // Where a normal at a triangle points in the middle of the step, which may turn it: n + (N_end - N_now)/2, at unit length.
   Vec3 normal_midway(Index triangle, const Vec3& normal) const;
 

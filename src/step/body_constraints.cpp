@@ -48,17 +48,19 @@ BodyConstraints::BodyConstraints(const ClothModel& model, const BodySurface* bod
 
 bool BodyConstraints::too_deep(const BodyPoint& point) const { return point.gap_m < -deepest * options_.offset_m; }
 
+double BodyConstraints::reach(const Vec3& x, double way_m) const {
+  const double own = options_.offset_m + way_m;
+  return body_moves_ ? own + body_->travel_near(x, own) : own;
+}
+
 void BodyConstraints::detect(const ClothState& state, double h_s) {
   near_.clear();
   if (!body_) return;
-  double body_travel = 0;
   const auto start = body_->positions(), end = body_->next_positions();
-  for (std::size_t i = 0; i < start.size(); ++i) body_travel = std::max(body_travel, (end[i] - start[i]).squaredNorm());
-  farthest_travel_m_ = std::sqrt(body_travel);
+  body_moves_ = !std::equal(start.begin(), start.end(), end.begin());
   const double fall = h_s * h_s * model_->gravity_m_per_s2.norm();
   parallel_for(points_.size(), 256, [&](std::size_t i) {
-    const double reach = options_.offset_m + farthest_travel_m_ + h_s * state.v[i].norm() + fall;
-    reach_m_[i] = 1.01 * reach;
+    reach_m_[i] = 1.01 * reach(state.x[i], h_s * state.v[i].norm() + fall);
     points_[i] = body_->nearest(state.x[i], reach_m_[i]);
   });
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -104,10 +106,10 @@ void BodyConstraints::find_what_came_far(const ClothState& state, std::span<cons
     if (points_[i].triangle >= 0) continue;
     const auto particle = static_cast<Index>(i);
     const Vec3 way = step.drift(particle) + step.weight_s * (state.v[i] + dv[i]);
-    const double reach = options_.offset_m + farthest_travel_m_ + way.norm();
-    if (reach <= reach_m_[i]) continue;
-    reach_m_[i] = reach;
-    points_[i] = body_->nearest(state.x[i], reach);
+    const double farther = reach(state.x[i], way.norm());
+    if (farther <= reach_m_[i]) continue;
+    reach_m_[i] = farther;
+    points_[i] = body_->nearest(state.x[i], farther);
     if (points_[i].triangle < 0 || too_deep(points_[i])) continue;
     Near near{particle, {points_[i], Vec3::Zero(), points_[i].normal}};
     near.contact.follow(*body_);

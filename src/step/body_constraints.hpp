@@ -126,6 +126,8 @@ class BodyConstraints {
       archive(particle, faces, normal, lambda_beside_N);
     }
   };
+  // How far off a body may be at the start of a step, and meet what goes this far from x.
+  double reach(const Vec3& x, double way_m) const;
   void find_creases(const ClothState& state);
   // At the end of the step, with the velocity v.
   double predicted_gap_m(const Contact& contact, Index particle, const Vec3& v, const StepFormula& step) const;
@@ -153,7 +155,7 @@ class BodyConstraints {
   BodyContactOptions options_;
   std::vector<BodyPoint> points_;  // [particle] nearest point of the body; triangle -1: farther than reach_m_
   std::vector<double> reach_m_;    // [particle] how far was looked
-  double farthest_travel_m_ = 0;   // of any vertex of the body in the step that detect was told of
+  bool body_moves_ = false;        // in the step that detect was told of
   std::vector<Near> near_;         // ascending particles, then those that `update` found
   std::vector<Beside> beside_;
   std::vector<Memory> memory_;    // ascending particles

@@ -36,7 +36,7 @@ bool Flypaper::has_room(const Pinch& pinch) const {
 
 bool Flypaper::goes_on(Pinch& pinch, const Vec3& x) const {
   for (BodyPoint& side : pinch.side) {
-    const double reach = std::abs(side.gap_m) + 2 * (offset_m_ + farthest_travel_m_);
+    const double own = std::abs(side.gap_m) + 2 * offset_m_, reach = own + 2 * body_->travel_near(x, own);
     side = body_->nearest_facing(x, side.normal, reach);
     if (side.triangle < 0) return false;
   }
@@ -50,8 +50,10 @@ bool Flypaper::goes_on(Pinch& pinch, const Vec3& x) const {
 bool Flypaper::begins(Pinch& pinch, const Vec3& x) const {
   const BodyPoint near = pinch.side[0];
   const double travel = body_->travel(near.triangle, near.barycentric).norm();
-  const double reach = begins_below * offset_m_ + travel + farthest_travel_m_ - near.gap_m;
-  if (near.gap_m < 0 || reach <= 0) return false;
+  const double own = begins_below * offset_m_ + travel - near.gap_m;
+  if (near.gap_m < 0) return false;
+  const double reach = own + body_->travel_near(x, std::max(own, 0.0));
+  if (reach <= 0) return false;
   pinch.side[1] = body_->nearest_opposite(x, near.normal, reach);
   const BodyPoint& other = pinch.side[1];
   // Within it; or beside it, not over it: the way to it leads along it.
@@ -65,16 +67,13 @@ bool Flypaper::begins(Pinch& pinch, const Vec3& x) const {
 
 void Flypaper::detect(const ClothState& state, std::span<const BodyPoint> nearest) {
   if (!body_) return;
-  double travel2 = 0;
-  for (std::size_t v = 0; v < body_->positions().size(); ++v)
-    travel2 = std::max(travel2, body_->vertex_travel(static_cast<Index>(v)).squaredNorm());
-  farthest_travel_m_ = std::sqrt(travel2);
+  const auto start = body_->positions(), end = body_->next_positions();
   was_.assign(pinched_.begin(), pinched_.end());  // what has just been let go of stays free for this step
   candidates_.clear();
   for (Pinch& pinch : pinches_)
     if (goes_on(pinch, state.x[at(pinch.particle)])) candidates_.push_back(pinch);
   pinches_.swap(candidates_);
-  if (travel2 > 0) {  // else nothing closes
+  if (!std::equal(start.begin(), start.end(), end.begin())) {  // else nothing closes
     candidates_.clear();
     for (std::size_t i = 0; i < nearest.size(); ++i) {
       if (nearest[i].triangle < 0 || was_[i] != Pinched::no) continue;

@@ -72,7 +72,7 @@ class Flypaper {
   bool has_room(const Pinch& pinch) const;
 
   const BodySurface* body_;
-  double offset_m_, farthest_travel_m_ = 0;
+  double offset_m_;
   std::vector<Pinch> pinches_, candidates_;  // ascending particles
   std::vector<Pinched> pinched_, was_;       // [particle]; before the last detect
   std::vector<char> begun_;                  // [candidate]

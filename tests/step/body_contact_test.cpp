@@ -291,6 +291,33 @@ TEST(BodyContact, ABodyGivenInTimeCarriesTheSheetAtEveryStepLength) {
   }
 }
 
+// How far a particle looks for the body is said by what moves near it, not by what moves at all.
+TEST(BodyContact, WhatMovesFarAwayIsNoReasonToLookFarther) {
+  const double height_m = 0.3, h = 1.0 / 30;
+  const auto found = [&](const Vec3& slab_m_per_s, const Vec3& far_m_per_s) {
+    const BodySurface slab = test::tilted_slab(3, 0.2, 0);
+    std::vector<Vec3> rest(slab.positions().begin(), slab.positions().end());
+    std::vector<Triangle> triangles(slab.triangles().begin(), slab.triangles().end());
+    for (const auto& [a, b, c] : slab.triangles()) triangles.push_back({a + 8, b + 8, c + 8});
+    for (std::size_t i = 0; i < 8; ++i) rest.push_back(rest[i] + Vec3(50, 0, 0));
+    BodySurface both(rest, triangles);
+    ClothRun run = on_incline(0, 0.3, both);
+    for (Vec3& x : run.state.x) x.y() = height_m;
+    run.world.body_at = [&](double t_s, std::span<Vec3> x) {
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] = rest[i] + t_s * (i < 8 ? slab_m_per_s : far_m_per_s);
+    };
+    run.start();
+    run.stepper->integrator().prepare(run.state, 0, h, h);
+    const auto points = run.stepper->integrator().body_constraints().points();
+    return std::count_if(points.begin(), points.end(), [](const BodyPoint& point) { return point.triangle >= 0; });
+  };
+  const Vec3 still(0, 0, 0), fast(0, 15, 0);  // half a metre in the step
+  EXPECT_EQ(found(still, still), 0);
+  EXPECT_EQ(found(still, fast), 0);
+  EXPECT_GT(found(fast, still), 100);
+  EXPECT_GT(found(fast, fast), 100);
+}
+
 TEST(BodyContact, AHalvedStepTakesTheBodyHalfAsFar) {
   BodySurface slab = test::tilted_slab(3, 0.2, 0);
   OnIncline run(0, 0.3, slab);
