@@ -1,5 +1,7 @@
 // apps/cli/command_line.hpp: what was typed.                                                        docs/command-line.md
 #pragma once
+#include "sim/budget.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +25,7 @@ struct CommandLine {
   std::optional<double> resolution_cm, fps, seconds;
   bool strict_start = false;
   bool list = false;
+  BudgetLimits limits;
 
   // Of bench.
   bool csv = false;

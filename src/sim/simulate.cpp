@@ -77,6 +77,7 @@ class Run {
   Report operator()() {
     Hash inputs;
     add_to_hash(scene_, inputs);
+    require_budget(scene_, options_.read, options_.limits);
     say("meshing", 0);
     report_.startup.scene = options_.seconds_before;
     load_cloth(inputs);
