@@ -36,9 +36,9 @@ double left_in_group_mb(const std::string& limit, const std::string& used, const
   return std::max(0.0, *most - *now + number_in_file(statistics, caches).value_or(0)) / mb;
 }
 
-double limit_mb(int resource) {
+double limit_mb(decltype(RLIMIT_AS) resource) {
   rlimit limit{};
-  if (::getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+  if (::getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
     return std::numeric_limits<double>::infinity();
   return static_cast<double>(limit.rlim_cur) / mb;
 }

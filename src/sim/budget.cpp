@@ -28,10 +28,10 @@ constexpr double mb_per_sample = 12.0 / (1 << 20);  // of a vertex of a motion f
 constexpr double obj_bytes_per_triangle = 40;       // "f 1234 1235 1236", and half of "v 0.123456 1.234567 -0.123456"
 constexpr double obj_copies = 4;              // of the text of a mesh while it is read: itself, and what it says
 
-// Time: one step of 1/60 s on two cores of a Xeon (docs/benchmarks.md).
-constexpr double step_us = 8;            // per particle, of small cloth
+// Time of one step on two cores of a Xeon (docs/benchmarks.md, "How far from real time" and the drapes up to 100,000 particles).
+constexpr double step_us = 6;            // per particle, of small cloth
 constexpr double small_particles = 2600;
-constexpr double step_exponent = 0.3;    // iterations grow so with the number of particles
+constexpr double step_exponent = 0.35;   // iterations and refused steps grow so with the number of particles
 constexpr double body_step_us = 0.3;     // per triangle of a body
 constexpr double second_core = 1.5;      // how much faster two threads are than one
 constexpr double mannequin_s = 1.5, meshing_us = 20, load_us = 5;  // per particle of a pattern, per triangle of a body
