@@ -9,6 +9,7 @@
 #include "io/obj.hpp"
 #include "mesh/check.hpp"
 #include "io/json_text.hpp"
+#include "sim/budget.hpp"
 #include "sim/setup.hpp"
 #include "terminal.hpp"
 
@@ -62,6 +63,24 @@ std::string describe(const Pattern& pattern, const GarmentMesh& garment, double 
   return text;
 }
 
+// What a run of the scene will take; throws when that is beyond the limits.
+std::string describe(const Scene& scene, const BudgetLimits& limits, JsonText& json) {
+  const Budget budget = estimate_budget(scene, read_text_file);
+  check_budget(budget, limits);
+  json.key("budget");
+  json.begin_object();
+  json.member("memory_mb", budget.memory_mb);
+  json.member("frames", budget.frames);
+  json.member("unwritten_frames", budget.unwritten_frames);
+  json.member("seconds", budget.seconds);
+  json.end_object();
+  return fmt::sprintf("about %.0f MB, up to %.0f frames%s, up to %s\n", budget.memory_mb, budget.frames,
+                      budget.unwritten_frames > 0 ? fmt::sprintf(" and %.0f before them", budget.unwritten_frames) : "",
+                      budget.seconds < 120    ? fmt::sprintf("%.0f s", budget.seconds)
+                      : budget.seconds < 7200 ? fmt::sprintf("%.0f min", budget.seconds / 60)
+                                              : fmt::sprintf("%.1f hours", budget.seconds / 3600));
+}
+
 std::string check_mesh(const std::string& path, JsonText& json) {
   const std::string file = printable(path);
   const ObjMesh mesh = parse_obj(read_file(path), file);
@@ -92,20 +111,30 @@ std::string check_mesh(const std::string& path, JsonText& json) {
   return text;
 }
 
-std::string check_pattern_text(const std::string& path, const std::string& text, double resolution_m, JsonText& json) {
+std::string check_pattern_text(const std::string& path, const std::string& text, const BudgetLimits& limits, JsonText& json) {
+  const double resolution_m = checked_resolution_m;
   const Pattern pattern = parse_pattern(text, printable(path));
+  Scene dressed;  // as `dress` would, on the mannequin
+  dressed.name = pattern.name;
+  dressed.seconds = 10;
+  dressed.until_still = true;
+  dressed.body.kind = SceneBody::Kind::mannequin;
+  dressed.cloth.emplace_back().pattern = path;
+  dressed.cloth.front().resolution_m = resolution_m;
+  const std::string budget = "  as dressed for 10 s: " + describe(dressed, limits, json);
   GarmentMesh garment;
   try {
     garment = mesh_garment(pattern, resolution_m);
   } catch (const InputError& error) {
     throw Error(error.code(), printable(path) + ": " + error.what());
   }
-  return describe(pattern, garment, resolution_m, json);
+  return describe(pattern, garment, resolution_m, json) + budget;
 }
 
-std::string check_scene(const std::string& path, const std::string& text, JsonText& json) {
+std::string check_scene(const std::string& path, const std::string& text, const BudgetLimits& limits, JsonText& json) {
   const Scene scene = parse_scene(text, path);
   output_folder({}, scene);
+  const std::string budget = "  " + describe(scene, limits, json);
   Hash hash;
   Index vertices = 0, triangles = 0;
   for (const SceneCloth& cloth : scene.cloth) {
@@ -120,10 +149,11 @@ std::string check_scene(const std::string& path, const std::string& text, JsonTe
   json.member("triangles", triangles);
   json.member("body_vertices", body.solid.positions.size());
   return fmt::sprintf("scene, cloth of %d vertices and %d triangles, body of %zu vertices%s\n", vertices, triangles,
-                      body.solid.positions.size(), body.movement ? ", moving" : "");
+                      body.solid.positions.size(), body.movement ? ", moving" : "") +
+         budget;
 }
 
-std::string check_file(const std::string& path, JsonText& json) {
+std::string check_file(const std::string& path, const BudgetLimits& limits, JsonText& json) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".obj" || ending == ".OBJ") return check_mesh(path, json);
   if (ending != ".json" && ending != ".JSON") {
@@ -134,10 +164,10 @@ std::string check_file(const std::string& path, JsonText& json) {
   const std::string text = read_text_file(path);
   const Json root = Json::parse(text, printable(path));
   if (root.is_object() && root.find("cloth") == nullptr && root.find("pattern") != nullptr)
-    return check_pattern_text(path, text, checked_resolution_m, json);
+    return check_pattern_text(path, text, limits, json);
   if (root.is_object() && root.find("cloth") == nullptr)
     root.fail("\"cloth\" (a scene) or \"pattern\" (a pattern)", "neither of them");
-  return check_scene(path, text, json);
+  return check_scene(path, text, limits, json);
 }
 
 }  // namespace
@@ -155,7 +185,7 @@ ExitCode check_command(const CommandLine& line) {
       json.begin_object();
       json.member("file", path);
       json.member("ok", true);
-      const std::string said = check_file(path, json);
+      const std::string said = check_file(path, line.limits, json);
       json.end_object();
       text += path + ": " + said;
     } catch (const Error& error) {

@@ -27,6 +27,17 @@ void add_checkpoint_option(CLI::App& command, CommandLine& line) {
       ->check(CLI::Range(1, 1000000));
 }
 
+void add_limits(CLI::App& command, CommandLine& line) {
+  command.add_option("--max-memory", line.limits.memory_mb, "Refuse what is estimated to take more, MB (default: what there is)")
+      ->check(CLI::Range(1.0, 1e12));
+  command.add_option("--max-frames", line.limits.frames, "Refuse what may take more frames, sewing included")
+      ->check(CLI::Range(1.0, 1e12))
+      ->capture_default_str();
+  command.add_option("--max-hours", line.limits.hours, "Refuse what is estimated to take longer, hours")
+      ->check(CLI::Range(1e-6, 1e12))
+      ->capture_default_str();
+}
+
 void add_untangle_options(CLI::App& command, CommandLine& line) {
   command.add_option("CLOTH", line.inputs, "Cloth mesh (OBJ)")->required()->expected(1);
   command.add_option("--body", line.body, "Body mesh (OBJ), or a mannequin: woman (also: mannequin), dancer, man");
@@ -159,6 +170,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
 
   CLI::App* bench = add_bench(app, line);
   for (CLI::App* command : {demo, dress, run, check, verify, preview}) add_common(*command, line);
+  for (CLI::App* command : {demo, dress, run, check}) add_limits(*command, line);
 
   try {
     app.parse(argc, argv);
@@ -177,7 +189,12 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
 
   const CLI::App* chosen = app.get_subcommands().front();
   for (const auto& [option, value] :
-       {std::pair{"--resolution", line.resolution_cm}, {"--fps", line.fps}, {"--seconds", line.seconds}})
+       {std::pair{"--resolution", line.resolution_cm},
+        {"--fps", line.fps},
+        {"--seconds", line.seconds},
+        {"--max-memory", line.limits.memory_mb},
+        {"--max-frames", line.limits.frames},
+        {"--max-hours", line.limits.hours}})
     if (value && !std::isfinite(*value))
       throw Error(ExitCode::usage, std::string(option) + ": expected a finite number");  // Range lets NaN pass
   using Command = CommandLine::Command;

@@ -1,5 +1,7 @@
 // apps/cli/command_line.hpp: what was typed.                                                        docs/command-line.md
 #pragma once
+#include "sim/budget.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +28,7 @@ struct CommandLine {
   bool list = false;
   std::optional<int> checkpoint_frames;  // absent: by time
   bool resume = false;                   // simulate_command: go on with what is in `out`
+  BudgetLimits limits;
 
   // Of bench.
   bool csv = false;

@@ -5,6 +5,7 @@
 #include "io/json_text.hpp"
 #include "terminal.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <new>
 
@@ -53,13 +54,26 @@ ExitCode fail(ExitCode code, const char* message, bool json) noexcept {
   return code;
 }
 
+// As many as asked for, as there are cores, and as the system gives.
+int threads_for(const CommandLine& line) {
+  const int cores = usable_cores(), wanted = line.threads == 0 ? cores : std::min(line.threads, cores);
+  if (line.threads > cores && !line.quiet)
+    std::fprintf(stderr, "toile: warning: --threads %d: there are %d cores to use, and more threads would only be slower\n",
+                 line.threads, cores);
+  const int given = start_threads(wanted);
+  if (given < wanted && !line.quiet)
+    std::fprintf(stderr, "toile: warning: the system gives %d threads instead of %d\n", given, wanted);
+  return given;
+}
+
 ExitCode guarded_main(int argc, char** argv) noexcept {
   const bool json = wants_json(argc, argv);
   try {
-    listen_for_interrupts();
+    prepare_for_the_end(json);
     const CommandLine line = parse_command_line(argc, argv);
     ExitCode code = ExitCode::internal;
-    with_threads(line.threads, [&] { code = run_command(line); });
+    if (line.command == CommandLine::Command::help) return run_command(line);
+    with_threads(threads_for(line), [&] { code = run_command(line); });
     return code;
   } catch (const Error& error) {
     return fail(error.code(), error.what(), json);

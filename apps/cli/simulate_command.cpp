@@ -218,6 +218,7 @@ ExitCode simulate_command(const CommandLine& line) {
   if (line.command == CommandLine::Command::demo) options.read = embedded_text;
   options.progress = [&](const Progress& progress) { bar.show(progress); };
   options.stop = interrupted;
+  options.limits = line.limits;
   const Report report = simulate(scene, options);
   ExitCode code = exit_code(report);
 

@@ -6,27 +6,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <string>
 
 namespace toile {
-namespace {
-
-volatile std::sig_atomic_t stop_asked = 0;
-
-void ask_to_stop(int) { stop_asked = 1; }
-
-}  // namespace
-
-void listen_for_interrupts() {
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
-  std::signal(SIGPIPE, SIG_IGN);
-}
-
-bool interrupted() { return stop_asked != 0; }
 
 ProgressBar::ProgressBar(const CommandLine& line) : on_(!line.quiet && isatty(STDERR_FILENO) == 1) {}
 

@@ -1,15 +1,12 @@
-// apps/cli/terminal.hpp: what a person sees while waiting, and the wish to stop.
+// apps/cli/terminal.hpp: what a person sees while waiting.
 #pragma once
 #include "command_line.hpp"
+#include "process_end.hpp"
 #include "sim/simulate.hpp"
 
 #include <string_view>
 
 namespace toile {
-
-// From here on SIGINT and SIGTERM ask the run to end after the current frame, and a closed pipe is an error like any other.
-void listen_for_interrupts();
-bool interrupted();
 
 // One line on stderr that overwrites itself; nothing unless stderr is a terminal, or with --quiet.
 class ProgressBar {

@@ -10,6 +10,13 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace toile {
 
@@ -51,5 +58,51 @@ void with_threads(int threads, const std::function<void()>& work) {
 }
 
 int available_threads() { return tbb::this_task_arena::max_concurrency(); }
+
+int usable_cores() { return tbb::info::default_concurrency(); }
+
+namespace {
+
+// How many threads there may be at once, with the caller.
+int threads_given(int wanted) {
+  std::mutex mutex;
+  std::condition_variable counted;
+  bool done = false;
+  std::vector<std::thread> others;
+  others.reserve(static_cast<std::size_t>(wanted));
+  try {
+    while (static_cast<int>(others.size()) + 1 < wanted)
+      others.emplace_back([&] {
+        std::unique_lock lock(mutex);
+        counted.wait(lock, [&] { return done; });
+      });
+  } catch (const std::system_error&) {  // refused: those that there are
+  }
+  {
+    const std::lock_guard lock(mutex);
+    done = true;
+  }
+  counted.notify_all();
+  for (std::thread& other : others) other.join();
+  return static_cast<int>(others.size()) + 1;
+}
+
+}  // namespace
+
+int start_threads(int threads) {
+  if (threads <= 0) threads = usable_cores();
+  threads = threads_given(threads);
+  with_threads(threads, [&] {
+    // All take part in one loop, or have had a tenth of a second to come.
+    constexpr std::chrono::milliseconds most_wait(100);
+    const auto end = std::chrono::steady_clock::now() + most_wait;
+    std::atomic<int> here{0};
+    parallel_for(static_cast<std::size_t>(threads), 1, [&](std::size_t) {
+      ++here;
+      while (here < threads && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    });
+  });
+  return threads;
+}
 
 }  // namespace toile

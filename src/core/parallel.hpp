@@ -26,4 +26,11 @@ void with_threads(int threads, const std::function<void()>& work);
 // How many threads the loops of the caller may use.
 int available_threads();
 
+// Cores that the system lets this process use.
+int usable_cores();
+
+// Starts that many threads (0: one per core) for the loops to come, as many as the system gives, and returns how many there are: at least
+// the caller.  Without it they start when they are first needed, and a thread that is refused then ends the program.
+int start_threads(int threads);
+
 }  // namespace toile

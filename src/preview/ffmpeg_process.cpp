@@ -156,7 +156,8 @@ FfmpegProcess::FfmpegProcess(const std::string& program, const std::string& film
   sigset_t none, defaults;
   sigemptyset(&none);
   sigemptyset(&defaults);
-  for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGHUP}) sigaddset(&defaults, signal);
+  // SIGXFSZ stays ignored, if it is: a film that grows too large is then an error with its reason.
+  for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGALRM}) sigaddset(&defaults, signal);
   posix_spawnattr_setsigmask(&plan.attributes, &none);
   posix_spawnattr_setsigdefault(&plan.attributes, &defaults);
   posix_spawnattr_setpgroup(&plan.attributes, 0);
@@ -239,11 +240,13 @@ void FfmpegProcess::write(std::span<const unsigned char> bytes) {
   }
 }
 
-void FfmpegProcess::finish() {
+void FfmpegProcess::finish(const std::function<bool()>& stop) {
+  constexpr int ask_every_ms = 100;
   close_if_open(input_);
   while (errors_ >= 0) {
+    if (stop && stop()) throw Error(ExitCode::interrupted, "interrupted while the film was finished");
     pollfd ready{errors_, POLLIN, 0};
-    if (::poll(&ready, 1, -1) < 0 && errno != EINTR) break;
+    if (::poll(&ready, 1, stop ? ask_every_ms : -1) < 0 && errno != EINTR) break;
     if (!read_messages()) close_if_open(errors_);
   }
   const int status = wait();

@@ -6,6 +6,7 @@
 // Mind: ffmpeg writes to a file that is open already, whatever its name or whether it has one yet: naming it is the caller's affair.
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -26,8 +27,9 @@ class FfmpegProcess {
 
   // Blocks until the child has taken everything.  Throws IoError with the child's last line when it ended.
   void write(std::span<const unsigned char> bytes);
-  // End of the film: waits for the child.  Throws IoError when it failed.
-  void finish();
+  // End of the film: waits for the child.  Throws IoError when it failed.  `stop`, if there is one, is asked meanwhile: true is
+  // Error(interrupted).
+  void finish(const std::function<bool()>& stop = {});
 
  private:
   [[noreturn]] void fail(const std::string& what);

@@ -17,7 +17,8 @@ std::string size_of(const Image& image) { return std::to_string(image.width) + "
 
 }  // namespace
 
-void write_mp4(const std::string& path, int count, double fps, const std::function<Image(int)>& picture) {
+void write_mp4(const std::string& path, int count, double fps, const std::function<Image(int)>& picture,
+               const std::function<bool()>& stop) {
   if (count < 1) throw InputError(path, "film", "at least one picture", std::to_string(count));
   if (!(fps > 0 && fps <= 1000))
     throw InputError(path, "film", "a frame rate in (0, 1000] per second", std::to_string(fps));
@@ -42,7 +43,7 @@ void write_mp4(const std::string& path, int count, double fps, const std::functi
     if (!ffmpeg) ffmpeg.emplace(program, path, film.descriptor(), width, height, fps);
     ffmpeg->write(image.rgb);
   }
-  ffmpeg->finish();
+  ffmpeg->finish(stop);
   film.commit();
 }
 

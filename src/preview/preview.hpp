@@ -104,6 +104,8 @@ void write_png(const std::string& path, const Image& image);
 // with ffmpeg's last line when it fails, and says how to install it when it is not there; InputError when the pictures differ
 // in size, are smaller than 2 x 2, or fps is not positive.  An odd last row or column is cut off, as H.264 wants even sizes.
 // The film appears under its name when it is complete, never before; what picture(i) throws passes through.
-void write_mp4(const std::string& path, int count, double fps, const std::function<Image(int)>& picture);
+// `stop`, if there is one, is asked while ffmpeg works on its last pictures: true is Error(interrupted).
+void write_mp4(const std::string& path, int count, double fps, const std::function<Image(int)>& picture,
+               const std::function<bool()>& stop = {});
 
 }  // namespace toile

@@ -219,13 +219,14 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   // The garment fills the picture: of a body only as much is shown as the cloth reaches, and a little more.
   const Vec3 margin = Vec3::Constant(0.05);
   const Camera camera = frame_subject(box[0] - margin, box[1] + margin, 25, 8, aspect);
-  write_mp4((folder / "preview.mp4").string(), static_cast<int>(shots.size()), options.film_fps, [&](int k) {
+  const auto picture = [&](int k) {
     if (stop && stop()) throw Error(ExitCode::interrupted, "interrupted while the film was made");
     show(shots[static_cast<std::size_t>(k)]);
     Image image = renderer.render(scene, camera);
     if (progress) progress(0.1 + 0.9 * (k + 1) / static_cast<double>(shots.size()));
     return image;
-  });
+  };
+  write_mp4((folder / "preview.mp4").string(), static_cast<int>(shots.size()), options.film_fps, picture, stop);
 }
 
 void picture_crossings(const std::string& directory, int frame, const std::string& png) {

@@ -24,6 +24,7 @@ double peak_memory_mb() {
 }  // namespace
 
 Report Run::operator()() {
+  require_budget(scene_, options_.read, options_.limits);
   std::vector<std::string> inputs = input_paths(scene_);
   inputs.insert(inputs.end(), options_.inputs.begin(), options_.inputs.end());
   folder_ = std::make_unique<RunFolder>(

@@ -9,6 +9,7 @@
 // What is easily got wrong: physics that goes badly is not an exception.  A blocked seam, a collapsed step and an
 // interruption end in a report with verdict fail, and the files up to there stay.
 #pragma once
+#include "sim/budget.hpp"
 #include "sim/checkpoint.hpp"
 #include "sim/report.hpp"
 #include "sim/scene.hpp"
@@ -36,6 +37,7 @@ struct RunOptions {
   TextSource read = read_text_file;
   std::function<void(const Progress&)> progress;  // may be empty
   std::function<bool()> stop;                     // asked between frames; may be empty
+  BudgetLimits limits;                            // what the run may take: refused beyond, before anything is made
 };
 
 namespace reason {
@@ -44,7 +46,7 @@ inline constexpr std::string_view step_collapsed = "step_collapsed";
 inline constexpr std::string_view interrupted = "interrupted";
 }  // namespace reason
 
-// Throws InputError, IoError, and Error(bad_start) with `strict_start`.  Writes report.json in every other case.
+// Throws InputError, IoError, Error(resource_limit) beyond `limits`, and Error(bad_start) with `strict_start`.  Writes report.json in every other case.
 Report simulate(const Scene& scene, const RunOptions& options);
 
 // ok, simulation_failed or interrupted.

@@ -20,9 +20,10 @@ struct Ended {
 
 // Runs in the scratch directory, so that nothing is left elsewhere.  `while_running` gets the process id.
 template <class During>
-Ended run_toile(const Scratch& scratch, std::vector<std::string> words, During&& while_running) {
+Ended run_program(const Scratch& scratch, const std::string& program, std::vector<std::string> words,
+                  During&& while_running) {
   const std::string out = scratch / "stdout.txt", err = scratch / "stderr.txt", directory = scratch.directory();
-  words.insert(words.begin(), TOILE_PROGRAM);
+  words.insert(words.begin(), program);
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -31,7 +32,7 @@ Ended run_toile(const Scratch& scratch, std::vector<std::string> words, During&&
     const int to_out = open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644),
               to_err = open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
     if (dup2(to_out, 1) < 0 || dup2(to_err, 2) < 0 || chdir(directory.c_str()) != 0) _exit(126);
-    execv(TOILE_PROGRAM, argv.data());
+    execv(program.c_str(), argv.data());
     _exit(127);
   }
   while_running(child);
@@ -43,6 +44,11 @@ Ended run_toile(const Scratch& scratch, std::vector<std::string> words, During&&
   ended.out = scratch.get("stdout.txt");
   ended.err = scratch.get("stderr.txt");
   return ended;
+}
+
+template <class During>
+Ended run_toile(const Scratch& scratch, std::vector<std::string> words, During&& while_running) {
+  return run_program(scratch, TOILE_PROGRAM, std::move(words), while_running);
 }
 
 inline Ended run_toile(const Scratch& scratch, std::vector<std::string> words) {

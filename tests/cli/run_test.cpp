@@ -27,7 +27,8 @@ Json run_small(const Scratch& scratch, const std::string& out, std::vector<std::
   words.insert(words.end(), more.begin(), more.end());
   const Ended ended = run_toile(scratch, words);
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_EQ(ended.err, "");
+  // On a machine of fewer cores there is a warning.
+  EXPECT_TRUE(ended.err.empty() || ended.err.starts_with("toile: warning: --threads 5: there are")) << ended.err;
   return Json::parse(ended.out, "stdout");
 }
 

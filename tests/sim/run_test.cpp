@@ -1,5 +1,6 @@
 // A run from scene to files and back, without the program.
 #include "body/solid_shapes.hpp"
+#include "core/parallel.hpp"
 #include "io/json.hpp"
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
@@ -37,6 +38,19 @@ Scene falling_cloth(const std::string& more = "") {
                          more + R"(}],
     "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.5}}, "time": {"seconds": 0.3}})",
                      "s.json");
+}
+
+// The program takes no more threads than there are cores; the library takes as many as it is told.
+TEST(Run, GivesTheSameBitsForMoreThreadsThanCores) {
+  const Scratch scratch;
+  std::string hash;
+  for (const int threads : {1, 5, 7}) {
+    Report report;
+    with_threads(threads, [&] { report = run(scratch, falling_cloth()); });
+    EXPECT_EQ(report.threads, threads);
+    if (hash.empty()) hash = report.state_hash;
+    EXPECT_EQ(report.state_hash, hash) << threads << " threads";
+  }
 }
 
 TEST(JsonText, IsReadBackToTheBit) {

@@ -1,0 +1,332 @@
+#include "sim/budget.hpp"
+
+#include "core/available_memory.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "garment/pattern_check.hpp"
+#include "garment/sewing.hpp"
+#include "io/pc2.hpp"
+#include "sim/outfit_run.hpp"
+
+#include <fmt/printf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <system_error>
+
+namespace toile {
+namespace {
+
+// Memory, measured as the peak of whole runs (bench/notes.md, "What a run takes").
+constexpr double program_mb = 10;             // without cloth or body
+constexpr double mb_per_particle = 7.2e-3;    // model, matrix, contact, judge; 6.1 in the air, 8.2 where cloth lies on cloth
+constexpr double mb_per_body_triangle = 1.1e-3;
+constexpr double mannequin_mb = 32;           // while it is made, and given back
+constexpr double mb_per_sample = 12.0 / (1 << 20);  // of a vertex of a motion from a file: three floats
+constexpr double obj_bytes_per_triangle = 40;       // "f 1234 1235 1236", and half of "v 0.123456 1.234567 -0.123456"
+constexpr double obj_copies = 4;              // of the text of a mesh while it is read: itself, and what it says
+
+// Time of one step on two cores of a Xeon (docs/benchmarks.md, "How far from real time" and the drapes up to 100,000 particles).
+constexpr double step_us = 6;            // per particle, of small cloth
+constexpr double small_particles = 2600;
+constexpr double step_exponent = 0.35;   // iterations and refused steps grow so with the number of particles
+constexpr double body_step_us = 0.3;     // per triangle of a body
+constexpr double second_core = 1.5;      // how much faster two threads are than one
+constexpr double mannequin_s = 1.5, meshing_us = 20, load_us = 5;  // per particle of a pattern, per triangle of a body
+
+// A seam wider than two of the largest panels laid side by side is a mistake of units or of a sign; 40 s of sewing would close it.
+constexpr double most_drawn_m = 2 * PatternLimits::max_panel_m;
+constexpr double after_closing_s = 0.5;  // until the weld lets go
+constexpr int seam_samples = 8;
+
+constexpr std::size_t told_items = 3;
+
+double cell_m2(double edge_m) { return std::sqrt(3.0) / 2 * edge_m * edge_m; }  // that one particle has
+
+struct Counts {
+  double particles = 0, triangles = 0;
+};
+
+Counts counts_of(double area_m2, double outline_points, double edge_m) {
+  const double inner = std::max(0.0, area_m2 / cell_m2(edge_m) - outline_points / 2);
+  return {inner + outline_points, 2 * inner + outline_points};
+}
+
+std::string quoted(const std::string& name) { return '"' + printable(name) + '"'; }
+
+double file_bytes(const std::string& path) {  // a file that is not there is told when it is read
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(path, error);
+  return error ? 0 : static_cast<double>(bytes);
+}
+
+double samples_of_motion(const std::string& path) {
+  if (std::filesystem::path(path).extension() == ".pc2") {
+    try {
+      return Pc2Reader(path).samples();
+    } catch (const Error&) {  // told when it is read
+      return 0;
+    }
+  }
+  double samples = 0;
+  std::error_code error;
+  // A folder, or a pattern of names in one.
+  const std::filesystem::path folder =
+      std::filesystem::is_directory(path, error) ? path : std::filesystem::path(path).parent_path().string();
+  for (std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->path().extension() == ".obj") samples += 1;
+  return samples;
+}
+
+class Estimate {
+ public:
+  Estimate(const Scene& scene, const TextSource& read) : scene_(&scene), read_(&read) {}
+
+  Budget operator()() {
+    budget_.name = scene_->name;
+    for (std::size_t k = 0; k < scene_->cloth.size(); ++k) add_cloth(scene_->cloth[k]);
+    add_body();
+    for (std::size_t k = 0; k < scene_->solids.size(); ++k) add_solid(scene_->solids[k], k);
+    for (const BudgetItem& item : budget_.items) budget_.memory_mb += item.memory_mb;
+    budget_.memory_mb = program_mb + std::max(budget_.memory_mb, making_mb_);
+    count_frames();
+    return std::move(budget_);
+  }
+
+ private:
+  void add_part(std::string what, const Counts& counts) {
+    budget_.items.push_back({std::move(what), counts.triangles, mb_per_particle * counts.particles});
+    budget_.particles += counts.particles;
+    budget_.triangles += counts.triangles;
+  }
+
+  void add_cloth(const SceneCloth& cloth) {
+    if (cloth.is_sewn()) {
+      add_pattern(cloth);
+      return;
+    }
+    double area_m2 = 0, outline_m = 0;
+    const char* shape = "grid";
+    if (cloth.grid) {
+      area_m2 = cloth.grid->width_m * cloth.grid->height_m;
+      outline_m = 2 * (cloth.grid->width_m + cloth.grid->height_m);
+    } else if (cloth.tube) {
+      shape = "tube";
+      area_m2 = 2 * std::numbers::pi * cloth.tube->radius_m * cloth.tube->length_m;
+      outline_m = 4 * std::numbers::pi * cloth.tube->radius_m;
+    } else if (cloth.ribbon) {
+      shape = "ribbon";
+      const std::vector<Vec3>& path = cloth.ribbon->path_m;
+      double length_m = cloth.ribbon->closed ? (path.front() - path.back()).norm() : 0;
+      for (std::size_t k = 1; k < path.size(); ++k) length_m += (path[k] - path[k - 1]).norm();
+      area_m2 = length_m * cloth.ribbon->width_m;
+      outline_m = 2 * length_m;
+    }
+    const double edge_m = cloth.edge_m();
+    add_part("cloth " + quoted(cloth.name) + " (" + shape + ')', counts_of(area_m2, outline_m / edge_m, edge_m));
+  }
+
+  void add_pattern(const SceneCloth& cloth) {
+    const Pattern pattern = parse_pattern((*read_)(cloth.pattern), printable(cloth.pattern));
+    const PatternSummary summary = summarize(pattern);
+    const double edge_m = cloth.vertices
+                              ? std::sqrt(summary.area_m2 / (std::sqrt(3.0) / 2 * std::max(1, *cloth.vertices)))
+                              : cloth.resolution_m;
+    const std::string name = cloth.name.empty() ? pattern.name : cloth.name;
+    for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
+      double points = 0;
+      for (const PanelEdge& edge : pattern.panels[p].edges)
+        points += std::ceil(edge_length_m(pattern.panels[p], edge) / edge_m);
+      add_part("cloth " + quoted(name) + ", panel " + quoted(pattern.panels[p].name),
+               counts_of(summary.panels[p].area_m2, points, edge_m));
+    }
+    patterned_ = true;
+    if (!scene_->start.empty()) return;  // nothing is sewn
+    find_far_panels(pattern, printable(cloth.pattern));
+  }
+
+  // The widest seam says how long sewing takes; one that is too wide, which panel is meant.
+  void find_far_panels(const Pattern& pattern, const std::string& file) {
+    double widest_m = 0;
+    std::optional<FarPanel> farthest;
+    for (const Stitch& stitch : pattern.stitches) {
+      const Panel &a = pattern.panels[static_cast<std::size_t>(stitch.a.panel)],
+                  &b = pattern.panels[static_cast<std::size_t>(stitch.b.panel)];
+      std::vector<Vec2> on_a = sample_edge(a, a.edges[static_cast<std::size_t>(stitch.a.edge)], seam_samples),
+                        on_b = sample_edge(b, b.edges[static_cast<std::size_t>(stitch.b.edge)], seam_samples);
+      if (!stitch.right_wrong) std::reverse(on_b.begin(), on_b.end());
+      double wide_m = 0;
+      for (std::size_t k = 0; k < on_a.size(); ++k)
+        wide_m = std::max(wide_m, (a.place(on_a[k]) - b.place(on_b[k])).norm());
+      if (wide_m <= widest_m) continue;
+      widest_m = wide_m;
+      if (wide_m <= most_drawn_m) continue;
+      const bool a_is_far = a.place(on_a.front()).norm() >= b.place(on_b.front()).norm();  // from the body
+      farthest = FarPanel{file, (a_is_far ? a : b).name, (a_is_far ? b : a).name,
+                          printable(a.name) + '.' + std::to_string(a.file_number(stitch.a.edge)) + " - " +
+                              printable(b.name) + '.' + std::to_string(b.file_number(stitch.b.edge)),
+                          wide_m};
+    }
+    if (farthest) budget_.far_panels.push_back(*farthest);
+    if (pattern.stitches.empty()) return;
+    const SewingOptions sewing;
+    sewing_frames_ += std::ceil((widest_m / sewing.closing_speed_m_per_s + after_closing_s) * sewing.fps);
+  }
+
+  void add_solid_item(std::string what, double triangles, double making_mb) {
+    budget_.items.push_back({std::move(what), triangles, mb_per_body_triangle * triangles});
+    body_triangles_ += triangles;
+    making_mb_ = std::max(making_mb_, making_mb);
+  }
+
+  void add_mesh(const std::string& what, const std::string& path) {
+    const double bytes = file_bytes(path);
+    add_solid_item(what + ' ' + printable(path), bytes / obj_bytes_per_triangle, obj_copies * bytes / (1 << 20));
+  }
+
+  void add_body() {
+    const SceneBody& body = scene_->body;
+    switch (body.kind) {
+      case SceneBody::Kind::none:
+        return;
+      case SceneBody::Kind::cylinder:
+        add_solid_item("body (cylinder)", 640, 0);
+        break;
+      case SceneBody::Kind::mannequin:
+        add_solid_item("body " + std::string(to_string(body.mannequin)),
+                       body.mannequin == MannequinKind::dancer ? 15256 : 20104, mannequin_mb);
+        budget_.seconds += mannequin_s;
+        break;
+      case SceneBody::Kind::mesh:
+        add_mesh("body", body.mesh);
+        break;
+    }
+    if (!body.motion || !body.motion->name.empty()) return;
+    const double samples = samples_of_motion(body.motion->path);
+    motion_duration_s_ = samples / body.motion->fps + body.motion->lead_in_s;
+    const double vertices = body_triangles_ / 2;
+    budget_.items.push_back({"motion " + printable(body.motion->path), 0, mb_per_sample * samples * vertices});
+  }
+
+  void add_solid(const SceneSolid& solid, std::size_t k) {
+    const std::string name = "solid " + std::to_string(k);
+    if (const auto* ball = std::get_if<SceneSolid::Sphere>(&solid.shape)) {
+      add_solid_item(name + " (sphere)", ball_triangles(ball->radius_m, solid.edge_m), 0);
+    } else if (std::holds_alternative<SceneSolid::Box>(solid.shape)) {
+      add_solid_item(name + " (box)", 12, 0);
+    } else if (const auto* revolved = std::get_if<SceneSolid::Revolved>(&solid.shape)) {
+      double along = 0, widest_m = 0;
+      for (std::size_t p = 0; p < revolved->profile_m.size(); ++p) {
+        widest_m = std::max(widest_m, revolved->profile_m[p].x());
+        if (p > 0) along += std::ceil((revolved->profile_m[p] - revolved->profile_m[p - 1]).norm() / solid.edge_m);
+      }
+      add_solid_item(name + " (revolved)", 2 * along * std::max(6.0, 2 * std::numbers::pi * widest_m / solid.edge_m), 0);
+    } else {
+      add_mesh(name, std::get<SceneSolid::Mesh>(solid.shape).path);
+    }
+  }
+
+  // Halved until no edge is too long: the longest are in the middle of the octahedron's faces.
+  static double ball_triangles(double radius_m, double edge_m) {
+    double triangles = 8;
+    Vec3 a(1, 0, 0), b(0, 1, 0), c(0, 0, 1);
+    while (radius_m * (a - b).norm() > edge_m && triangles < 1e12) {
+      const Vec3 ab = (a + b).normalized(), bc = (b + c).normalized(), ca = (c + a).normalized();
+      a = ab;
+      b = bc;
+      c = ca;
+      triangles *= 4;
+    }
+    return triangles;
+  }
+
+  void count_frames() {
+    const auto frames_in = [&](double seconds) { return std::max(1.0, std::round(seconds * scene_->fps)); };
+    const bool solids_move = std::any_of(scene_->solids.begin(), scene_->solids.end(),
+                                         [](const SceneSolid& solid) { return !solid.moves.empty(); });
+    const bool moves = scene_->body.motion.has_value() || solids_move;
+    double duration_s = scene_->seconds;
+    if (moves && !scene_->seconds_given) {
+      double longest_s = motion_duration_s_;
+      for (const SceneSolid& solid : scene_->solids) longest_s = std::max(longest_s, solid.moves.duration_s());
+      const bool endless = scene_->body.motion && !scene_->body.motion->name.empty();
+      if (!endless) duration_s = longest_s;
+    }
+    budget_.frames = frames_in(duration_s);
+    if (moves) budget_.frames += scene_->drape_seconds > 0 ? frames_in(scene_->drape_seconds) : 1;
+    const double inner = patterned_ && scene_->start.empty() ? static_cast<double>(scene_->cloth.size() - 1) : 0;
+    const double inner_frames = inner * frames_in(scene_->drape_seconds);
+    budget_.unwritten_frames = sewing_frames_ + inner_frames;
+
+    const double longest_s = scene_->step_max_s.value_or(patterned_ ? 1.0 / 60 : 1 / scene_->fps);
+    const double steps = sewing_frames_ + (budget_.frames + inner_frames) * std::ceil(1 / (scene_->fps * longest_s) - 1e-9);
+    const double slower = std::pow(std::max(1.0, budget_.particles / small_particles), step_exponent);
+    const double step_s = 1e-6 * (step_us * slower * budget_.particles + body_step_us * body_triangles_);
+    const double threads = available_threads() > 1 ? 1 : second_core;
+    budget_.seconds += threads * steps * step_s + 1e-6 * load_us * body_triangles_;
+    if (patterned_) budget_.seconds += 1e-6 * meshing_us * budget_.particles;
+  }
+
+  const Scene* scene_;
+  const TextSource* read_;
+  Budget budget_;
+  bool patterned_ = false;
+  double sewing_frames_ = 0, motion_duration_s_ = 0;
+  double body_triangles_ = 0;
+  double making_mb_ = 0;  // the most that making one body takes, before there is cloth
+};
+
+std::string with_thousands(double value) {
+  std::string digits = fmt::sprintf("%.0f", value);
+  for (std::size_t k = digits.size(); k > 3; k -= 3) digits.insert(k - 3, 1, ',');
+  return digits;
+}
+
+std::string largest_items(const Budget& budget) {
+  std::vector<BudgetItem> items = budget.items;
+  std::stable_sort(items.begin(), items.end(),
+                   [](const BudgetItem& a, const BudgetItem& b) { return a.memory_mb > b.memory_mb; });
+  std::string text;
+  for (std::size_t k = 0; k < std::min(told_items, items.size()); ++k)
+    text += (k == 0 ? "" : "; ") + items[k].what + ", " + with_thousands(items[k].triangles) + " triangles, " +
+            with_thousands(items[k].memory_mb) + " MB";
+  if (items.size() > told_items) text += "; and " + std::to_string(items.size() - told_items) + " more";
+  return text;
+}
+
+[[noreturn]] void refuse(const std::string& where, const std::string& what) {
+  throw Error(ExitCode::resource_limit, printable(where) + ": " + what);
+}
+
+}  // namespace
+
+Budget estimate_budget(const Scene& scene, const TextSource& read) { return Estimate(scene, read)(); }
+
+void check_budget(const Budget& budget, const BudgetLimits& limits) {
+  if (!budget.far_panels.empty()) {
+    const FarPanel& far = budget.far_panels.front();
+    const SewingOptions sewing;
+    refuse(far.file, fmt::sprintf("panel %s: expected within %.0f m of what it is sewn to, got %.4g m from panel %s (seam %s); it "
+                        "would be drawn in for %.0f s",
+                        quoted(far.panel), most_drawn_m, far.distance_m, quoted(far.other), far.seam,
+                        far.distance_m / sewing.closing_speed_m_per_s));
+  }
+  const double memory_mb = limits.memory_mb.value_or(available_memory_mb());
+  if (budget.memory_mb > memory_mb)
+    refuse(budget.name, fmt::sprintf("memory: expected at most %s MB (%s), got about %s MB: %s", with_thousands(memory_mb),
+                        limits.memory_mb ? "--max-memory" : "what there is; --max-memory sets another limit",
+                        with_thousands(budget.memory_mb), largest_items(budget)));
+  const double frames = budget.frames + budget.unwritten_frames;
+  if (frames > limits.frames)
+    refuse(budget.name, fmt::sprintf("frames: expected at most %s (--max-frames), got up to %s, %s of them before the first is written",
+                        with_thousands(limits.frames), with_thousands(frames), with_thousands(budget.unwritten_frames)));
+  if (budget.seconds > 3600 * limits.hours)
+    refuse(budget.name, fmt::sprintf("time: expected at most %.4g hours (--max-hours), got about %.4g: %s frames of %s triangles: %s",
+                        limits.hours, budget.seconds / 3600, with_thousands(frames), with_thousands(budget.triangles),
+                        largest_items(budget)));
+}
+
+}  // namespace toile

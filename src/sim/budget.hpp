@@ -1,0 +1,61 @@
+// sim/budget.hpp: what a scene will take, before anything of it is made: memory, frames and time.                  docs/limits.md
+//
+// From areas, edge lengths and counts:
+//   particles   of an area A whose outline has B points, I = A / (sqrt(3)/2 e^2) - B/2 within it [Pick 1899, on a triangular lattice];
+//               two triangles for each of them, and one for each point of the outline
+//   memory      the program's own + cloth + bodies, so much for every particle and every triangle
+//   frames      sewing until the widest seam has closed, drape, motion: as many as there can be
+//   time        frames x steps x particles x (time of a particle's step), which grows with the number of particles
+// The constants stand in budget.cpp.  Memory is meant to 25 %; time to a factor of three, for nobody knows beforehand how a cloth will fold.
+//
+// Easily missed: every item has a limit of its own where it is read (a grid of two million triangles); this is about all of them together.
+#pragma once
+#include "garment/pattern.hpp"
+#include "sim/scene.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace toile {
+
+struct BudgetItem {
+  std::string what;  // `cloth "skirt", panel "front"`, "body woman", "solid 2 (sphere)"
+  double triangles = 0;
+  double memory_mb = 0;
+};
+
+// Panels that sewing would have to draw together over a distance that no garment has.
+struct FarPanel {
+  std::string file, panel, other, seam;
+  double distance_m = 0;
+};
+
+struct Budget {
+  std::string name;               // of the scene
+  std::vector<BudgetItem> items;  // in the order of the scene
+  double particles = 0, triangles = 0;  // of the cloth
+  double memory_mb = 0;           // 2^20 bytes, at the peak
+  double frames = 0;              // written: drape and motion
+  double unwritten_frames = 0;    // of sewing, and of the drape of what another garment goes over
+  double seconds = 0;             // wall time
+  std::vector<FarPanel> far_panels;
+};
+
+struct BudgetLimits {
+  std::optional<double> memory_mb;  // absent: what the machine has available
+  double frames = 1e6;              // nine hours of film; a report lists every frame
+  double hours = 24;                // who means to wait longer than a day says so
+};
+
+// Reads patterns by `read`, and of other files the sizes.  Throws IoError and InputError for a pattern, as loading it would.
+Budget estimate_budget(const Scene& scene, const TextSource& read);
+
+// Throws Error(resource_limit) that says what is beyond which limit, and which items take most.
+void check_budget(const Budget& budget, const BudgetLimits& limits);
+
+inline void require_budget(const Scene& scene, const TextSource& read, const BudgetLimits& limits) {
+  check_budget(estimate_budget(scene, read), limits);
+}
+
+}  // namespace toile
