@@ -92,7 +92,6 @@ TEST(AdaptiveStep, GrowsAfterTwoSuccessesAndWaitsTwoFourUpToFortyAfterFailedIncr
   double longest = 1.0 / 64;
   refuse_longer(run, longest);
   std::vector<int> successes{0};  // between refused steps
-  int refused = 0;
   for (int f = 0; f < 120; ++f) {
     const FrameReport report = run.frame(1.0 / 32);
     EXPECT_EQ(static_cast<int>(run.stepper->steps_s().size()), report.steps);
@@ -105,7 +104,6 @@ TEST(AdaptiveStep, GrowsAfterTwoSuccessesAndWaitsTwoFourUpToFortyAfterFailedIncr
     if (report.rejected > 0) {  // at the start of a frame: only there does a step of 1/32 begin
       ASSERT_EQ(report.rejected, 1);
       successes.push_back(0);
-      refused += report.rejected;
     }
     successes.back() += report.steps;
   }

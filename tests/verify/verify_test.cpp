@@ -21,7 +21,7 @@ namespace toile {
 namespace {
 
 constexpr int columns = 8, rows = 6, last_frame = 40;
-constexpr double spacing = 0.05, fps = 30;
+constexpr double spacing = 0.05;
 
 Index particle(int column, int row) { return row * (columns + 1) + column; }
 
