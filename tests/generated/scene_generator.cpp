@@ -113,7 +113,8 @@ class Builder {
     const int points = closed ? 6 : 4;
     for (int k = 0; k < points; ++k) {
       const double turn = closed ? 6.283185307 * k / points : 2.0 * k / points - 0.9;
-      path.push_back(vector(radius * std::sin(turn), 0.5 + draw_.between("ribbon waves", 0, 0.1) * (k % 2), radius * std::cos(turn)));
+      path.push_back(vector(radius * std::sin(turn), draw_.between("ribbon waves", 0, 0.1) * (k % 2),
+                            radius * std::cos(turn) - (closed ? 0 : radius)));
     }
     ribbon.set("path_m", list(path)).set("width_m", "0.2").set("edge_m", is("edges", "fine") ? "0.07" : "0.1");
     if (closed) ribbon.set("closed", "true").set("across", vector(0, 1, 0));
@@ -148,10 +149,8 @@ class Builder {
       if (variant_.defaults) cloth.set("placement", Object().set("translation_m", vector(0, 0, 0)).set("rotation_deg", vector(0, 0, 0)).text());
       return;
     }
-    Place to = centre_;
-    if (is("cloth", "ribbon") || is("cloth", "closed ribbon")) to.y -= 0.5;  // it is drawn there
     Object placement;
-    placement.set("translation_m", to.text());
+    placement.set("translation_m", centre_.text());
     if (is("placed", "lying above")) placement.set("rotation_deg", vector(-90, 0, 0));
     if (is("placed", "turned"))
       placement.set("rotation_deg", vector(draw_.between("turn x", -180, 180), draw_.between("turn y", -180, 180), draw_.between("turn z", -180, 180)));
@@ -241,7 +240,7 @@ class Builder {
       all.push_back(Object()
                         .set("name", word("second"))
                         .set("ribbon", ribbon(false))
-                        .set("placement", Object().set("translation_m", (centre_ + Place{0, -0.45, -0.1}).text()).text())
+                        .set("placement", Object().set("translation_m", (centre_ + Place{0, 0.05, 0.3}).text()).text())
                         .text());
     return list(all);
   }
