@@ -141,7 +141,7 @@ void add_solids(std::span<const SceneSolid> solids, LoadedBody& body, Hash& inpu
   };
   const std::size_t own = body.solid.positions.size();
   std::vector<Part> parts;
-  Vec3s standing;  // where the moves of the solids begin
+  Vec3s standing;                                                      // where the moves of the solids begin
   const Vec3s still = body.movement ? Vec3s() : body.solid.positions;  // the body's own, when it does not move
   double duration_s = 0;
   for (const SceneSolid& solid : solids) {
@@ -165,7 +165,8 @@ void add_solids(std::span<const SceneSolid> solids, LoadedBody& body, Hash& inpu
     whole.name = body.movement->name;
     whole.duration_s = std::max(duration_s, body.movement->duration_s);
   }
-  whole.at = [own, place, still, of_body = body.movement ? body.movement->at : BodyAt{}](double t_s, std::span<Vec3> x) {
+  whole.at = [own, place, still, of_body = body.movement ? body.movement->at : BodyAt{}](double t_s,
+                                                                                         std::span<Vec3> x) {
     if (of_body) {
       of_body.function()(t_s, x.first(own));
     } else {

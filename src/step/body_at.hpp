@@ -22,8 +22,9 @@ class BodyAt {
 
   BodyAt() = default;  // nothing that moves
   template <class F>
-    requires(!std::same_as<std::remove_cvref_t<F>, BodyAt> && std::invocable<F&, double, std::span<Vec3>>)
-  BodyAt(F&& function) : function_(std::forward<F>(function)) {}
+  requires(!std::same_as<std::remove_cvref_t<F>, BodyAt> && std::invocable<F&, double, std::span<Vec3>>)
+      BodyAt(F&& function)
+      : function_(std::forward<F>(function)) {}
 
   explicit operator bool() const { return static_cast<bool>(function_); }
 

@@ -150,8 +150,9 @@ TEST(BodySurface, IsTheSameBesideAThingFarAway) {
     };
     for (int k = 0; k < 300; ++k) {
       Vec3 p = random.vector(2);
-      if (k % 3 == 0) p[k / 3 % 3] = 0;                                            // between two sides
-      if (k % 3 == 1) p = random.in(-2, 2) * ball.x[static_cast<std::size_t>(random.below(266))];  // nearest to a vertex
+      if (k % 3 == 0) p[k / 3 % 3] = 0;  // between two sides
+      if (k % 3 == 1)
+        p = random.in(-2, 2) * ball.x[static_cast<std::size_t>(random.below(266))];  // nearest to a vertex
       if (k == 2) p = Vec3::Zero();
       expect_same(body.nearest(p, 3), beside.nearest(p, 3));
       expect_same(body.nearest_facing(p, Vec3(0, 1, 0), 3), beside.nearest_facing(p, Vec3(0, 1, 0), 3));

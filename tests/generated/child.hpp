@@ -9,7 +9,7 @@ namespace toile::generated {
 struct Ended {
   int exit_code = -1;
   int signal = 0;
-  bool hung = false;  // was still there at the limit, and was ended
+  bool hung = false;    // was still there at the limit, and was ended
   std::string message;  // what it wrote on stderr
 
   std::string text() const;

@@ -49,7 +49,8 @@ std::size_t Space::axis(std::string_view name) const {
 std::size_t Space::value(std::size_t axis, std::string_view name) const {
   const std::vector<std::string_view>& values = axes_[axis].values;
   const auto place = std::find(values.begin(), values.end(), name);
-  if (place == values.end()) throw std::logic_error("no value " + std::string(name) + " of " + std::string(axes_[axis].name));
+  if (place == values.end())
+    throw std::logic_error("no value " + std::string(name) + " of " + std::string(axes_[axis].name));
   return static_cast<std::size_t>(place - values.begin());
 }
 
@@ -103,7 +104,8 @@ std::vector<ValuePair> possible_pairs(const Space& space) {
     for (std::size_t k = j + 1; k < space.axes().size(); ++k)
       for (std::size_t a = 0; a < wishes[j].size(); ++a)
         for (std::size_t b = 0; b < wishes[k].size(); ++b)
-          if (!space.complete({{j, a}, {k, b}}, wishes).empty()) pairs.push_back({space.number(j, a), space.number(k, b)});
+          if (!space.complete({{j, a}, {k, b}}, wishes).empty())
+            pairs.push_back({space.number(j, a), space.number(k, b)});
   return pairs;
 }
 
@@ -178,7 +180,8 @@ std::vector<ValuePair> missing_pairs(const Space& space, const std::vector<Value
   std::vector<char> seen(count * count, 0);
   for (const Choice& row : rows)
     for (std::size_t j = 0; j < row.size(); ++j)
-      for (std::size_t k = j + 1; k < row.size(); ++k) seen[space.number(j, row[j]) * count + space.number(k, row[k])] = 1;
+      for (std::size_t k = j + 1; k < row.size(); ++k)
+        seen[space.number(j, row[j]) * count + space.number(k, row[k])] = 1;
   std::vector<ValuePair> missing;
   for (const ValuePair& pair : possible)
     if (seen[pair.a * count + pair.b] == 0) missing.push_back(pair);

@@ -38,7 +38,9 @@ class Space {
   std::size_t value_count() const { return first_.back(); }
   // A value by its number among those of all axes.
   std::size_t number(std::size_t axis, std::size_t value) const { return first_[axis] + value; }
-  bool may_meet(std::size_t number_a, std::size_t number_b) const { return allowed_[number_a * value_count() + number_b]; }
+  bool may_meet(std::size_t number_a, std::size_t number_b) const {
+    return allowed_[number_a * value_count() + number_b];
+  }
   bool is_allowed(const Choice& choice) const;
 
   // The choice with values taken in the order of `wishes` ([axis] its values, most wanted first), `fixed` first.  Empty when none exists.

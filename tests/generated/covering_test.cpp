@@ -21,7 +21,8 @@ TEST(GeneratedScenes, HaveEveryPairOfFeatures) {
   const std::vector<ValuePair> missing = missing_pairs(space, possible, rows);
   EXPECT_TRUE(missing.empty()) << missing.size() << " pairs are missing";
   RecordProperty("pairs", static_cast<int>(possible.size()));
-  std::printf("%zu features, %zu values, %zu pairs in %zu scenes\n", space.axes().size(), space.value_count(), possible.size(), rows.size());
+  std::printf("%zu features, %zu values, %zu pairs in %zu scenes\n", space.axes().size(), space.value_count(),
+              possible.size(), rows.size());
   EXPECT_GT(possible.size(), 10000u);
 }
 
@@ -53,7 +54,8 @@ TEST(GeneratedScenes, AreTheSameFromTheSameNumber) {
 
 // Of three axes of which two exclude each other in part.
 TEST(Covering, RowsHaveAllPairsThatCanMeetAndNoOther) {
-  const Space space({{"a", {"0", "1", "2"}}, {"b", {"0", "1"}}, {"c", {"0", "1", "2"}}}, {{"a", {"1", "2"}, "b", {"1"}}});
+  const Space space({{"a", {"0", "1", "2"}}, {"b", {"0", "1"}}, {"c", {"0", "1", "2"}}},
+                    {{"a", {"1", "2"}, "b", {"1"}}});
   const std::vector<ValuePair> possible = possible_pairs(space);
   EXPECT_EQ(possible.size(), 3u * 2 + 3u * 3 + 2u * 3 - 2);
   std::vector<Choice> rows = covering_rows(space);

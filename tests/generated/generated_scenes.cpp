@@ -33,9 +33,10 @@ std::string own_path() { return std::filesystem::read_symlink("/proc/self/exe").
 
 // Runs those of one job; returns how many broke a property.
 int run_job(const Options& options, long job) {
-  const std::string base = options.keep.empty()
-                               ? (std::filesystem::temp_directory_path() / ("toile-generated-" + std::to_string(getpid()))).string()
-                               : options.keep;
+  const std::string base =
+      options.keep.empty()
+          ? (std::filesystem::temp_directory_path() / ("toile-generated-" + std::to_string(getpid()))).string()
+          : options.keep;
   std::map<std::string, int> ends;
   int broken = 0;
   for (long k = job; k < options.count; k += options.jobs) {
@@ -50,12 +51,13 @@ int run_job(const Options& options, long job) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     ++ends[checked.skipped ? "without its start" : std::string("exit code ").append(std::to_string(checked.exit_code))];
     if (options.count == 1 || std::getenv("TOILE_GENERATED_VERBOSE") != nullptr)
-      std::printf("scene %ld: exit code %d, %.2f s: %s\n", number, checked.exit_code, seconds, describe(scene.choice).c_str());
+      std::printf("scene %ld: exit code %d, %.2f s: %s\n", number, checked.exit_code, seconds,
+                  describe(scene.choice).c_str());
     for (const std::string& violation : checked.violations) std::printf("scene %ld: %s\n", number, violation.c_str());
     if (!checked.violations.empty()) {
       ++broken;
-      std::printf("  %s\n  again: %s --program %s --scene %ld --keep DIR\n", describe(scene.choice).c_str(), own_path().c_str(),
-                  options.check.program.c_str(), number);
+      std::printf("  %s\n  again: %s --program %s --scene %ld --keep DIR\n", describe(scene.choice).c_str(),
+                  own_path().c_str(), options.check.program.c_str(), number);
     }
     std::fflush(stdout);
     if (options.keep.empty()) std::filesystem::remove_all(check.directory);
@@ -77,8 +79,9 @@ int list() {
     for (const std::string_view value : axis.values) std::printf(" %s,", std::string(value).c_str());
     std::printf("\n");
   }
-  std::printf("%zu features with %zu values; %zu pairs of values that can meet, all in %zu scenes but %zu\n", space.axes().size(),
-              space.value_count(), possible.size(), rows.size(), missing_pairs(space, possible, rows).size());
+  std::printf("%zu features with %zu values; %zu pairs of values that can meet, all in %zu scenes but %zu\n",
+              space.axes().size(), space.value_count(), possible.size(), rows.size(),
+              missing_pairs(space, possible, rows).size());
   return 0;
 }
 

@@ -54,14 +54,16 @@ Left what_is_left(const Ended& ended, const fs::path& directory) {
 
 class Checker {
  public:
-  Checker(const GeneratedScene& scene, const CheckOptions& options) : scene_(scene), options_(options), at_(options.directory) {}
+  Checker(const GeneratedScene& scene, const CheckOptions& options)
+      : scene_(scene), options_(options), at_(options.directory) {}
 
   Checked operator()() {
     for (const TextFile& file : scene_.files) write(at_ / file.name, file.bytes);
     write(at_ / "scene.json", scene_.scene);
     if (!scene_.earlier.empty()) {
       write(at_ / "earlier.json", scene_.earlier);
-      const Ended earlier = program({"run", "earlier.json", "--threads", "1", "--no-preview", "--quiet", "--out", "earlier"}, {});
+      const Ended earlier =
+          program({"run", "earlier.json", "--threads", "1", "--no-preview", "--quiet", "--out", "earlier"}, {});
       check_end("the run that it starts from", earlier);
       if (!fs::exists(at_ / "earlier/report.json") || !fs::exists(at_ / "earlier/cloth.pc2")) {
         checked_.skipped = true;
@@ -126,13 +128,15 @@ class Checker {
   }
 
   void check_runs() {
-    const Left first = what_is_left(
-        program({"run", "scene.json", "--threads", "1", "--no-preview", "--quiet", "--out", "first"}, {"MALLOC_PERTURB_=90"}),
-        at_ / "first");
+    const Left first =
+        what_is_left(program({"run", "scene.json", "--threads", "1", "--no-preview", "--quiet", "--out", "first"},
+                             {"MALLOC_PERTURB_=90"}),
+                     at_ / "first");
     checked_.exit_code = first.ended.exit_code;
     if (!check_end("run", first.ended)) return;
     // All at once; what it was is asked for only when something differs.
-    if (!scene_.begins_to_move && differences(first, in_process("all", scene_.with_both, 3, 165), false).empty()) return;
+    if (!scene_.begins_to_move && differences(first, in_process("all", scene_.with_both, 3, 165), false).empty())
+      return;
     compare("three threads and other memory", first, in_process("again", scene_.scene, 3, 165), true);
     if (!scene_.with_far_solid.empty())
       compare("a solid far away", first, in_process("solid", scene_.with_far_solid, 1, 90), false);
@@ -175,13 +179,16 @@ class Checker {
 
   void check_memory() {
     constexpr int error = 99;
-    std::vector<std::string> words = {options_.valgrind, "--quiet", "--error-exitcode=" + std::to_string(error), "--num-callers=20"};
+    std::vector<std::string> words = {options_.valgrind, "--quiet", "--error-exitcode=" + std::to_string(error),
+                                      "--num-callers=20"};
     if (!options_.suppressions.empty()) words.push_back("--suppressions=" + options_.suppressions);
-    for (const char* word : {"run", "scene.json", "--threads", "1", "--no-preview", "--quiet", "--out", "first"}) words.emplace_back(word);
+    for (const char* word : {"run", "scene.json", "--threads", "1", "--no-preview", "--quiet", "--out", "first"})
+      words.emplace_back(word);
     words.insert(words.end() - 8, options_.program);
     const Ended ended = run_program(at_, at_ / "log.txt", 60 * options_.limit_s, std::move(words));
     checked_.exit_code = ended.exit_code;
-    if (check_end("run under memcheck", ended) && ended.message.find("==") != std::string::npos) violate("memcheck: " + ended.message);
+    if (check_end("run under memcheck", ended) && ended.message.find("==") != std::string::npos)
+      violate("memcheck: " + ended.message);
   }
 
   const GeneratedScene& scene_;

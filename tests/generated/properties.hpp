@@ -13,15 +13,15 @@
 namespace toile::generated {
 
 struct CheckOptions {
-  std::string program;    // toile
-  std::string directory;  // an empty folder
-  int limit_s = 120;      // for one run: it takes less than one
+  std::string program;                 // toile
+  std::string directory;               // an empty folder
+  int limit_s = 120;                   // for one run: it takes less than one
   std::string valgrind, suppressions;  // valgrind not empty: one run under it, instead of all that
 };
 
 struct Checked {
   std::vector<std::string> violations;
-  int exit_code = -1;   // of the run; -1: none
+  int exit_code = -1;    // of the run; -1: none
   bool skipped = false;  // the run that it starts from did not come to its end
 };
 

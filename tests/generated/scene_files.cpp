@@ -21,7 +21,8 @@ std::vector<Point> egg(double width_m, double depth_m, double lean_m, double sca
     const double polar = std::numbers::pi * r / (rings + 1), y = 0.5 * height_m * (1 - std::cos(polar));
     for (int s = 0; s < sectors; ++s) {
       const double turn = 2 * std::numbers::pi * s / sectors;
-      x.push_back({0.5 * width_m * std::sin(polar) * std::sin(turn), y, 0.5 * depth_m * std::sin(polar) * std::cos(turn)});
+      x.push_back(
+          {0.5 * width_m * std::sin(polar) * std::sin(turn), y, 0.5 * depth_m * std::sin(polar) * std::cos(turn)});
     }
   }
   x.push_back({0, height_m, 0});
@@ -90,10 +91,12 @@ std::vector<TextFile> motion_files(const Draw& draw, bool in_cm, bool as_obj) {
   const bool from_pose = draw.whole("motion begins in the pose", 0, 1) == 1;
   std::vector<std::vector<Point>> frames;
   for (int k = 0; k < motion_samples; ++k)
-    frames.push_back(egg(form.width_m, form.depth_m, draw.between("lean", 0.01, 0.05) * (from_pose ? k : k + 1), form.scale));
+    frames.push_back(
+        egg(form.width_m, form.depth_m, draw.between("lean", 0.01, 0.05) * (from_pose ? k : k + 1), form.scale));
   if (!as_obj) return {{"motion.pc2", pc2(frames)}};
   std::vector<TextFile> files;
-  for (std::size_t k = 0; k < frames.size(); ++k) files.push_back({"motion/frame_" + std::to_string(k) + ".obj", obj(frames[k])});
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    files.push_back({"motion/frame_" + std::to_string(k) + ".obj", obj(frames[k])});
   return files;
 }
 
@@ -137,7 +140,8 @@ TextFile pattern_file(const Draw& draw, std::string_view drawing, bool outer, bo
   file.set("properties", Object().set("units_in_meter", "100").set("curvature_coords", word("relative")).text());
   if (drawing == "fold") {
     const std::string fold = Object().set("endpoints", "[0, 2]").set("angle_deg", "60").text();
-    file.set("toile", Object().set("panels", Object().set("front", Object().set("folds", list({fold})).text()).text()).text());
+    file.set("toile",
+             Object().set("panels", Object().set("front", Object().set("folds", list({fold})).text()).text()).text());
   } else if (drawing == "elastic") {
     const std::string back = Object().set("rest_stretch_v", "0.9").set("fabric", word("knit")).text();
     file.set("toile", Object().set("panels", Object().set("back", back).text()).text());

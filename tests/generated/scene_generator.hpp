@@ -22,7 +22,8 @@ struct GeneratedScene {
   std::string scene;
   std::string earlier;  // the run that it starts from goes into the folder "earlier"; empty: none
   std::string with_far_solid, with_defaults, with_both;  // with_far_solid may be empty: none
-  bool begins_to_move = false;  // by that solid: then there is another number of frames, and those that both have are the same
+  bool begins_to_move =
+      false;  // by that solid: then there is another number of frames, and those that both have are the same
   bool may_refuse_start = false;  // exit code 4 for crossings
   std::vector<TextFile> files;    // that all of them read
 };

@@ -48,12 +48,21 @@ const Space& scene_space() {
       },
       {
           // What is sewn is not pinned yet, and has no edge length of its own shape; the rest is only of patterns.
-          {"cloth", {"pattern", "two patterns"}, "pins", {"near", "box", "path", "moves", "box moves", "let go", "taken later"}},
+          {"cloth",
+           {"pattern", "two patterns"},
+           "pins",
+           {"near", "box", "path", "moves", "box moves", "let go", "taken later"}},
           {"cloth", {"grid", "tube", "ribbon", "closed ribbon", "two shapes"}, "edges", {"counted"}},
-          {"cloth", {"grid", "tube", "ribbon", "closed ribbon", "two shapes"}, "drawing", {"fold", "elastic", "pressed seam"}},
+          {"cloth",
+           {"grid", "tube", "ribbon", "closed ribbon", "two shapes"},
+           "drawing",
+           {"fold", "elastic", "pressed seam"}},
           {"cloth", {"grid", "tube", "ribbon", "closed ribbon", "two shapes"}, "labels", {"held"}},
           // Panels are drawn around the body.
-          {"cloth", {"pattern", "two patterns"}, "placed", {"in front", "lying above", "turned", "as drawn", "through"}},
+          {"cloth",
+           {"pattern", "two patterns"},
+           "placed",
+           {"in front", "lying above", "turned", "as drawn", "through"}},
           {"cloth", {"grid", "ribbon", "two shapes"}, "placed", {"around the body"}},
           // Who moves how.
           {"body", {"none", "cylinder"}, "motion", {"of its own", "pc2", "obj files"}},
