@@ -104,6 +104,7 @@ struct SceneCloth {
   std::vector<ScenePin> pins;
   std::vector<SceneDrag> drags;
   std::vector<LabelHeight> label_heights;  // of edges with a label; the waist is measured when it is not given
+  std::string where, pointer;              // in the scene's file; empty without one
 };
 
 struct SceneCylinder {  // an upright solid whose rims are rounded: body/solid_shapes.hpp

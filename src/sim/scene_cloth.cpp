@@ -157,6 +157,10 @@ double length_of(const std::vector<Vec3>& path, bool closed) {
   return length;
 }
 
+constexpr double least_step_m = 2e-6;  // as of the points of an outline (garment/triangulate.hpp)
+
+double last_step_m(const std::vector<Vec3>& path) { return (path.back() - path[path.size() - 2]).norm(); }
+
 SceneRibbon read_ribbon(const Json& value) {
   value.allow_only({"width_m", "edge_m", "path_m", "closed", "across"});
   SceneRibbon ribbon;
@@ -166,8 +170,9 @@ SceneRibbon read_ribbon(const Json& value) {
   const Json& path = value.at("path_m");
   for (const Json& point : path.array()) {
     ribbon.path_m.push_back(vector_of(point));
-    if (ribbon.path_m.size() > 1 && ribbon.path_m.back() == ribbon.path_m[ribbon.path_m.size() - 2])
-      point.fail("another place than the point before", "the same");
+    if (ribbon.path_m.size() > 1 && !(last_step_m(ribbon.path_m) >= least_step_m))
+      point.fail("a place at least 2 micrometres from the point before",
+                 fmt::sprintf("%.3g m", last_step_m(ribbon.path_m)));
   }
   const std::size_t least = ribbon.closed ? 3 : 2;
   if (ribbon.path_m.size() < least)
@@ -223,6 +228,8 @@ SceneCloth read_cloth(const Json& value, const std::string& file) {
   value.allow_only({"name", "pattern", "grid", "tube", "ribbon", "resolution_cm", "vertices", "fabric", "panels",
                     "placement", "pins", "drags", "label_heights_m"});
   SceneCloth cloth;
+  cloth.where = value.where();
+  cloth.pointer = value.pointer();
   cloth.name = value.string_or("name", "");
   read_shape(value, file, cloth);
   read_number(value, "resolution_cm", cloth.resolution_m, 0.01, 0.1, 20);
