@@ -3,6 +3,7 @@
 #include "command_line.hpp"
 #include "sim/simulate.hpp"
 
+#include <string>
 #include <string_view>
 
 namespace toile {
@@ -28,5 +29,7 @@ class ProgressBar {
 
 // To stdout; throws IoError when it is closed or full.
 void print(std::string_view text);
+// The first reason of a verdict that is no pass, on stderr: "toile: DIR: stretch: p99 7 %, ...".
+void tell_failure(const std::string& directory, const Verdict& verdict);
 
 }  // namespace toile

@@ -3,20 +3,21 @@
 #include "core/parallel.hpp"
 #include "core/stopwatch.hpp"
 #include "garment/placement.hpp"
-#include "mesh/check.hpp"
 #include "sim/dressing.hpp"
+#include "sim/falling.hpp"
 #include "sim/offenders.hpp"
 #include "sim/outfit_run.hpp"
 #include "sim/recorder.hpp"
 #include "sim/setup.hpp"
 #include "sim/start_run.hpp"
-#include "sim/untangle.hpp"
-#include "verify/crossings.hpp"
+#include "sim/start_state.hpp"
 
+#include <fmt/printf.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 namespace toile {
@@ -29,15 +30,6 @@ double peak_memory_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-bool is_closed(std::span<const Vec3> x, std::span<const Triangle> triangles) {
-  try {
-    check_closed("body", x, triangles);
-  } catch (const InputError&) {
-    return false;
-  }
-  return true;
 }
 
 void add(PhaseReport& phase, const FrameReport& frame) {
@@ -121,6 +113,16 @@ class Run {
     failure_.push_back({std::string(how), std::move(detail)});
   }
 
+  // The verdict, if it is a pass, is one with this reservation.
+  void qualify(std::string_view code, const std::string& detail) {
+    for (Reason& known : qualifications_) {
+      if (known.code != code) continue;
+      known.detail += "; " + detail;
+      return;
+    }
+    qualifications_.push_back({std::string(code), detail});
+  }
+
   // The step could not be made however short: says over what, and leaves it in a file.
   void collapse(const std::string& when, const FrameReport& frame, const ClothMesh& mesh, std::span<const Vec3> x) {
     std::string words = when + ": " + frame.diagnosis;
@@ -153,6 +155,7 @@ class Run {
     person_triangles_ = loaded.solid.triangles.size();
     add_solids(scene_.solids, loaded, inputs);
     motion_ = std::move(loaded.movement);
+    report_.warnings.insert(report_.warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
     SolidMesh& solid = loaded.solid;
     body_x_ = solid.positions;
     body_triangles_ = solid.triangles;
@@ -172,39 +175,38 @@ class Run {
   // `sewn_now`: what sewing left, not what the user gave; --strict-start is about the latter.
   void free_start(bool sewn_now) {
     const Timed timed(startup(&StartupReport::crossings));
-    const auto self = find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x);
-    const auto through = body_ ? find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_)
-                               : std::vector<Crossing>{};
-    if (self.empty() && through.empty()) return;
-    std::string what = std::to_string(count_edges(self)) + " edges of the cloth pass through it";
-    if (body_) what += ", " + std::to_string(count_edges(through)) + " between cloth and body";
+    const StartCrossings found = start_crossings(outfit_, body_triangles_, body_x_);
+    if (found.all() == 0) return;
+    std::string what = std::to_string(found.cloth_cloth) + " edges of the cloth pass through it";
+    if (body_) what += ", " + std::to_string(found.cloth_body) + " between cloth and body";
     if (scene_.strict_start && !sewn_now)
       throw Error(ExitCode::bad_start, printable(outfit_.parts.front().name) + ": bad start: " + what);
     say("untangling", 0);
-    // Inside and outside of a body that has holes are not known; then the cloth alone is untangled.
-    const bool with_body = body_ && is_closed(body_x_, body_triangles_);
-    const UntangleReport report = untangle(
-        outfit_.mesh.triangles, outfit_.state.x,
-        with_body ? std::span<const Triangle>(body_triangles_) : std::span<const Triangle>{},
-        with_body ? std::span<const Vec3>(body_x_) : std::span<const Vec3>{}, {}, [&](int, int) { return !stopped(); });
+    const UntangledStart untangled =
+        untangle_start(outfit_, body_triangles_, body_x_, held_now(sewn_now), [&] { return stopped(); });
+    if (!untangled.moved_far.empty()) qualify(reason::moved_by_untangling, untangled.moved_far);
     const int weightless = sewn_now ? come_apart() : 0;
-    const auto self_left = find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x);
-    const auto through_left =
-        body_ ? find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_)
-              : std::vector<Crossing>{};
+    const StartCrossings left = start_crossings(outfit_, body_triangles_, body_x_);
     StartReport& start = report_.start;  // of the last garment when several are sewn; trials of all of them
-    start = {count_edges(self),
-             count_edges(through),
-             count_edges(self_left),
-             count_edges(through_left),
-             start.trials + report.iterations,
-             std::max(start.largest_move_mm, 1e3 * report.largest_move)};
-    std::string then = std::to_string(count_edges(self_left) + count_edges(through_left)) + " are left";
-    if (self_left.empty() && through_left.empty()) then = "none is left";
-    std::string tried = std::to_string(report.iterations) + " trials of untangling ";
+    start = {found.cloth_cloth,
+             found.cloth_body,
+             left.cloth_cloth,
+             left.cloth_body,
+             start.trials + untangled.trials,
+             std::max(start.largest_move_mm, untangled.largest_move_mm)};
+    const std::string then = left.all() == 0 ? "none is left" : std::to_string(left.all()) + " are left";
+    std::string tried = std::to_string(untangled.trials) + " trials of untangling ";
     if (weightless > 0)
       tried += "and " + std::to_string(weightless) + (weightless == 1 ? " frame" : " frames") + " without weight ";
     report_.warnings.push_back((sewn_now ? "as sewn: " : "bad start: ") + what + "; after " + tried + then);
+  }
+
+  // What untangling must leave where it is: what was worn before, or what pins hold from the first moment.
+  std::vector<Index> held_now(bool sewn_now) const {
+    if (!sewn_now) return held_from_the_start(events_of(outfit_, cloth_));
+    std::vector<Index> worn(static_cast<std::size_t>(settling_.held_particles));
+    std::iota(worn.begin(), worn.end(), 0);
+    return worn;
   }
 
   // What trials from rest leave of a weld may come apart as the garment moves, with threads that want to be as long as they were cut, before
@@ -215,7 +217,7 @@ class Run {
     std::optional<OutfitRun> run;
     const int most = frames_in(most_waiting_s);
     int frames = 0;
-    while (frames < most && !find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x).empty()) {
+    while (frames < most && start_crossings(outfit_, {}, {}).all() > 0) {
       if (!run) run.emplace(scene_, outfit_, body(), step_, waiting, options_.stop);
       const FrameReport frame = run->frame();
       if (frame.interrupted || !frame.ok) break;  // as the drape will say
@@ -367,6 +369,7 @@ class Run {
     }
     run.set_events(std::move(events));
     recorder_.emplace(*writer_, outfit_, rest_stretch, scene_.fps, body_triangles_, body_x_);
+    watch_falling();
     // What hangs now is the run's: a second and a third copy of a fine mesh are large.
     cloth_.clear();
     outfit_.mesh = {};
@@ -386,7 +389,39 @@ class Run {
       }
     }
     if (moving) animate(run);
+    if (report_.ended == "time") judge_end(run);
     close(run);
+  }
+
+  // Garments that fall to nowhere end the run, where that can be told: in still air, and if no hand holds the cloth.
+  void watch_falling() {
+    if (!sewn() || !body_ || scene_.gravity_m_per_s2.isZero(0)) return;
+    for (const SceneCloth& cloth : scene_.cloth)
+      if (!cloth.drags.empty()) return;
+    fall_watch_.emplace(scene_.gravity_m_per_s2, body_triangles_, motion_ ? motion_->at : BodyAt{},
+                        motion_ ? frames_in_motion() * frame_s() : 0, frame_s());
+  }
+  bool in_wind() const { return scene_.air.density_kg_per_m3 > 0 && !scene_.air.wind_m_per_s.isZero(0); }
+
+  bool lost() {
+    const std::optional<LostGarment> lost = fall_watch_->find(outfit_.parts, outfit_.state, body_x_);
+    if (!lost) return false;
+    const auto p = static_cast<std::size_t>(lost->part);
+    const bool touched = touches_.touched[p] != 0;
+    end(touched ? reason::fell_off : reason::never_touched,
+        printable(outfit_.parts[p].name) + (touched ? " fell off the body" : " never touched the body") +
+            ", and nothing below will catch it: " + lost->where);
+    return true;
+  }
+
+  // Of a run whose time is over.
+  void judge_end(const OutfitRun& run) {
+    if (!run.settled())
+      failure_.push_back({std::string(reason::not_settled),
+                          fmt::sprintf("it ended %.3g s after the weld; gravity and elastic are full after %.3g s",
+                                       run.time_s(), OutfitRun::settling_s)});
+    else if (fall_watch_ && in_wind())
+      lost();
   }
 
   void animate(OutfitRun& run) {
@@ -395,8 +430,7 @@ class Run {
     report_.motion_name = motion_->name;
     report_.motion_first_frame = writer_->cloth_frames() - 1;
     const PhaseSeconds before = run.seconds();
-    const bool whole = !scene_.seconds_given && std::isfinite(motion_->duration_s);
-    const int frames = frames_in(whole ? motion_->duration_s : scene_.seconds);
+    const int frames = frames_in_motion();
     Stopwatch watch;
     for (int k = 1; k <= frames; ++k) {
       motion_->at(static_cast<double>(k) * frame_s(), body_x_);
@@ -410,6 +444,10 @@ class Run {
     set_seconds(phase, run.seconds(), before);
   }
 
+  int frames_in_motion() const {
+    const bool whole = !scene_.seconds_given && std::isfinite(motion_->duration_s);
+    return frames_in(whole ? motion_->duration_s : scene_.seconds);
+  }
   double frame_s() const { return 1 / scene_.fps; }
   double settle_s() const { return settling_.sewn ? OutfitRun::settling_s : -rest_s; }
 
@@ -431,7 +469,9 @@ class Run {
       return false;
     }
     recorder_->frame(outfit_.state.x, body_x_);
-    return true;
+    if (!fall_watch_) return true;
+    note_touches(outfit_.parts, run, touches_);
+    return !run.settled() || in_wind() || !lost();
   }
 
   void close(OutfitRun& run) {
@@ -447,7 +487,8 @@ class Run {
     report_.state_hash = state.hex();
     report_.frames = writer_->cloth_frames();
     Limits limits;
-    limits.must_be_still = scene_.until_still && !motion_;
+    const bool fell = report_.ended == reason::never_touched || report_.ended == reason::fell_off;
+    limits.must_be_still = scene_.until_still && !motion_ && !fell;  // of what falls rest is not asked
     report_.verdict.limits = limits;
     if (recorder_) {
       report_.audit = recorder_->report();
@@ -457,6 +498,7 @@ class Run {
     auto& reasons = report_.verdict.reasons;
     reasons.insert(reasons.begin(), failure_.begin(), failure_.end());
     report_.verdict.pass = reasons.empty();
+    report_.verdict.qualifications = qualifications_;
     report_.seconds_total = total_.seconds();
     report_.peak_memory_mb = peak_memory_mb();
     writer_->finish(to_json(report_));
@@ -470,7 +512,7 @@ class Run {
   Stopwatch total_;
   Report report_;
   double after_startup_ = 0;
-  std::vector<Reason> failure_;
+  std::vector<Reason> failure_, qualifications_;
   std::vector<LoadedCloth> cloth_;
   Outfit outfit_;
   Settling settling_;
@@ -482,6 +524,8 @@ class Run {
   StepOptions step_;
   std::optional<RunWriter> writer_;
   std::optional<Recorder> recorder_;
+  TouchMemory touches_;
+  std::optional<FallWatch> fall_watch_;
 };
 
 }  // namespace

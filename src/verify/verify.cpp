@@ -205,6 +205,9 @@ VerifyReport verify_directory(const std::string& directory) {
   if (const Json* reasons = report.find("reasons"))
     for (const Json& reason : reasons->array())
       if (!is_measured_reason(reason.string())) result.reported_reasons.push_back(reason.string());
+  if (const Json* details = report.find("qualification_details"))
+    for (const auto& [code, detail] : details->object())
+      result.reported_qualifications.push_back({code, detail.string()});
   return result;
 }
 

@@ -26,6 +26,11 @@
 
 namespace toile {
 
+struct Reason {
+  std::string code;
+  std::string detail;  // one line: what was measured, where, and the limit
+};
+
 // Distinct edges that pass through a triangle.
 struct PenetrationCount {
   int max = 0, last = 0, frames = 0;  // over frames; in the last frame; how many frames have any
@@ -51,6 +56,7 @@ struct VerifyReport {
   bool must_be_still = false;  // from report.json: limits.still_mm_per_s is a number
   // Reason codes of report.json that no file shows (a time limit, a crash): the judge cannot acquit of them.
   std::vector<std::string> reported_reasons;
+  std::vector<Reason> reported_qualifications;  // of report.json, likewise: what no file shows
 };
 
 // What stays the same over the frames of a run.
@@ -86,7 +92,7 @@ class RunAudit {
 
 // Reads cloth.obj, cloth.pc2, body.obj, body.pc2 and report.json of a run; the body's files may be absent together when
 // report.json knows of no body.  Of report.json it uses `fps`, and if present `frames`, `body.vertices`, `reasons`,
-// `limits.still_mm_per_s` and `rest_stretch` {"panel": [b_u, b_v]}.
+// `qualification_details`, `limits.still_mm_per_s` and `rest_stretch` {"panel": [b_u, b_v]}.
 // Throws IoError (missing, unreadable) or InputError (truncated, not what the format says, sizes that contradict each
 // other), naming the file, what was expected and what it has.
 VerifyReport verify_directory(const std::string& directory);
