@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fails when a module of src/ includes one that is not below it in src/layers.txt, or one that it is not linked with.
+"""Fails when a module of src/ includes one that is not below it in src/layers.txt, or one that it is not linked with, or when a file uses one
+that a line `only` keeps for others.
 
 Usage: check_layers.py [SOURCE_ROOT]      prints every offence as file:line: ...; exit 1 if there is any.
 """
@@ -11,7 +12,39 @@ import sys
 def read_layers(text):
     """{module: number of its line}"""
     lines = [line.split("#")[0].split() for line in text.splitlines()]
-    return {module: number for number, line in enumerate(lines) for module in line}
+    return {module: number for number, line in enumerate(lines) if line[:1] != ["only"] for module in line}
+
+
+def read_kept(text):
+    """[(module, other, files of the module that may use the other)]"""
+    lines = [line.split("#")[0].split() for line in text.splitlines()]
+    return [(line[1], line[2], set(line[3:])) for line in lines if line[:1] == ["only"]]
+
+
+def finders_of(folder):
+    """What finds crossings in a module: functions find_... and classes ...Search of its headers."""
+    names = set()
+    for header in folder.glob("*.hpp"):
+        names.update(re.findall(r"\b(find_\w+)\(|^class (\w+Search)\b", header.read_text(), re.MULTILINE))
+    return {name for pair in names for name in pair if name}
+
+
+def kept_offences(root, kept):
+    for module, other, files in kept:
+        names = finders_of(root / "src" / other)
+        used = re.compile(r"\b(" + "|".join(sorted(names)) + r")\b") if names else None
+        for name in sorted(files):
+            if not (root / "src" / module / name).exists():
+                yield f"src/layers.txt: there is no src/{module}/{name}"
+        for path in sorted((root / "src" / module).glob("*.[ch]pp")):
+            if path.name in files:
+                continue
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                place = f"{path.relative_to(root)}:{number}"
+                if re.match(rf'\s*#\s*include\s+"{other}/', line):
+                    yield f"{place}: in '{module}' only {', '.join(sorted(files))} may include '{other}'"
+                elif used and (found := used.search(line.split("//")[0])):
+                    yield f"{place}: '{found.group(1)}' of '{other}' is only for {', '.join(sorted(files))}"
 
 
 def read_links(cmake):
@@ -51,6 +84,7 @@ def offences(root):
                 yield f"{place}:{number}: '{module}' may not include '{other}'"
             elif other not in links.get(module, set()):
                 yield f"{place}:{number}: '{module}' includes '{other}' but src/CMakeLists.txt does not link it"
+    yield from kept_offences(root, read_kept((root / "src/layers.txt").read_text()))
     for module in sorted(layer.keys() - links.keys()):
         yield f"src/layers.txt: module '{module}' is not in src/CMakeLists.txt"
 

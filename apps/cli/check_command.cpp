@@ -1,4 +1,5 @@
 // apps/cli/check_command.cpp: `toile check`: reads scenes, patterns and meshes, says what they hold or what is wrong with them.
+#include "body_option.hpp"
 #include "commands.hpp"
 #include "output_folder.hpp"
 #include "core/hash.hpp"
@@ -11,6 +12,7 @@
 #include "io/json_text.hpp"
 #include "sim/budget.hpp"
 #include "sim/setup.hpp"
+#include "sim/start_run.hpp"
 #include "terminal.hpp"
 
 #include <fmt/printf.h>
@@ -22,7 +24,16 @@
 namespace toile {
 namespace {
 
-constexpr double checked_resolution_m = 0.01;
+// What this throws for bad input, or nothing.
+template <class Work>
+std::string complaint(Work&& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
 
 // `garment` is the pattern meshed.
 std::string describe(const Pattern& pattern, const GarmentMesh& garment, double resolution_m, JsonText& json) {
@@ -81,17 +92,40 @@ std::string describe(const Scene& scene, const BudgetLimits& limits, JsonText& j
                                               : fmt::sprintf("%.1f hours", budget.seconds / 3600));
 }
 
-std::string check_mesh(const std::string& path, JsonText& json) {
-  const std::string file = printable(path);
-  const ObjMesh mesh = parse_obj(read_file(path), file);
-  check_triangles(file, mesh.positions, mesh.triangles);
-  check_areas(file, mesh.positions, mesh.triangles);
-  std::string open;
-  try {
-    check_closed(file, mesh.positions, mesh.triangles);
-  } catch (const InputError& error) {
-    open = error.what();
+// What of a mesh a face uses: `untangle` and `dress` leave the rest out.
+struct UsedMesh {
+  Vec3s x;
+  std::vector<Triangle> triangles;
+};
+UsedMesh used_of(const ObjMesh& mesh) {
+  std::vector<Index> number(mesh.positions.size(), -1);
+  UsedMesh used{{}, mesh.triangles};
+  for (const Triangle& t : mesh.triangles)
+    for (const Index i : t) number[static_cast<std::size_t>(i)] = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (number[i] < 0) continue;
+    number[i] = static_cast<Index>(used.x.size());
+    used.x.push_back(mesh.positions[i]);
   }
+  for (Triangle& t : used.triangles)
+    for (Index& i : t) i = number[static_cast<std::size_t>(i)];
+  return used;
+}
+
+// A mesh may be meant as a cloth (`untangle CLOTH`) or as a body; one that neither command takes is refused.
+std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json) {
+  const std::string file = printable(path), text = read_file(path);
+  const ObjMesh mesh = parse_obj(text, file);
+  const UsedMesh used = used_of(mesh);
+  const std::size_t unused = mesh.positions.size() - used.x.size();
+  const std::string no_cloth = complaint([&] {
+    check_triangles(file, used.x, used.triangles);
+    check_areas(file, used.x, used.triangles);
+  });
+  const std::string open = complaint([&] { check_closed(file, used.x, used.triangles); });
+  CollisionBody body;
+  const std::string no_body = complaint([&] { body = read_body(path, text, unit); });
+  if (!no_cloth.empty() && !no_body.empty()) throw Error(ExitCode::bad_input, open.empty() ? no_body : no_cloth);
   Vec3 low = mesh.positions.front(), high = low;
   for (const Vec3& p : mesh.positions) {
     low = low.cwiseMin(p);
@@ -99,36 +133,57 @@ std::string check_mesh(const std::string& path, JsonText& json) {
   }
   json.member("kind", "mesh");
   json.member("vertices", mesh.positions.size());
+  json.member("unused_vertices", unused);
   json.member("triangles", mesh.triangles.size());
   json.member("panels", mesh.group_names.size());
   json.member("closed", open.empty());
   json.member("height", high.y() - low.y());
-  std::string text =
+  json.key("body");
+  if (no_body.empty()) {
+    json.begin_object();
+    json.member("vertices", body.positions.size());
+    json.member("triangles", body.triangles.size());
+    json.member("height_m", body.height_m);
+    json.end_object();
+  } else {
+    json.null();
+  }
+  json.member("not_a_body", no_body);
+  json.member("not_a_cloth", no_cloth);
+  json.key("notes");
+  json.begin_array();
+  for (const std::string& note : body.notes) json.value(note);
+  json.end_array();
+  std::string said =
       fmt::sprintf("mesh, %zu vertices, %zu triangles, %zu groups, %s, %.3f x %.3f x %.3f units\n",
                    mesh.positions.size(), mesh.triangles.size(), mesh.group_names.size(),
                    open.empty() ? "closed" : "open", high.x() - low.x(), high.y() - low.y(), high.z() - low.z());
-  if (!open.empty()) text += "  not a body: " + open + '\n';
-  return text;
+  if (unused > 0) said += fmt::sprintf("  %zu vertices are in no triangle, and are left out\n", unused);
+  if (no_body.empty())
+    said += fmt::sprintf("  as a body: %zu vertices, %zu triangles, %.3f m high\n", body.positions.size(),
+                         body.triangles.size(), body.height_m);
+  for (const std::string& note : body.notes) said += "  note: " + note + '\n';
+  if (!no_body.empty()) said += "  not a body: " + no_body + '\n';
+  if (!no_cloth.empty()) said += "  not a cloth: " + no_cloth + '\n';
+  return said;
 }
 
-std::string check_pattern_text(const std::string& path, const std::string& text, const BudgetLimits& limits, JsonText& json) {
-  const double resolution_m = checked_resolution_m;
+// As `dress` loads it, and what that would take for 10 s on the mannequin.
+std::string check_pattern_text(const CommandLine& line, const std::string& path, const std::string& text, JsonText& json) {
+  const double resolution_m = line.resolution_cm ? 0.01 * *line.resolution_cm : SceneCloth{}.resolution_m;
   const Pattern pattern = parse_pattern(text, printable(path));
-  Scene dressed;  // as `dress` would, on the mannequin
+  Scene dressed;
   dressed.name = pattern.name;
   dressed.seconds = 10;
   dressed.until_still = true;
   dressed.body.kind = SceneBody::Kind::mannequin;
   dressed.cloth.emplace_back().pattern = path;
-  dressed.cloth.front().resolution_m = resolution_m;
-  const std::string budget = "  as dressed for 10 s: " + describe(dressed, limits, json);
-  GarmentMesh garment;
-  try {
-    garment = mesh_garment(pattern, resolution_m);
-  } catch (const InputError& error) {
-    throw Error(error.code(), printable(path) + ": " + error.what());
-  }
-  return describe(pattern, garment, resolution_m, json) + budget;
+  dressed.cloth.front().set_edge_m(resolution_m);
+  const std::string budget = "  as dressed for 10 s: " + describe(dressed, line.limits, json);
+  Hash hash;
+  const LoadedCloth loaded = load_cloth(
+      dressed, dressed.cloth.front(), [&](const std::string&) { return text; }, hash);
+  return describe(pattern, loaded.garment, resolution_m, json) + budget;
 }
 
 std::string check_scene(const std::string& path, const std::string& text, const BudgetLimits& limits, JsonText& json) {
@@ -137,25 +192,28 @@ std::string check_scene(const std::string& path, const std::string& text, const 
   const std::string budget = "  " + describe(scene, limits, json);
   Hash hash;
   Index vertices = 0, triangles = 0;
-  for (const SceneCloth& cloth : scene.cloth) {
-    const LoadedCloth loaded = load_cloth(scene, cloth, read_text_file, hash);
-    vertices += loaded.garment.mesh.particle_count;
-    triangles += loaded.garment.mesh.triangle_count();
+  std::vector<LoadedCloth> cloth;
+  for (const SceneCloth& one : scene.cloth) {
+    cloth.push_back(load_cloth(scene, one, read_text_file, hash));
+    vertices += cloth.back().garment.mesh.particle_count;
+    triangles += cloth.back().garment.mesh.triangle_count();
   }
   LoadedBody body = load_body(scene.body, hash);
   add_solids(scene.solids, body, hash);
+  if (!scene.start.empty()) start_from(scene.start, cloth, body.solid.positions);
   json.member("kind", "scene");
   json.member("vertices", vertices);
   json.member("triangles", triangles);
   json.member("body_vertices", body.solid.positions.size());
-  return fmt::sprintf("scene, cloth of %d vertices and %d triangles, body of %zu vertices%s\n", vertices, triangles,
-                      body.solid.positions.size(), body.movement ? ", moving" : "") +
-         budget;
+  std::string said = fmt::sprintf("scene, cloth of %d vertices and %d triangles, body of %zu vertices%s\n", vertices,
+                                  triangles, body.solid.positions.size(), body.movement ? ", moving" : "");
+  for (const std::string& note : body.warnings) said += "  note: " + note + '\n';
+  return said + budget;
 }
 
-std::string check_file(const std::string& path, const BudgetLimits& limits, JsonText& json) {
+std::string check_file(const CommandLine& line, const std::string& path, JsonText& json) {
   const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending == ".obj" || ending == ".OBJ") return check_mesh(path, json);
+  if (ending == ".obj" || ending == ".OBJ") return check_mesh(path, body_option(line).unit, json);
   if (ending != ".json" && ending != ".JSON") {
     read_file(path);  // a missing file is told as such
     throw InputError(printable(path), "name", "a file that ends in .json (scene or pattern) or .obj (mesh)",
@@ -164,10 +222,10 @@ std::string check_file(const std::string& path, const BudgetLimits& limits, Json
   const std::string text = read_text_file(path);
   const Json root = Json::parse(text, printable(path));
   if (root.is_object() && root.find("cloth") == nullptr && root.find("pattern") != nullptr)
-    return check_pattern_text(path, text, limits, json);
+    return check_pattern_text(line, path, text, json);
   if (root.is_object() && root.find("cloth") == nullptr)
     root.fail("\"cloth\" (a scene) or \"pattern\" (a pattern)", "neither of them");
-  return check_scene(path, text, limits, json);
+  return check_scene(path, text, line.limits, json);
 }
 
 }  // namespace
@@ -185,7 +243,7 @@ ExitCode check_command(const CommandLine& line) {
       json.begin_object();
       json.member("file", path);
       json.member("ok", true);
-      const std::string said = check_file(path, line.limits, json);
+      const std::string said = check_file(line, path, json);
       json.end_object();
       text += path + ": " + said;
     } catch (const Error& error) {

@@ -144,6 +144,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
 
   CLI::App* check = app.add_subcommand("check", "Check scenes, patterns and meshes; simulate nothing");
   check->add_option("FILE", line.inputs, "Scene or pattern (.json), mesh (.obj)")->required();
+  check->add_option("--resolution", line.resolution_cm, "Edge length at which patterns are meshed, cm (default: 1)")
+      ->check(CLI::Range(0.1, 20.0));
+  check->add_option("--body-unit", line.body_unit, "Unit of meshes that are bodies")
+      ->check(CLI::IsMember({"m", "dm", "cm"}));
 
   CLI::App* verify = app.add_subcommand("verify", "Audit a finished run");
   verify->add_option("DIR", line.inputs, "Directory of the run")->required()->expected(1);

@@ -3,6 +3,7 @@
 #include "io/run_folder.hpp"
 #include "io/json_text.hpp"
 #include "sim/picture_run.hpp"
+#include "sim/report.hpp"
 #include "terminal.hpp"
 #include "verify/verdict.hpp"
 
@@ -71,15 +72,7 @@ std::string crossings_as_text(const VerifyReport& audit) {
 std::string as_json(const VerifyReport& audit, const Verdict& verdict) {
   JsonText json;
   json.begin_object();
-  json.member("verdict", verdict.pass ? "pass" : "fail");
-  json.key("reasons");
-  json.begin_array();
-  for (const Reason& reason : verdict.reasons) json.value(reason.code);
-  json.end_array();
-  json.key("reason_details");
-  json.begin_object();
-  for (const Reason& reason : verdict.reasons) json.member(reason.code, reason.detail);
-  json.end_object();
+  add_judgement(json, verdict);
   json.member("frames", audit.frames);
   json.member("finite", audit.finite);
   json.key("penetrations");
@@ -129,8 +122,7 @@ std::string as_json(const VerifyReport& audit, const Verdict& verdict) {
 }
 
 std::string as_text(const std::string& directory, const VerifyReport& audit, const Verdict& verdict) {
-  std::string out = directory + ": " + (verdict.pass ? "pass" : "fail") + '\n';
-  for (const Reason& reason : verdict.reasons) out += "  " + reason.code + ": " + reason.detail + '\n';
+  std::string out = directory + ": " + judgement_line(verdict) + '\n' + judgement_details(verdict);
   out += fmt::sprintf("  %d frames, %s\n", audit.frames, audit.finite ? "all finite" : "not finite");
   const auto line = [&](const char* what, const PenetrationCount& count) {
     out += fmt::sprintf("  edges through triangles, %s: last frame %d, most %d, in %d frames\n", what, count.last,
@@ -175,10 +167,8 @@ ExitCode verify_command(const CommandLine& line) {
     picture_crossings(directory, audit.worst_frame, png);
     if (!line.json && !line.quiet) print(png + '\n');
   }
-  if (verdict.pass) return ExitCode::ok;
-  const Reason& reason = verdict.reasons.front();
-  std::fprintf(stderr, "toile: %s: %s: %s\n", directory.c_str(), reason.code.c_str(), reason.detail.c_str());
-  return ExitCode::simulation_failed;
+  tell_failure(directory, verdict);
+  return verdict.pass ? ExitCode::ok : ExitCode::simulation_failed;
 }
 
 ExitCode preview_command(const CommandLine& line) {

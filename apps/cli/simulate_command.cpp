@@ -181,8 +181,8 @@ Scene scene_of(const CommandLine& line) {
 
 std::string summary(const Report& report, const std::string& directory) {
   const PhaseReport& drape = report.drape;
-  std::string out = directory + ": " + (report.verdict.pass ? "pass" : "fail") + " (ended: " + report.ended + ")\n";
-  for (const Reason& reason : report.verdict.reasons) out += "  " + reason.code + ": " + reason.detail + '\n';
+  std::string out = directory + ": " + judgement_line(report.verdict) + " (ended: " + report.ended + ")\n" +
+                    judgement_details(report.verdict);
   for (const std::string& warning : report.warnings) out += "  warning: " + warning + '\n';
   out += fmt::sprintf(
       "  %d vertices, %d triangles, %d panels, %d seams; body %d vertices\n"
@@ -248,10 +248,7 @@ ExitCode simulate_command(const CommandLine& line) {
   } else if (!line.quiet) {
     print(summary(report, options.directory));
   }
-  if (!report.verdict.pass) {
-    const Reason& reason = report.verdict.reasons.front();
-    std::fprintf(stderr, "toile: %s: %s: %s\n", options.directory.c_str(), reason.code.c_str(), reason.detail.c_str());
-  }
+  tell_failure(options.directory, report.verdict);
   return code;
 }
 

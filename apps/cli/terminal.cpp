@@ -42,4 +42,11 @@ void print(std::string_view text) {
     throw IoError("standard output", std::strerror(errno));
 }
 
+void tell_failure(const std::string& directory, const Verdict& verdict) {
+  if (verdict.pass) return;
+  const Reason& reason = verdict.reasons.front();
+  std::fprintf(stderr, "toile: %s: %s: %s\n", printable(directory).c_str(), printable(reason.code).c_str(),
+               reason.detail.c_str());
+}
+
 }  // namespace toile

@@ -4,6 +4,7 @@
 #include "process_end.hpp"
 #include "sim/simulate.hpp"
 
+#include <string>
 #include <string_view>
 
 namespace toile {
@@ -25,5 +26,7 @@ class ProgressBar {
 
 // To stdout; throws IoError when it is closed or full.
 void print(std::string_view text);
+// The first reason of a verdict that is no pass, on stderr: "toile: DIR: stretch: p99 7 %, ...".
+void tell_failure(const std::string& directory, const Verdict& verdict);
 
 }  // namespace toile

@@ -20,7 +20,8 @@ namespace toile {
 namespace {
 
 constexpr double shortest_body_m = 0.5, tallest_body_m = 2.5;
-constexpr double part_share = 0.1;  // of the largest part's volume; smaller parts are eyes, teeth, buttons
+constexpr double part_share = 0.1;   // of the largest part's volume; smaller parts are eyes, teeth, buttons
+constexpr double told_share = 0.01;  // of the body's: a smaller part that is left out is not worth a word
 
 std::size_t z(Index i) { return static_cast<std::size_t>(i); }
 
@@ -55,19 +56,93 @@ std::vector<Index> named_body(const ObjMesh& mesh) {
   return kept;
 }
 
+struct Kept {
+  std::vector<Index> triangles;  // ascending
+  std::vector<std::string> notes;
+};
+
+// The names of the objects, or where there is but one of the groups, that these triangles are in, in the order of the file.
+std::string names_of(const ObjMesh& mesh, const std::vector<Index>& triangles) {
+  const bool by_object = mesh.object_names.size() > 1;
+  const auto& of = by_object ? mesh.object : mesh.group;
+  const auto& names = by_object ? mesh.object_names : mesh.group_names;
+  std::vector<char> used(names.size(), 0);
+  for (const Index t : triangles)
+    if (z(t) < of.size()) used[z(of[z(t)])] = 1;
+  std::string text;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (used[k] != 0 && !names[k].empty()) text += (text.empty() ? "" : ", ") + printable(names[k]);
+  return text.empty() ? "a part without a name" : text;
+}
+
+std::size_t vertices_of(const ObjMesh& mesh, const std::vector<Index>& triangles) {
+  std::vector<Index> vertices;
+  for (const Index t : triangles)
+    for (const Index v : mesh.triangles[z(t)]) vertices.push_back(v);
+  std::sort(vertices.begin(), vertices.end());
+  return static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
+}
+
+// Names the closed parts that are not taken and have at least this share of the volume of those that are.
+void note_left_out(const ObjMesh& mesh, const SurfaceParts& parts, const std::vector<char>& taken, double least_share,
+                   Kept& kept) {
+  double volume = 0;
+  for (std::size_t p = 0; p < taken.size(); ++p)
+    if (taken[p] != 0) volume += std::abs(parts.parts[p].volume_m3);
+  for (std::size_t p = 0; p < taken.size(); ++p) {
+    const double share = std::abs(parts.parts[p].volume_m3) / volume;
+    if (taken[p] != 0 || !parts.parts[p].closed || !(share >= least_share)) continue;
+    std::vector<Index> left;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      if (z(parts.of[t]) == p) left.push_back(static_cast<Index>(t));
+    kept.notes.push_back(names_of(mesh, left) + " (" + std::to_string(vertices_of(mesh, left)) + " vertices, " +
+                         fmt::sprintf("%.0f %% of the volume of the body) left out", 100 * share));
+  }
+}
+
 // The triangles of the closed parts that are large enough; all triangles when no part is closed, so that the check
 // of the whole can say where it is open.
-std::vector<Index> closed_parts(const ObjMesh& mesh) {
+Kept closed_parts(const ObjMesh& mesh) {
   const SurfaceParts found = surface_parts(mesh.triangles, mesh.positions);
   double largest = 0;
   for (const SurfacePart& part : found.parts)
     if (part.closed) largest = std::max(largest, std::abs(part.volume_m3));
-  std::vector<Index> kept;
+  Kept kept;
+  std::vector<char> taken;
+  for (const SurfacePart& part : found.parts)
+    taken.push_back(largest == 0 || (part.closed && std::abs(part.volume_m3) >= part_share * largest) ? 1 : 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (taken[z(found.of[t])] != 0) kept.triangles.push_back(static_cast<Index>(t));
+  note_left_out(mesh, found, taken, told_share, kept);
+  return kept;
+}
+
+// What is named body; where that is open, the closed parts that it is in.
+Kept named_parts(const ObjMesh& mesh, std::vector<Index> named) {
+  Kept kept;
+  std::vector<Triangle> triangles;
+  for (const Index t : named) triangles.push_back(mesh.triangles[z(t)]);
+  const SurfaceParts alone = surface_parts(triangles, mesh.positions);
+  const SurfaceParts whole = surface_parts(mesh.triangles, mesh.positions);
+  std::vector<char> taken(whole.parts.size(), 0);
+  for (const Index t : named) taken[z(whole.of[z(t)])] = 1;
+  std::vector<Index> joined;
+  bool closed = true;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const SurfacePart& part = found.parts[z(found.of[t])];
-    if (largest == 0 || (part.closed && std::abs(part.volume_m3) >= part_share * largest))
-      kept.push_back(static_cast<Index>(t));
+    if (taken[z(whole.of[t])] == 0) continue;
+    joined.push_back(static_cast<Index>(t));
+    closed &= whole.parts[z(whole.of[t])].closed;
   }
+  const bool open =
+      std::any_of(alone.parts.begin(), alone.parts.end(), [](const SurfacePart& part) { return !part.closed; });
+  if (open && closed && joined.size() > named.size()) {
+    kept.notes.push_back("what the file calls body is open: taken with what it hangs together with (" +
+                         names_of(mesh, joined) + ")");
+    kept.triangles = std::move(joined);
+  } else {
+    kept.triangles = std::move(named);
+  }
+  note_left_out(mesh, whole, taken, part_share, kept);
   return kept;
 }
 
@@ -107,10 +182,12 @@ void check_input(const ObjMesh& mesh, std::string_view file) {
 
 CollisionBody make_collision_body(const ObjMesh& mesh, std::string_view file, LengthUnit unit) {
   check_input(mesh, file);
-  std::vector<Index> kept = named_body(mesh);
-  if (kept.empty()) kept = closed_parts(mesh);
-
   CollisionBody body;
+  std::vector<Index> named = named_body(mesh);
+  Kept taken = named.empty() ? closed_parts(mesh) : named_parts(mesh, std::move(named));
+  for (const std::string& note : taken.notes) body.notes.push_back(std::string(file) + ": " + note);
+  std::vector<Index>& kept = taken.triangles;
+
   body.name = std::filesystem::path(file).stem().string();
   std::vector<Index> map(mesh.positions.size(), -1);
   for (Index t : kept)

@@ -17,6 +17,7 @@ struct CollisionBody {
   std::vector<Vec3> positions;      // m
   std::vector<Triangle> triangles;  // counter-clockwise from outside
   std::string name;                 // of the file without folder and ending, or "mannequin"
+  std::vector<std::string> notes;   // sentences: what was taken beyond what its name says, what was left out
   double height_m = 0;              // extent along y
   // Where vertices and triangles stood in the file, ascending, and how many it has: moving samples of the same file
   // are mapped by these (body_motion.hpp).
@@ -28,7 +29,9 @@ enum class LengthUnit { automatic, m, dm, cm };  // automatic: metres, or an err
 
 // Keeps the body and drops what is not: the group or object named `body` (in any case) if there is one, otherwise,
 // of the connected parts that are closed, the one that encloses most and those that enclose at least a tenth as
-// much (a separate head stays, eyeballs go). Vertices that nobody uses go too; the others keep their order.
+// much (a separate head stays, eyeballs go). Where what is named so is open, the closed parts that it belongs to are taken (a head in a group
+// of its own), and a note says so; another says what closed part of a tenth of its volume is left beside it. Vertices that nobody uses go
+// too; the others keep their order.
 //
 // Throws InputError, with `file` as its place, when
 //   there are no triangles, or the body is not closed: the first bad edge or vertex is named

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 namespace toile {
@@ -12,9 +13,19 @@ using Ring = std::vector<Index>;  // a piece's outline, as numbers of points
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-// Cuts the one piece that has both ends of the line.
-void cut(std::vector<Ring>& pieces, const FoldLine& line, const Ring& between, const std::string& name) {
-  if (line.from == line.to) throw InputError("", name, "two ends", "a line that ends where it begins");
+double signed_area(const Ring& ring, const std::vector<Vec2>& points) {
+  double twice = 0;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec2 &p = points[at(ring[k])], &q = points[at(ring[(k + 1) % ring.size()])];
+    twice += p.x() * q.y() - p.y() * q.x();
+  }
+  return twice / 2;
+}
+
+// Cuts the one piece that has both ends of the line.  False for a line that runs outside: it leaves pieces that go round in opposite directions.
+bool cut(std::vector<Ring>& pieces, const FoldLine& line, const Ring& between, const std::vector<Vec2>& points,
+         const std::string& name) {
+  if (line.from == line.to) throw FoldError(line.where, name, "two ends", "a line that ends where it begins");
   for (Ring& piece : pieces) {
     auto from = std::find(piece.begin(), piece.end(), line.from);
     if (from == piece.end() || std::find(piece.begin(), piece.end(), line.to) == piece.end()) continue;
@@ -26,12 +37,13 @@ void cut(std::vector<Ring>& pieces, const FoldLine& line, const Ring& between, c
     right.push_back(line.from);
     right.insert(right.end(), between.begin(), between.end());
     if (left.size() < 3 || right.size() < 3) break;
+    const bool inside = signed_area(left, points) * signed_area(right, points) >= 0;
     piece = std::move(left);
     pieces.push_back(std::move(right));
-    return;
+    return inside;
   }
-  throw InputError("", name, "a line from one side of the panel to another that no other fold crosses",
-                   "one that is crossed or lies on the outline");
+  throw FoldError(line.where, name, "a line from one side of the panel to another that no other fold crosses",
+                  "one that is crossed or lies on the outline");
 }
 
 }  // namespace
@@ -46,13 +58,16 @@ FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<con
   points.assign(outline.begin(), outline.end());
   std::vector<Ring> pieces(1);
   for (std::size_t i = 0; i < outline.size(); ++i) pieces[0].push_back(static_cast<Index>(i));
+  std::optional<FoldError> outside;
   for (const FoldLine& line : lines) {
     Ring between;
     for (const Vec2& p : line.between) {
       between.push_back(static_cast<Index>(points.size()));
       points.push_back(p);
     }
-    cut(pieces, line, between, "fold " + std::to_string(folded.line.size()));
+    const std::string name = line.place.empty() ? "fold " + std::to_string(folded.line.size()) : line.place;
+    if (!cut(pieces, line, between, points, name) && !outside)
+      outside = FoldError(line.where, name, "a line inside the panel", "one that leaves it");
     std::vector<std::array<Index, 2>> edges;
     Index last = line.from;
     for (const Index i : between) {
@@ -79,6 +94,7 @@ FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<con
       folded.mesh.triangles.push_back({number(t[0]), number(t[1]), number(t[2])});
     points.insert(points.end(), mesh.points.begin() + static_cast<std::ptrdiff_t>(piece.size()), mesh.points.end());
   }
+  if (outside) throw *outside;  // once lines that meet others are told
   return folded;
 }
 

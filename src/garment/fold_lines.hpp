@@ -6,17 +6,25 @@
 // What a caller may get wrong: lines end at points of the outline.  One that ends on another line or crosses it leaves
 // no simple piece and is refused.
 #pragma once
+#include "core/error.hpp"
 #include "garment/triangulate.hpp"
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace toile {
 
 struct FoldLine {
-  Index from = 0, to = 0;     // points of the outline
-  std::vector<Vec2> between;  // the points on the way, in order, m
+  Index from = 0, to = 0;              // points of the outline
+  std::vector<Vec2> between;           // the points on the way, in order, m
+  std::string where = {}, place = {};  // in a file, for an error; empty: "fold 1"
+};
+
+// Of a line that cannot cut the panel: names it by itself.
+class FoldError : public InputError {
+  using InputError::InputError;
 };
 
 struct FoldedPlanarMesh {
@@ -24,8 +32,8 @@ struct FoldedPlanarMesh {
   std::vector<std::vector<std::array<Index, 2>>> line;  // [line] its edges, from `from` to `to`
 };
 
-// Without lines it is triangulate(outline, edge_m), to the bit, and throws as that does.  Throws InputError for "fold 1"
-// (its number) when it cannot cut the panel in two, and for "folds" when a piece between them cannot be meshed.
+// Without lines it is triangulate(outline, edge_m), to the bit, and throws as that does.  Throws FoldError for a line that cannot cut the panel
+// in two or leaves it, and InputError for "folds" when a piece between them cannot be meshed.
 FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<const FoldLine> lines, double edge_m);
 
 }  // namespace toile

@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace toile {
 namespace {
@@ -227,9 +229,16 @@ WeldedMesh weld(const GarmentMesh& garment) {
   }
   const Topology topology = build_topology(count, welded.mesh.triangles);
   const BlockPattern pattern = pattern_of_cloth(count, welded.mesh.triangles, topology.hinges);
-  for (Index& particle : welded.particle_of) particle = pattern.place(particle);
+  // Pieces keep their order, so that what was worn before stays in front of what is new; within one the pattern's places count.
+  std::vector<Index> row_at(at(count)), place(at(count));
+  std::iota(row_at.begin(), row_at.end(), 0);
+  std::sort(row_at.begin(), row_at.end(), [&](Index i, Index j) {
+    return std::pair(pattern.piece(i), pattern.place(i)) < std::pair(pattern.piece(j), pattern.place(j));
+  });
+  for (std::size_t p = 0; p < row_at.size(); ++p) place[at(row_at[p])] = static_cast<Index>(p);
+  for (Index& particle : welded.particle_of) particle = place[at(particle)];
   for (Triangle& t : welded.mesh.triangles) {
-    for (Index& corner : t) corner = pattern.place(corner);
+    for (Index& corner : t) corner = place[at(corner)];
   }
   for (FoldedEdge& fold : welded.mesh.folds) {
     fold.a = welded.particle_of[at(fold.a)];

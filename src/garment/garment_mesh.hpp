@@ -68,7 +68,8 @@ CountedGarment mesh_garment_to_count(const Pattern& pattern, int particles);
 int welded_count(const GarmentMesh& garment);
 
 // The welded cloth: classes of `merged` become one particle each, numbered such that neighbours' numbers are near each other: what walks
-// along the particles finds in the cache what it needs (assembly/block_pattern.hpp).
+// along the particles finds in the cache what it needs (assembly/block_pattern.hpp).  Pieces that no triangle connects follow each other in the
+// order of their first particles: of an outfit, what is worn comes before what is new.
 struct WeldedMesh {
   ClothMesh mesh;
   std::vector<Index> particle_of;  // [unwelded particle] welded particle

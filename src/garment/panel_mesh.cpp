@@ -62,11 +62,15 @@ PanelMesh mesh_panel(const Panel& panel, const std::vector<int>& pieces, double 
     };
     const std::vector<Vec2> points =
         sample_edge(panel, fold.line, piece_count(edge_length_m(panel, fold.line), resolution_m));
-    lines.push_back(
-        {corner(fold.line.start), corner(fold.line.end), std::vector<Vec2>(points.begin() + 1, points.end() - 1)});
+    const std::string name = "panel " + printable(panel.name) + ", fold " + std::to_string(lines.size());
+    lines.push_back({corner(fold.line.start), corner(fold.line.end),
+                     std::vector<Vec2>(points.begin() + 1, points.end() - 1), fold.where,
+                     fold.pointer.empty() ? name : fold.pointer + " (" + name + ")"});
   }
   try {
     mesh.folded = triangulate_folded(outline, lines, resolution_m);
+  } catch (const FoldError&) {
+    throw;
   } catch (const InputError& error) {
     throw InputError("", "panel " + printable(panel.name), "an outline that can be meshed at this resolution",
                      error.what());

@@ -30,6 +30,7 @@ struct PanelEdge {
 struct PanelFold {       // a line across a panel that wants to stay folded: of a collar, a pleat, a crease
   PanelEdge line;        // from one corner of the outline to another, inside the panel
   double angle_rad = 0;  // at rest; > 0: a ridge on the panel's outer side, < 0: a valley
+  std::string where = {}, pointer = {};  // in the file, for the mesher's message that it leaves the panel
 };
 
 struct Panel {

@@ -355,7 +355,7 @@ class PatternReader {
     for (const Json& entry : folds->array()) {
       if (!entry.is_object()) entry.fail("a fold: an object", entry.describe());
       entry.allow_only({"endpoints", "curvature", "angle_deg"});
-      PanelFold fold{read_line(panel, entry), read_angle(entry.at("angle_deg"))};
+      PanelFold fold{read_line(panel, entry), read_angle(entry.at("angle_deg")), entry.where(), entry.pointer()};
       const auto is_side = [&](const PanelEdge& edge) {
         return (edge.start == fold.line.start && edge.end == fold.line.end) ||
                (edge.start == fold.line.end && edge.end == fold.line.start);

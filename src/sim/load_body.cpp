@@ -51,6 +51,13 @@ void check_areas(std::string_view file, std::span<const Vec3> positions, std::sp
   }
 }
 
+CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit) {
+  const std::string file = printable(path);
+  CollisionBody body = make_collision_body(parse_obj(text, file), file, unit);
+  check_areas(file, body.positions, body.triangles);
+  return body;
+}
+
 LoadedBody load_body(const SceneBody& body, Hash& inputs) {
   LoadedBody loaded;
   switch (body.kind) {
@@ -75,8 +82,8 @@ LoadedBody load_body(const SceneBody& body, Hash& inputs) {
     case SceneBody::Kind::mesh: {
       const std::string text = read_file(body.mesh);
       inputs.add_text(text);
-      CollisionBody read = make_collision_body(parse_obj(text, printable(body.mesh)), printable(body.mesh), body.unit);
-      check_areas(printable(body.mesh), read.positions, read.triangles);
+      CollisionBody read = read_body(body.mesh, text, body.unit);
+      loaded.warnings = std::move(read.notes);
       if (body.motion) loaded.movement = movement_from_file(body, read, inputs);
       loaded.solid = {std::move(read.positions), std::move(read.triangles)};
       break;

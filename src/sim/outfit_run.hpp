@@ -71,6 +71,9 @@ class OutfitRun {
   const ClothModel& model() const { return model_; }
   double stored_in_contacts_J() const { return stepper_->integrator().contact_rows().stored_J(); }
   LayerGap layer_gap() { return stepper_->integrator().contact_rows().layer_gap(outfit_->state.x); }
+  bool touches_body(Index particle) const {
+    return stepper_->integrator().body_constraints().touch(particle) != Touch::none;
+  }
   std::span<const Pin> pins() const { return world_.pins; }  // of the last frame
 
   // What outlives a frame (core/state_archive.hpp), without the outfit, which is its owner's.  To be read back once the events are set and, of a run

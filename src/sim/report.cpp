@@ -75,15 +75,7 @@ void add_cg(JsonText& text, const PhaseReport& phase) {
 }
 
 void add_verdict(JsonText& text, const Report& report) {
-  text.member("verdict", report.verdict.pass ? "pass" : "fail");
-  text.key("reasons");
-  text.begin_array();
-  for (const Reason& reason : report.verdict.reasons) text.value(reason.code);
-  text.end_array();
-  text.key("reason_details");
-  text.begin_object();
-  for (const Reason& reason : report.verdict.reasons) text.member(reason.code, reason.detail);
-  text.end_object();
+  add_judgement(text, report.verdict);
   const Limits& limits = report.verdict.limits;
   text.key("limits");
   text.begin_object();
@@ -218,6 +210,38 @@ void add_files(JsonText& text, const Report& report) {
 }
 
 }  // namespace
+
+void add_judgement(JsonText& text, const Verdict& verdict) {
+  text.member("verdict", verdict.pass ? "pass" : "fail");
+  const auto add = [&](std::string_view codes, std::string_view details, const std::vector<Reason>& reasons) {
+    text.key(codes);
+    text.begin_array();
+    for (const Reason& reason : reasons) text.value(reason.code);
+    text.end_array();
+    text.key(details);
+    text.begin_object();
+    for (const Reason& reason : reasons) text.member(reason.code, reason.detail);
+    text.end_object();
+  };
+  add("reasons", "reason_details", verdict.reasons);
+  add("qualifications", "qualification_details", verdict.qualifications);
+}
+
+std::string judgement_line(const Verdict& verdict) {
+  if (!verdict.pass) return "fail";
+  if (verdict.qualifications.empty()) return "pass";
+  std::string line = "pass, with reservations";
+  for (std::size_t k = 0; k < verdict.qualifications.size(); ++k)
+    line += (k == 0 ? ": " : ", ") + verdict.qualifications[k].code;
+  return line;
+}
+
+std::string judgement_details(const Verdict& verdict) {
+  std::string lines;
+  for (const std::vector<Reason>* reasons : {&verdict.reasons, &verdict.qualifications})
+    for (const Reason& reason : *reasons) lines += "  " + reason.code + ": " + reason.detail + '\n';
+  return lines;
+}
 
 std::string_view toile_version() { return TOILE_VERSION; }
 

@@ -14,6 +14,8 @@
 
 namespace toile {
 
+class JsonText;
+
 struct PhaseReport {  // of the sewing, or of everything after it
   int frames = 0;     // simulated: one less than the samples of the cache
   double seconds = 0, eval = 0, cg = 0, cloth_cloth = 0, cloth_solid = 0, body = 0;  // wall time, s
@@ -103,6 +105,12 @@ struct Report {
 std::string to_json(const Report& report, int indent = 2);
 // Members of it that readers of a run that is not finished have to know: fps, body_vertices, rest_stretch ...
 void add_facts(JsonText& json, const Report& report);
+
+// What report.json and `toile verify --json` say alike: verdict, reasons, qualifications and their details, as members of an object.
+void add_judgement(JsonText& text, const Verdict& verdict);
+// "pass", "pass, with reservations: moved_by_untangling", "fail"; and a line for each reason and qualification.
+std::string judgement_line(const Verdict& verdict);
+std::string judgement_details(const Verdict& verdict);
 
 // The program's version, from the build.
 std::string_view toile_version();

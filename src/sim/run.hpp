@@ -12,6 +12,7 @@
 #include "io/run_folder.hpp"
 #include "sim/checkpoint.hpp"
 #include "sim/dressing.hpp"
+#include "sim/falling.hpp"
 #include "sim/outfit_run.hpp"
 #include "sim/phase_report.hpp"
 #include "sim/recorder.hpp"
@@ -61,6 +62,7 @@ class Run {
   double frame_s() const { return 1 / scene_.fps; }
   int frames_in(double seconds) const;
   void end(std::string_view how, std::string detail);
+  void qualify(std::string_view code, const std::string& detail);
   void collapse(const std::string& when, const FrameReport& frame, const ClothMesh& mesh, std::span<const Vec3> x);
   void end_startup();
   double& startup(double StartupReport::*part);
@@ -74,7 +76,7 @@ class Run {
       frames = writer_->frames();
       report_.seconds_total = earlier_s_ + total_.seconds();
     }
-    archive(place_, frames, report_, before_inner_, slow_inner_, seconds_before_motion_);
+    archive(place_, frames, report_, qualifications_, before_inner_, slow_inner_, seconds_before_motion_, touches_);
     if constexpr (Archive::reads) written_ = frames;
   }
   void take_up(std::uint64_t input_hash);
@@ -95,6 +97,7 @@ class Run {
   void place(GarmentMesh& garment, bool tell);
   void bad_start(const std::string& name, const std::string& what);
   void free_start(bool sewn_now);
+  std::vector<Index> held_now(bool sewn_now) const;
   int come_apart();
   bool put_on();
   void wear_again();
@@ -110,6 +113,12 @@ class Run {
   void animate(OutfitRun& run);
   bool frame(OutfitRun& run, PhaseReport& phase, std::string_view what, std::int64_t k, PhaseReport* also = nullptr);
   void close(OutfitRun& run);
+  int frames_in_motion() const;
+  void watch_falling();
+  bool in_wind() const;
+  bool lost();
+  bool goes_on(const OutfitRun& run);
+  void judge_end(const OutfitRun& run);
 
   const Scene& scene_;
   const RunOptions& options_;
@@ -117,7 +126,7 @@ class Run {
   double earlier_s_ = 0;  // of a run that is taken up: what it had taken before
   Report report_;
   double after_startup_ = 0;
-  std::vector<Reason> failure_;
+  std::vector<Reason> failure_, qualifications_;
   std::vector<LoadedCloth> cloth_;
   Outfit outfit_;
   Settling settling_;
@@ -131,6 +140,8 @@ class Run {
   std::optional<RunWriter> writer_;
   std::optional<Recorder> recorder_;
   std::optional<Checkpoints> checkpoints_;
+  TouchMemory touches_;
+  std::optional<FallWatch> fall_watch_;
 
   RunPlace place_;
   Vec3s before_inner_;   // x of the frame before, while a garment that others go over is draped

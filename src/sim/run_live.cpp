@@ -1,6 +1,8 @@
 // sim/run_live.cpp: from the first written frame to the last: the drape, then the motion.
 #include "sim/run.hpp"
 
+#include <fmt/printf.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +18,7 @@ void Run::live() {
   OutfitRun run(scene_, outfit_, body(), step_, settling_, options_.stop);
   run.set_events(events_of(outfit_, cloth_));
   begin_recording(run);
+  watch_falling();
   // What hangs now is the run's: a second and a third copy of a fine mesh are large.
   cloth_.clear();
   outfit_.mesh = {};
@@ -31,6 +34,7 @@ void Run::live() {
     if (resumed) restore(run);
     drape(run);
   }
+  if (report_.ended == "time") judge_end(run);
   close(run);
 }
 
@@ -63,6 +67,7 @@ void Run::drape(OutfitRun& run) {
            run.time_s() - frame_s() > (settling_.sewn ? OutfitRun::settling_s : -rest_s) + rest_s &&
            recorder_->at_rest();
   };
+  if (place_.frame > 0 && !goes_on(run)) return;
   bool rests = at_rest();
   while (!rests && place_.frame + 1 < frames) {
     if (!frame(run, report_.drape, "draping", place_.frame + 1)) return;
@@ -91,14 +96,14 @@ void Run::animate(OutfitRun& run) {
   }
   PhaseReport& phase = report_.motion;
   report_.motion_name = motion_->name;
-  const bool whole = !scene_.seconds_given && std::isfinite(motion_->duration_s);
-  const int frames = frames_in(whole ? motion_->duration_s : scene_.seconds);
+  const int frames = frames_in_motion();
   const std::int64_t first = place_.frame;
   const Stopwatch watch;
-  while (place_.frame < frames) {
+  bool good = place_.frame == 0 || goes_on(run);
+  while (good && place_.frame < frames) {
     motion_->at(static_cast<double>(place_.frame + 1) * frame_s(), body_x_, body_x_);
     const double drape_seconds = report_.drape.seconds;
-    const bool good = frame(run, report_.drape, "moving", place_.frame + 1, &phase);
+    good = frame(run, report_.drape, "moving", place_.frame + 1, &phase);
     phase.seconds += report_.drape.seconds - drape_seconds;
     if (!good) break;
     say("moving", static_cast<double>(place_.frame) / frames,
@@ -127,8 +132,48 @@ bool Run::frame(OutfitRun& run, PhaseReport& phase, std::string_view what, std::
   }
   recorder_->frame(outfit_.state.x, body_x_);
   ++place_.frame;
+  if (fall_watch_) note_touches(outfit_.parts, run, touches_);
   keep_if_due(run);
+  return goes_on(run);
+}
+
+int Run::frames_in_motion() const {
+  const bool whole = !scene_.seconds_given && std::isfinite(motion_->duration_s);
+  return frames_in(whole ? motion_->duration_s : scene_.seconds);
+}
+
+// Garments that fall to nowhere end the run, where that can be told: in still air, and if no hand holds the cloth.
+void Run::watch_falling() {
+  if (!sewn() || !body_ || scene_.gravity_m_per_s2.isZero(0)) return;
+  for (const SceneCloth& cloth : scene_.cloth)
+    if (!cloth.drags.empty()) return;
+  fall_watch_.emplace(scene_.gravity_m_per_s2, body_triangles_, motion_ ? motion_->at : BodyAt{},
+                      motion_ ? frames_in_motion() * frame_s() : 0, frame_s());
+}
+
+bool Run::in_wind() const { return scene_.air.density_kg_per_m3 > 0 && !scene_.air.wind_m_per_s.isZero(0); }
+
+bool Run::lost() {
+  const std::optional<LostGarment> lost = fall_watch_->find(outfit_.parts, outfit_.state, body_x_);
+  if (!lost) return false;
+  const auto p = static_cast<std::size_t>(lost->part);
+  const bool touched = touches_.touched[p] != 0;
+  end(touched ? reason::fell_off : reason::never_touched,
+      printable(outfit_.parts[p].name) + (touched ? " fell off the body" : " never touched the body") +
+          ", and nothing below will catch it: " + lost->where);
   return true;
+}
+
+bool Run::goes_on(const OutfitRun& run) { return !fall_watch_ || !run.settled() || in_wind() || !lost(); }
+
+// Of a run whose time is over.
+void Run::judge_end(const OutfitRun& run) {
+  if (!run.settled())
+    failure_.push_back({std::string(reason::not_settled),
+                        fmt::sprintf("it ended %.3g s after the weld; gravity and elastic are full after %.3g s",
+                                     run.time_s(), OutfitRun::settling_s)});
+  else if (fall_watch_ && in_wind())
+    lost();
 }
 
 void Run::close(OutfitRun& run) {

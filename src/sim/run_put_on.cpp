@@ -1,14 +1,13 @@
 // sim/run_put_on.cpp: from flat panels to a garment that is on; what was worn before comes first.
 #include "core/error.hpp"
 #include "garment/placement.hpp"
-#include "mesh/check.hpp"
 #include "sim/run.hpp"
 #include "sim/start_run.hpp"
-#include "sim/untangle.hpp"
-#include "verify/crossings.hpp"
+#include "sim/start_state.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace toile {
 namespace {
@@ -18,15 +17,6 @@ constexpr double inner_rest_mm_per_s = 10;  // of a garment that others go over,
 constexpr double inner_rest_s = 0.5;        // for so long
 constexpr double most_waiting_s = 1;
 
-bool is_closed(std::span<const Vec3> x, std::span<const Triangle> triangles) {
-  try {
-    check_closed("body", x, triangles);
-  } catch (const InputError&) {
-    return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 void Run::bad_start(const std::string& name, const std::string& what) {
@@ -34,43 +24,42 @@ void Run::bad_start(const std::string& name, const std::string& what) {
   report_.warnings.push_back("bad start: " + what);
 }
 
-// Cloth that passes through itself or the body is taken apart before the first frame, as far as it can be (sim/untangle.hpp).
+// Cloth that passes through itself or the body is taken apart before the first frame, as far as it can be (sim/start_state.hpp).
 // `sewn_now`: what sewing left, not what the user gave; --strict-start is about the latter.
 void Run::free_start(bool sewn_now) {
   const Timed timed(startup(&StartupReport::crossings));
-  const auto self = find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x);
-  const auto through = body_ ? find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_)
-                             : std::vector<Crossing>{};
-  if (self.empty() && through.empty()) return;
-  std::string what = std::to_string(count_edges(self)) + " edges of the cloth pass through it";
-  if (body_) what += ", " + std::to_string(count_edges(through)) + " between cloth and body";
+  const StartCrossings found = start_crossings(outfit_, body_triangles_, body_x_);
+  if (found.all() == 0) return;
+  std::string what = std::to_string(found.cloth_cloth) + " edges of the cloth pass through it";
+  if (body_) what += ", " + std::to_string(found.cloth_body) + " between cloth and body";
   if (scene_.strict_start && !sewn_now)
     throw Error(ExitCode::bad_start, printable(outfit_.parts.front().name) + ": bad start: " + what);
   say("untangling", 0);
-  // Inside and outside of a body that has holes are not known; then the cloth alone is untangled.
-  const bool with_body = body_ && is_closed(body_x_, body_triangles_);
-  const UntangleReport report = untangle(
-      outfit_.mesh.triangles, outfit_.state.x,
-      with_body ? std::span<const Triangle>(body_triangles_) : std::span<const Triangle>{},
-      with_body ? std::span<const Vec3>(body_x_) : std::span<const Vec3>{}, {}, [&](int, int) { return !stopped(); });
+  const UntangledStart untangled =
+      untangle_start(outfit_, body_triangles_, body_x_, held_now(sewn_now), [&] { return stopped(); });
+  if (!untangled.moved_far.empty()) qualify(reason::moved_by_untangling, untangled.moved_far);
   const int weightless = sewn_now ? come_apart() : 0;
-  const auto self_left = find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x);
-  const auto through_left =
-      body_ ? find_body_crossings(outfit_.mesh.triangles, outfit_.state.x, body_triangles_, body_x_)
-            : std::vector<Crossing>{};
+  const StartCrossings left = start_crossings(outfit_, body_triangles_, body_x_);
   StartReport& start = report_.start;  // of the last garment when several are sewn; trials of all of them
-  start = {count_edges(self),
-           count_edges(through),
-           count_edges(self_left),
-           count_edges(through_left),
-           start.trials + report.iterations,
-           std::max(start.largest_move_mm, 1e3 * report.largest_move)};
-  std::string then = std::to_string(count_edges(self_left) + count_edges(through_left)) + " are left";
-  if (self_left.empty() && through_left.empty()) then = "none is left";
-  std::string tried = std::to_string(report.iterations) + " trials of untangling ";
+  start = {found.cloth_cloth,
+           found.cloth_body,
+           left.cloth_cloth,
+           left.cloth_body,
+           start.trials + untangled.trials,
+           std::max(start.largest_move_mm, untangled.largest_move_mm)};
+  const std::string then = left.all() == 0 ? "none is left" : std::to_string(left.all()) + " are left";
+  std::string tried = std::to_string(untangled.trials) + " trials of untangling ";
   if (weightless > 0)
     tried += "and " + std::to_string(weightless) + (weightless == 1 ? " frame" : " frames") + " without weight ";
   report_.warnings.push_back((sewn_now ? "as sewn: " : "bad start: ") + what + "; after " + tried + then);
+}
+
+// What untangling must leave where it is: what was worn before, or what pins hold from the first moment.
+std::vector<Index> Run::held_now(bool sewn_now) const {
+  if (!sewn_now) return held_from_the_start(events_of(outfit_, cloth_));
+  std::vector<Index> worn(static_cast<std::size_t>(settling_.held_particles));
+  std::iota(worn.begin(), worn.end(), 0);
+  return worn;
 }
 
 // What trials from rest leave of a weld may come apart as the garment moves, with threads that want to be as long as they were cut, before
@@ -81,7 +70,7 @@ int Run::come_apart() {
   std::optional<OutfitRun> run;
   const int most = frames_in(most_waiting_s);
   int frames = 0;
-  while (frames < most && !find_cloth_crossings(outfit_.mesh.triangles, outfit_.state.x).empty()) {
+  while (frames < most && start_crossings(outfit_, {}, {}).all() > 0) {
     if (!run) run.emplace(scene_, outfit_, body(), step_, waiting, options_.stop);
     const FrameReport frame = run->frame();
     if (frame.interrupted || !frame.ok) break;  // as the drape will say

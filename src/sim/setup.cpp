@@ -4,6 +4,7 @@
 #include "body/measure.hpp"
 #include "core/error.hpp"
 #include "mesh/check.hpp"
+#include "sim/check_garment.hpp"
 #include "sim/cloth_shapes.hpp"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& 
       garment = mesh_garment(pattern, cloth.resolution_m);
     }
   } catch (const InputError& error) {
-    throw Error(error.code(), file + ": " + error.what());
+    throw_within(file, error);
   }
   if (!cloth.name.empty()) garment.name = cloth.name;
   if (is_set(cloth.translation_m) || is_set(cloth.rotation_deg)) {
@@ -64,15 +65,9 @@ GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& 
 
 // The shape of the cloth, or the refusal of one that has none, at its place in the scene.
 GarmentMesh load_shape(const SceneCloth& cloth) {
-  try {
-    GarmentMesh shape = shaped_cloth(cloth);
-    check_cloth("", shape.mesh, shape.x);
-    check_areas("", shape.x, shape.mesh.triangles);
-    return shape;
-  } catch (const InputError& error) {
-    if (cloth.shape_where.empty()) throw;  // no scene file
-    throw Error(error.code(), cloth.shape_where + ": " + cloth.shape_pointer + ": " + error.what());
-  }
+  GarmentMesh shape = shaped_cloth(cloth);
+  check_areas("", shape.x, shape.mesh.triangles);
+  return shape;
 }
 
 std::vector<Fabric> fabrics_of(const Scene& scene, const SceneCloth& cloth, const ClothMesh& mesh) {
@@ -105,6 +100,18 @@ std::vector<Vec2> rest_stretch_of(const SceneCloth& cloth, const ClothMesh& mesh
       if (mesh.panel_names[p] == panel.name)
         b[p] = Vec2(panel.rest_stretch_u.value_or(b[p].x()), panel.rest_stretch_v.value_or(b[p].y()));
   return b;
+}
+
+bool has_label(const GarmentMesh& garment, const std::string& label) {
+  return std::any_of(garment.labels.begin(), garment.labels.end(),
+                     [&](const LabelledEdge& edge) { return edge.label == label; });
+}
+
+void check_labels(const SceneCloth& cloth, const GarmentMesh& garment) {
+  for (const LabelHeight& height : cloth.label_heights)
+    if (!has_label(garment, height.label))
+      throw InputError(cloth.where, cloth.pointer + "/label_heights_m", "a label that an edge of the pattern carries",
+                       '"' + printable(height.label) + '"');
 }
 
 std::vector<TimedPin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) {
@@ -151,7 +158,16 @@ std::vector<TimedPin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) 
 LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read, Hash& inputs) {
   LoadedCloth loaded;
   std::optional<double> counted_edge_m;
-  loaded.garment = cloth.is_sewn() ? load_garment(cloth, read, inputs, counted_edge_m) : load_shape(cloth);
+  const std::string where = cloth.is_sewn()       ? printable(cloth.pattern)
+                            : cloth.shape_where.empty() ? printable(cloth.name)
+                                                  : cloth.shape_where + ": " + cloth.shape_pointer;
+  try {
+    loaded.garment = cloth.is_sewn() ? load_garment(cloth, read, inputs, counted_edge_m) : load_shape(cloth);
+  } catch (const InputError& error) {
+    throw_within(where, error);
+  }
+  check_garment(where, loaded.garment);
+  check_labels(cloth, loaded.garment);
   loaded.fabrics = fabrics_of(scene, cloth, loaded.garment.mesh);
   loaded.rest_stretch = rest_stretch_of(cloth, loaded.garment.mesh);
   loaded.pins = pins_of(cloth, loaded.garment.x);
@@ -210,13 +226,8 @@ Events events_of(const Outfit& outfit, std::span<const LoadedCloth> cloth) {
 std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment,
                                           std::span<const Vec3> body_x, std::span<const Triangle> body_triangles,
                                           std::vector<std::string>& warnings) {
+  check_labels(cloth, garment);
   std::vector<LabelHeight> heights = cloth.label_heights;
-  for (const LabelHeight& height : heights) {
-    if (std::none_of(garment.labels.begin(), garment.labels.end(),
-                     [&](const LabelledEdge& edge) { return edge.label == height.label; }))
-      throw InputError(cloth.pattern, "label_heights_m", "a label that an edge of the pattern carries",
-                       '"' + printable(height.label) + '"');
-  }
   std::vector<std::string> free;
   for (const LabelledEdge& edge : garment.labels) {
     const auto named = [&](const LabelHeight& height) { return height.label == edge.label; };

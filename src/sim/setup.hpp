@@ -20,10 +20,13 @@ struct BodyMovement {
 };
 
 struct LoadedBody {
-  SolidMesh solid;  // empty for a scene without body
+  SolidMesh solid;                    // empty for a scene without body
+  std::vector<std::string> warnings;  // what of its file is left out
   std::optional<BodyMovement> movement;
 };
 
+// The body of an OBJ file with this text, checked.  Throws InputError.
+CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit);
 // Adds the bytes of its files to `inputs`.  Throws IoError, InputError; every sample of a motion is checked here, before
 // anything runs.
 LoadedBody load_body(const SceneBody& body, Hash& inputs);
@@ -46,8 +49,8 @@ struct LoadedCloth {
   std::vector<TimedRestStretch> rest_stretch_paths;
   double edge_m = 0;  // that its triangles were asked to have
 };
-// `read` gives the text of a pattern, which is added to `inputs`.  Errors of the mesher are given the name of the file.
-// Throws InputError for a panel that the cloth does not have.
+// `read` gives the text of a pattern, which is added to `inputs`.  Errors of the mesher are given the name of the file, or the place of the
+// shape.  Throws InputError for a panel or a label that the cloth does not have, and for what check_garment refuses.
 LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read, Hash& inputs);
 
 // Sheets, tubes and ribbons that hang where they are drawn.

@@ -66,6 +66,7 @@ void Run::load(Hash& inputs) {
   add_solids(scene_.solids, loaded, inputs);
   if (!scene_.start.empty()) add_start(scene_.start, inputs);
   motion_ = std::move(loaded.movement);
+  report_.warnings.insert(report_.warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
   SolidMesh& solid = loaded.solid;
   body_x_ = solid.positions;
   body_triangles_ = solid.triangles;
@@ -119,6 +120,16 @@ void Run::end(std::string_view how, std::string detail) {
   failure_.push_back({std::string(how), std::move(detail)});
 }
 
+// The verdict, if it is a pass, is one with this reservation.
+void Run::qualify(std::string_view code, const std::string& detail) {
+  for (Reason& known : qualifications_) {
+    if (known.code != code) continue;
+    known.detail += "; " + detail;
+    return;
+  }
+  qualifications_.push_back({std::string(code), detail});
+}
+
 // The step could not be made however short: says over what, and leaves it in a file.
 void Run::collapse(const std::string& when, const FrameReport& frame, const ClothMesh& mesh, std::span<const Vec3> x) {
   std::string words = when + ": " + frame.diagnosis;
@@ -151,7 +162,8 @@ Report Run::finish() {
   report_.state_hash = state.hex();
   report_.frames = writer_->cloth_frames();
   Limits limits;
-  limits.must_be_still = scene_.until_still && !motion_;
+  const bool fell = report_.ended == reason::never_touched || report_.ended == reason::fell_off;
+  limits.must_be_still = scene_.until_still && !motion_ && !fell;  // of what falls rest is not asked
   report_.verdict.limits = limits;
   if (recorder_) {
     report_.audit = recorder_->report();
@@ -161,6 +173,7 @@ Report Run::finish() {
   auto& reasons = report_.verdict.reasons;
   reasons.insert(reasons.begin(), failure_.begin(), failure_.end());
   report_.verdict.pass = reasons.empty();
+  report_.verdict.qualifications = qualifications_;
   report_.seconds_total = earlier_s_ + total_.seconds();
   report_.peak_memory_mb = peak_memory_mb();
   const auto text = [this](const std::vector<WrittenFile>& files) {

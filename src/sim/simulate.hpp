@@ -44,6 +44,9 @@ namespace reason {
 inline constexpr std::string_view seam_blocked = "seam_blocked";
 inline constexpr std::string_view step_collapsed = "step_collapsed";
 inline constexpr std::string_view interrupted = "interrupted";
+inline constexpr std::string_view not_settled = "not_settled";
+inline constexpr std::string_view never_touched = "never_touched";
+inline constexpr std::string_view fell_off = "fell_off";
 }  // namespace reason
 
 // Throws InputError, IoError, Error(resource_limit) beyond `limits`, and Error(bad_start) with `strict_start`.  Writes report.json in every other case.

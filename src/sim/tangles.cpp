@@ -1,7 +1,6 @@
 #include "sim/tangles.hpp"
 
 #include "contact/intersection_contours.hpp"
-#include "verify/crossings.hpp"
 
 #include <algorithm>
 
@@ -29,13 +28,14 @@ void Tangles::find(const Vec3s& x) {
   if (over_) return;
   springs_.clear();
   unguarded_.assign(x.size(), 0);
-  std::vector<SurfaceCrossing> crossings;
-  for (const Crossing& c : find_cloth_crossings(triangles_, x)) crossings.push_back({c.edge, c.triangle, c.position});
+  if (!finder_) finder_.emplace(*topology_, triangles_, triangles_.size(), x.size());
+  const std::vector<SurfaceCrossing> crossings = std::move(finder_->find(x).all);
   over_ = crossings.empty();
   any_ = !over_;
   if (over_) {
     waited_ = 0;
     fewest_ = 0;
+    finder_.reset();
     return;
   }
   if (!push_) {

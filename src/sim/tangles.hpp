@@ -6,6 +6,7 @@
 // leaves so, the first frame of the drape gives back.)
 #pragma once
 #include "assembly/implicit_row.hpp"
+#include "contact/crossing_finder.hpp"
 #include "mesh/topology.hpp"
 #include "sim/contour_push.hpp"
 
@@ -51,10 +52,11 @@ class Tangles {
 
   const Topology* topology_;
   std::span<const Triangle> triangles_;
-  std::optional<ContourPush> push_;  // once there is something to push
-  Vec3s first_pushed_;               // x then: areas are measured there
-  double edge_m_ = 0;                // mean
-  std::vector<char> unguarded_;      // [particle]
+  std::optional<CrossingFinder> finder_;  // while there are crossings
+  std::optional<ContourPush> push_;       // once there is something to push
+  Vec3s first_pushed_;                    // x then: areas are measured there
+  double edge_m_ = 0;                     // mean
+  std::vector<char> unguarded_;           // [particle]
   std::vector<LinearSpring> springs_;
   bool over_ = false, any_ = false;
   std::size_t fewest_ = 0;  // crossings of all looks since there were none, or the body pinched

@@ -2,12 +2,12 @@
 // are kept.
 #include "sim/untangle.hpp"
 
+#include "contact/crossing_finder.hpp"
 #include "core/parallel.hpp"
 #include "mesh/check.hpp"
 #include "sim/contour_push.hpp"
 #include "sim/model_as_it_is.hpp"
 #include "step/implicit_euler.hpp"
-#include "verify/crossings.hpp"
 
 #include <Eigen/Geometry>
 
@@ -50,15 +50,6 @@ Fabric fabric() {
   return f;
 }
 
-std::vector<Triangle> joined(std::span<const Triangle> cloth, std::size_t particles, std::span<const Triangle> body) {
-  std::vector<Triangle> all(cloth.begin(), cloth.end());
-  for (Triangle t : body) {
-    for (Index& i : t) i += static_cast<Index>(particles);
-    all.push_back(t);
-  }
-  return all;
-}
-
 // Everything that is known of one state.
 struct Look {
   std::vector<SurfaceCrossing> crossings;
@@ -69,19 +60,22 @@ struct Look {
 
 class Untangler {
  public:
-  Untangler(std::span<const Triangle> cloth, const Vec3s& x, std::span<const Triangle> body, const Vec3s& body_x)
+  Untangler(std::span<const Triangle> cloth, const Vec3s& x, std::span<const Triangle> body, const Vec3s& body_x,
+            std::span<const Index> held)
       : cloth_(cloth),
         body_(body),
         body_x_(body_x),
         particles_(x.size()),
-        all_(joined(cloth, x.size(), body)),
+        all_(joined_triangles(cloth, x.size(), body)),
         all_x_(x.size() + body_x.size()),
         topology_(build_topology(static_cast<Index>(all_x_.size()), all_)),
         model_(model_as_it_is(cloth, x, fabric())),
+        finder_(topology_, all_, cloth.size(), x.size()),
         push_(topology_, all_, start_of(x)),
         eased_(model_.bend.size(), 0) {
     if (!body.empty()) surface_.emplace(body_x, std::vector<Triangle>(body.begin(), body.end()));
     world_.air.density_kg_per_m3 = 0;  // nothing falls
+    for (const Index i : held) world_.pins.emplace_back().particle = i;
     world_.springs = [this](const ClothState&, double, double, std::vector<LinearSpring>& springs) {
       springs.insert(springs.end(), springs_.begin(), springs_.end());
     };
@@ -90,23 +84,14 @@ class Untangler {
   Untangler(const Untangler&) = delete;  // its members point at each other, and the world's springs at this object
   Untangler& operator=(const Untangler&) = delete;
 
+  // Leaves all_x_ at x.
   Look look(const Vec3s& x) {
+    set_positions(x);
+    FoundCrossings found = finder_.find(all_x_);
     Look look;
-    const auto add = [&](const Crossing& c) {
-      SurfaceCrossing crossing{c.edge, c.triangle, c.position};
-      if (c.edge_of_body)
-        for (Index& i : crossing.edge) i += static_cast<Index>(particles_);
-      look.crossings.push_back(crossing);
-    };
-    for (const Crossing& c : find_cloth_crossings(cloth_, x)) add(c);
-    look.cloth = look.crossings.size();
-    if (surface_) {
-      for (const Crossing& c : find_body_crossings(cloth_, x, body_, body_x_)) {
-        add(c);
-        if (!c.edge_of_body) look.crossings.back().triangle += static_cast<Index>(cloth_.size());
-      }
-    }
-    look.contours = trace_contours(topology_, all_, look.crossings);
+    look.cloth = found.of_cloth;
+    look.contours = trace_contours(topology_, all_, found.all);
+    look.crossings = std::move(found.all);
     return look;
   }
 
@@ -328,6 +313,7 @@ class Untangler {
   Vec3s all_x_;
   Topology topology_;
   ClothModel model_;
+  CrossingFinder finder_;
   ContourPush push_;
   std::vector<char> eased_;  // [hinge]
   std::optional<BodySurface> surface_;
@@ -358,11 +344,10 @@ UntangleReport untangle(std::span<const Triangle> cloth, Vec3s& x, std::span<con
   for (Vec3& p : at_x) p *= scale;
   for (Vec3& p : scaled_body) p *= scale;
   const Vec3s start = at_x;
-  Untangler untangler(cloth, at_x, body, scaled_body);
+  Untangler untangler(cloth, at_x, body, scaled_body, options.held);
 
   UntangleReport report;
   Look seen = untangler.look(at_x);
-  untangler.set_positions(at_x);
   report.before = untangler.tangles(seen);
   report.cloth_crossings_before = static_cast<int>(seen.cloth);
   report.body_crossings_before = static_cast<int>(seen.count() - seen.cloth);
@@ -413,7 +398,6 @@ UntangleReport untangle(std::span<const Triangle> cloth, Vec3s& x, std::span<con
   }
 
   seen = untangler.look(best);
-  untangler.set_positions(best);
   report.left = untangler.tangles(seen);
   report.cloth_crossings = static_cast<int>(seen.cloth);
   report.body_crossings = static_cast<int>(seen.count() - seen.cloth);

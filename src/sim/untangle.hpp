@@ -1,6 +1,6 @@
 // sim/untangle.hpp: cloth that passes through itself or a body is relaxed until it does not.        docs/untangle.md (L4)
 //
-//   repeat   crossings of the cloth with itself and with the body                            verify/crossings.hpp, exact
+//   repeat   crossings of the cloth with itself and with the body                            contact/crossing_finder, exact
 //            contours, what they cut off                                                     contact/intersection_contours
 //            every contour is pushed over the smaller part that it cuts off; one that cuts nothing off is shortened;
 //            what is inside the body is pushed out                                           contact/contour_motion
@@ -27,6 +27,7 @@ namespace toile {
 struct UntangleOptions {
   int most_iterations = 0;  // trials; 0: 600, and fewer for more than 1,170 particles
   int patience = 20;        // trials without progress until contours are pushed another way
+  std::vector<Index> held;  // particles that stay where they are, to the bit
 };
 
 // What passes through what, wherever it is.

@@ -38,6 +38,7 @@ bool is_measured_reason(std::string_view code) {
 Verdict judge(const VerifyReport& report, const Limits& limits) {
   Verdict verdict;
   verdict.limits = limits;
+  verdict.qualifications = report.reported_qualifications;
   const auto add = [&](std::string_view code, std::string detail) {
     const bool known =
         std::any_of(verdict.reasons.begin(), verdict.reasons.end(), [&](const Reason& r) { return r.code == code; });

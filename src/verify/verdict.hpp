@@ -30,21 +30,18 @@ inline constexpr std::string_view not_finite = "not_finite";
 inline constexpr std::string_view stretch = "stretch";
 inline constexpr std::string_view unfinished = "unfinished";
 inline constexpr std::string_view data_changed = "data_changed";
+inline constexpr std::string_view moved_by_untangling = "moved_by_untangling";  // of a qualification
 }  // namespace reason
 
 // Is this code decided by measuring the files, so that the judge needs nobody's word for it?  `unfinished` is not: a
 // run that stopped early and says so is unfinished, whatever the number of frames.
 bool is_measured_reason(std::string_view code);
 
-struct Reason {
-  std::string code;
-  std::string detail;  // one line: what was measured, where, and the limit
-};
-
 struct Verdict {
   bool pass = false;
-  std::vector<Reason> reasons;  // empty when and only when pass; each code at most once
-  Limits limits;                // what it was judged by
+  std::vector<Reason> reasons;         // empty when and only when pass; each code at most once
+  std::vector<Reason> qualifications;  // reservations that take nothing from a pass; likewise
+  Limits limits;                       // what it was judged by
 };
 
 // A value that is not finite hides everything measured after it: then the codes that need the last frame are left out.

@@ -195,6 +195,9 @@ void add_reported(const Json& report, VerifyReport& result) {
   if (const Json* reasons = report.find("reasons"))
     for (const Json& reason : reasons->array())
       if (!is_measured_reason(reason.string())) result.reported_reasons.push_back(reason.string());
+  if (const Json* details = report.find("qualification_details"))
+    for (const auto& [code, detail] : details->object())
+      result.reported_qualifications.push_back({code, detail.string()});
 }
 
 // In words: of a run that has not ended.

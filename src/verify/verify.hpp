@@ -26,6 +26,15 @@
 
 namespace toile {
 
+struct Reason {
+  std::string code;
+  std::string detail;  // one line: what was measured, where, and the limit
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(code, detail);
+  }
+};
+
 // Distinct edges that pass through a triangle.
 struct PenetrationCount {
   int max = 0, last = 0, frames = 0;  // over frames; in the last frame; how many frames have any
@@ -53,6 +62,7 @@ struct VerifyReport {
   std::vector<std::string> reported_reasons;
   std::vector<std::string> changes;  // of the files since they were written, in words (verify/integrity.hpp)
   std::string interrupted;           // of a run that has not ended: in words, how far it came and what to do; empty otherwise
+  std::vector<Reason> reported_qualifications;  // of report.json, likewise: what no file shows
 };
 
 // What stays the same over the frames of a run.
@@ -88,7 +98,7 @@ class RunAudit {
 
 // Reads the files of a run; every frame is judged, and compared with the checksum that the report has of it.  The body's files may be absent
 // together when report.json knows of no body; those of the cloth when it says that no frame was written.  Of report.json it uses `fps`, and if
-// present `frames`, `body.vertices`, `reasons`, `limits.still_mm_per_s`, `files` and `rest_stretch` {"panel": [b_u, b_v]}.  A run that goes on or
+// present `frames`, `body.vertices`, `reasons`, `qualification_details`, `limits.still_mm_per_s`, `files` and `rest_stretch` {"panel": [b_u, b_v]}.  A run that goes on or
 // was killed has unfinished.json instead: what it wrote is judged, and it is no pass.
 // Throws IoError (missing, unreadable) or InputError (truncated, not what the format says, sizes that contradict each
 // other), naming the file, what was expected and what it has.

@@ -232,5 +232,163 @@ TEST(Usage, AnErrorWithJsonIsOneObjectOnStdout) {
   }) << ended.out;
 }
 
+// ---- check and dress agree --------------------------------------------------------------------------------------------
+
+// Both refuse it, in the same words.
+void expect_both_refuse(const Scratch& scratch, const std::vector<std::string>& run,
+                        const std::vector<std::string>& check, std::initializer_list<std::string_view> words) {
+  const Ended ran = run_toile(scratch, run), checked = run_toile(scratch, check);
+  expect_refused(scratch, ran, 3, words);
+  EXPECT_EQ(checked.exit_code, 3) << checked.out;
+  EXPECT_EQ(checked.err, ran.err);
+}
+
+void expect_pattern_refused_by_both(const std::string& text, const std::string& resolution_cm,
+                                    std::initializer_list<std::string_view> words) {
+  const Scratch scratch;
+  scratch.put("p.json", text);
+  put_body(scratch);
+  expect_both_refuse(
+      scratch, {"dress", "p.json", "--body", "body.obj", "--resolution", resolution_cm, "--out", "out", "--quiet"},
+      {"check", "p.json", "--resolution", resolution_cm, "--quiet"}, words);
+}
+
+TEST(CheckAndDress, RefuseAFoldThatLeavesItsPanelByItsPlaceInTheFile) {
+  std::string text = pattern(good_edges, good_stitches);
+  text.pop_back();
+  text += R"(,
+    "toile": {"panels": {"front": {"folds": [
+      {"endpoints": [0, 1], "curvature": {"type": "quadratic", "params": [[0.5, -0.3]]}, "angle_deg": 90}]}}}})";
+  expect_pattern_refused_by_both(text, "2",
+                                 {"p.json:7:7: /toile/panels/front/folds/0", "panel front, fold 0",
+                                  "expected a line inside the panel, got one that leaves it"});
+}
+
+// Two sides of the tip of a tent: whatever the resolution, the triangle at the tip would fold shut.
+TEST(CheckAndDress, RefuseSeamsThatWouldWeldCornersOfOneTriangle) {
+  const std::string tent = R"({"pattern": {"panels": {"tent": {"translation": [0, 40, 30], "rotation": [0, 0, 0],
+      "vertices": [[-6,0],[6,0],[0,8]], "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,0]}]}},
+    "stitches": [[{"panel": "tent", "edge": 1}, {"panel": "tent", "edge": 2}]]}, "properties": {"units_in_meter": 100}})";
+  expect_pattern_refused_by_both(tent, "20", {"p.json: panel \"tent\"", "three corners", "sewn together"});
+}
+
+void expect_scene_refused_by_both(const std::string& text, std::initializer_list<std::string_view> words) {
+  const Scratch scratch;
+  scratch.put("s.json", text);
+  expect_both_refuse(scratch, {"run", "s.json", "--out", "out", "--quiet"}, {"check", "s.json", "--quiet"}, words);
+}
+
+TEST(CheckAndDress, RefuseShapesByTheirPlaceInTheFile) {
+  expect_scene_refused_by_both(R"({"cloth": [
+      {"ribbon": {"width_m": 0.05, "edge_m": 0.01, "path_m": [[0, 0, 0], [1e-300, 0, 0], [0.3, 0, 0]]}}], "time": {"seconds": 0.1}})",
+                               {"s.json:2", "/cloth/0/ribbon/path_m/1", "2 micrometres", "got 0 m"});
+  std::string path;
+  for (int k = 0; k < 45; ++k) path += (k == 0 ? "[" : ", [") + std::to_string(k) + ", 0, 0]";
+  expect_scene_refused_by_both(R"({"cloth": [{"grid": {}},
+      {"ribbon": {"width_m": 0.05, "edge_m": 0.02, "path_m": [)" +
+                                   path + R"(]}}], "time": {"seconds": 0.1}})",
+                               {"s.json:2", "/cloth/1", "at most 32 m wide"});
+}
+
+TEST(CheckAndDress, RefuseALabelThatNoEdgeCarries) {
+  const Scratch scratch;
+  scratch.put("p.json", pattern(good_edges, good_stitches));
+  scratch.put("s.json", R"({"cloth": [{"pattern": "p.json", "resolution_cm": 5,
+      "label_heights_m": {"waist": 1}}], "body": {"cylinder": {"radius_m": 0.1, "height_m": 1, "top_m": [0, 1, 0]}}})");
+  expect_both_refuse(scratch, {"run", "s.json", "--out", "out", "--quiet"}, {"check", "s.json", "--quiet"},
+                     {"s.json:1", "/cloth/0/label_heights_m", "got \"waist\""});
+}
+
+TEST(CheckAndDress, RefuseAStartFromARunOfAnotherPattern) {
+  const Scratch scratch;
+  scratch.put("p.json", pattern(good_edges, good_stitches));
+  scratch.put("s.json", R"({"cloth": [{"pattern": "p.json", "resolution_cm": 5}], "start": "none"})");
+  const Ended ran = run_toile(scratch, {"run", "s.json", "--out", "out", "--quiet"}),
+              checked = run_toile(scratch, {"check", "s.json", "--quiet"});
+  EXPECT_EQ(ran.exit_code, 6);
+  EXPECT_EQ(checked.exit_code, 6);
+  EXPECT_EQ(checked.err, ran.err);
+}
+
+// A closed cylinder in two groups, cut at half its height, and other things beside it.
+std::string grouped_body(std::string_view lower, std::string_view upper, std::string_view more = "") {
+  const SolidMesh solid = rounded_cylinder(0.2, 1.0, Vec3(0, 1.0, 0));
+  std::string text, faces[2];
+  const auto add = [&](const Vec3& p) {
+    text += "v " + std::to_string(p.x()) + ' ' + std::to_string(p.y()) + ' ' + std::to_string(p.z()) + '\n';
+  };
+  for (const Vec3& p : solid.positions) add(p);
+  for (const Triangle& t : solid.triangles) {
+    double middle = 0;
+    for (const Index i : t) middle += solid.positions[static_cast<std::size_t>(i)].y() / 3;
+    faces[middle < 0.5 ? 0 : 1] +=
+        "f " + std::to_string(t[0] + 1) + ' ' + std::to_string(t[1] + 1) + ' ' + std::to_string(t[2] + 1) + '\n';
+  }
+  return text + std::string(lower) + '\n' + faces[0] + std::string(upper) + '\n' + faces[1] + std::string(more);
+}
+const char* const box_beside = R"(v 1 0 0
+v 1.5 0 0
+v 1 0.5 0
+v 1 0 0.5
+o legs
+f -4 -2 -3
+f -4 -1 -2
+f -4 -3 -1
+f -3 -2 -1
+)";
+
+Json checked_mesh(const std::string& text, std::string& said) {
+  const Scratch scratch;
+  scratch.put("body.obj", text);
+  const Ended ended = run_toile(scratch, {"check", "body.obj", "--json"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  said = run_toile(scratch, {"check", "body.obj"}).out;
+  return Json::parse(ended.out, "stdout").at("files").array().front();
+}
+
+TEST(CheckAndDress, TakeTheSameBodyOutOfAFile) {
+  std::string said;
+  const std::string whole = grouped_body("g trunk", "g head");
+  const std::int64_t triangles = checked_mesh(whole, said).at("body").at("triangles").integer();
+  EXPECT_GT(triangles, 100);
+
+  const Json parts = checked_mesh(grouped_body("g Body", "g Head"), said);
+  EXPECT_EQ(parts.at("body").at("triangles").integer(), triangles) << "what is called body is open without its head";
+  EXPECT_NE(
+      said.find("body.obj: what the file calls body is open: taken with what it hangs together with (Body, Head)"),
+      std::string::npos)
+      << said;
+
+  const Json beside = checked_mesh(grouped_body("o body", "g x", box_beside), said);
+  EXPECT_EQ(beside.at("body").at("triangles").integer(), triangles);
+  EXPECT_NE(said.find("legs (4 vertices, "), std::string::npos) << said;
+  EXPECT_NE(said.find("left out"), std::string::npos) << said;
+
+  // Vertices that no face uses, before and behind those of the body.
+  const Json unused = checked_mesh(whole + "v 7 7 7\nv 8 8 8\n", said);
+  EXPECT_EQ(unused.at("unused_vertices").integer(), 2);
+  EXPECT_EQ(unused.at("body").at("triangles").integer(), triangles);
+  EXPECT_NE(said.find("2 vertices are in no triangle"), std::string::npos) << said;
+}
+
+TEST(CheckAndDress, SayWhyAMeshIsNoBodyInTheSameWords) {
+  const Scratch scratch;
+  scratch.put("p.json", pattern(good_edges, good_stitches));
+  std::string open = grouped_body("g a", "g a");
+  open.erase(open.rfind("f "));
+  scratch.put("open.obj", open + "v 9 9 9\n");
+  put_body(scratch, 100, "cm.obj");
+  for (const char* body : {"open.obj", "cm.obj"}) {
+    const Ended dressed = run_toile(scratch, {"dress", "p.json", "--body", body, "--out", "out", "--quiet"});
+    expect_refused(scratch, dressed, 3, {body});
+    const Ended checked = run_toile(scratch, {"check", body});
+    EXPECT_EQ(checked.exit_code, 0) << "it may be a cloth";
+    EXPECT_NE(checked.out.find("not a body: " + dressed.err.substr(std::string("toile: ").size())), std::string::npos)
+        << checked.out << dressed.err;
+  }
+  const Ended in_cm = run_toile(scratch, {"check", "cm.obj", "--body-unit", "cm"});
+  EXPECT_NE(in_cm.out.find("1.000 m high"), std::string::npos) << in_cm.out;
+}
+
 }  // namespace
 }  // namespace toile

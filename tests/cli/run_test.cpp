@@ -153,6 +153,28 @@ TEST(Run, AnUnfinishedFailureIsDiagnosedWithExitCodeFive) {
   EXPECT_EQ(run_toile(scratch, {"verify", "a", "--quiet"}).exit_code, 5);
 }
 
+// `verify` says why as the run did: one line on stderr, also of a run that has no cloth to measure.
+TEST(Run, TheJudgeSaysOnStderrWhyItDoesNotPass) {
+  const Scratch scratch;
+  scratch.put(
+      "s.json",
+      R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05}}], "time": {"seconds": 0.3, "until_still": true}})");
+  const Ended ran = run_toile(scratch, {"run", "s.json", "--out", "a", "--quiet"});
+  EXPECT_EQ(ran.exit_code, 5);
+  const Ended judged = run_toile(scratch, {"verify", "a", "--quiet"});
+  EXPECT_EQ(judged.exit_code, 5);
+  EXPECT_EQ(judged.out, "");
+  EXPECT_EQ(judged.err, ran.err);
+  EXPECT_EQ(judged.err.find("toile: a: static_equilibrium: p99 speed "), 0u) << judged.err;
+
+  std::filesystem::create_directory(scratch / "b");
+  scratch.put("b/report.json", R"({"frames": 0, "reasons": ["seam_blocked"]})");
+  const Ended blocked = run_toile(scratch, {"verify", "b", "--json"});
+  EXPECT_EQ(blocked.exit_code, 5);
+  EXPECT_EQ(blocked.err_lines(), 1);
+  EXPECT_EQ(blocked.err.find("toile: b: "), 0u) << blocked.err;
+}
+
 TEST(Run, AnInterruptedRunKeepsConsistentFilesAndSaysSo) {
   const Scratch scratch;
   scratch.put(

@@ -69,6 +69,16 @@ class Checkers(unittest.TestCase):
         self.refuses(tool, {"src/material/a.cpp": '#include "util/a.hpp"\n'}, "unknown module 'util'")
         self.refuses(tool, {"src/util/a.cpp": "\n"}, "module 'util' is not in src/layers.txt")
 
+    def test_a_module_that_is_kept_for_some_files(self):
+        tool = "check_layers.py"
+        tree = {"src/layers.txt": sound_tree["src/layers.txt"] + "only io mesh obj.cpp\n",
+                "src/mesh/mesh.hpp": "int find_holes(int);\nclass HoleSearch {};\n"}
+        self.accepts(tool, {**tree, "src/io/b.cpp": "int found = my_find_holes(1);  // not find_holes(1)\n"})
+        self.refuses(tool, {**tree, "src/io/b.cpp": '\n#include "mesh/mesh.hpp"\n'}, "src/io/b.cpp:2: in 'io' only obj.cpp may include 'mesh'")
+        self.refuses(tool, {**tree, "src/io/b.cpp": "int found = find_holes(1);\n"}, "src/io/b.cpp:1: 'find_holes' of 'mesh' is only for obj.cpp")
+        self.refuses(tool, {**tree, "src/io/b.hpp": "HoleSearch search;\n"}, "'HoleSearch'")
+        self.refuses(tool, {**tree, "src/layers.txt": tree["src/layers.txt"] + "only io mesh gone.cpp\n"}, "there is no src/io/gone.cpp")
+
     def test_elementary(self):
         tool = "check_elementary.py"
         self.refuses(tool, {"src/core/a.cpp": "\ndouble y = std::sin(x);\n"}, "src/core/a.cpp:2: 'std::sin' differs")

@@ -1,0 +1,76 @@
+// sim/falling.hpp: a garment that nothing holds and nothing will catch.                                     docs/reason-codes.md
+//
+// h is height along -g.  A garment whose particles are at h_i and rise with u_i cannot get above
+//     top = max_i (h_i + u_i^2 / 2g)
+// and falls from there.  Sideways it is thrown by at most v t = 2 sqrt(d v^2/2g) <= d + v^2/2g over a fall of d, v being its fastest particle's
+// horizontal speed, and it may glide: by at most `most_glide` of what it falls.  So a solid with the lowest point l, at the distance s beside
+// the garment, is in its reach only when
+//     top >= l   and   s <= most_glide (top - l) + v^2/2g
+// A garment is lost when no solid is in its reach, and no garment that is not lost itself.  What holds it up, or hooks into it, has points
+// below its top and is at the distance 0: in reach.  So is a floor that it will land on.  Solids that move are taken to be everywhere that they
+// come to at once.
+//
+// Easily got wrong: this is about still air, in which cloth gains no height.  In wind, without gravity, or while a hand drags the cloth,
+// nothing follows for what is to come; the caller must not ask.
+#pragma once
+#include "sim/outfit.hpp"
+#include "sim/outfit_run.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace toile {
+
+// Of what falls, the way sideways: trimmed paper planes have 4 to 8, and need a shape that cloth does not keep.  More is on the safe side: a
+// garment that is far beside the body is found out later.
+inline constexpr double most_glide = 4;
+
+// What has to be remembered from frame to frame.
+struct TouchMemory {
+  std::vector<std::uint8_t> touched;  // [part] has a particle of it touched the body or another solid since the weld?
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(touched);
+  }
+};
+void note_touches(std::span<const OutfitPart> parts, const OutfitRun& run, TouchMemory& memory);
+
+struct LostGarment {
+  Index part = 0;
+  std::string where;  // in words
+};
+
+class FallWatch {
+ public:
+  // `moves`: where the solids will be, over `seconds`; empty: where they are.
+  FallWatch(const Vec3& gravity_m_per_s2, std::span<const Triangle> solids, BodyAt moves, double seconds,
+            double frame_s);
+
+  // The first part that is lost, if any is.  `parts` have the particles of `state` in their order; `x` are the solids' vertices now.
+  std::optional<LostGarment> find(std::span<const OutfitPart> parts, const ClothState& state, std::span<const Vec3> x);
+
+ private:
+  struct Box {  // in the frame of gravity; z is h
+    Vec3 low, high;
+  };
+  struct Flight {
+    Box box;  // of the particles
+    double top_m = 0, throw_m = 0;
+  };
+  Flight flight_of(std::span<const Vec3> x, std::span<const Vec3> v) const;
+  static bool in_reach(const Flight& flight, const Box& box);
+  bool reaches_solids(const Flight& flight, std::span<const Vec3> x);
+  Box box_of(std::span<const Vec3> x) const;
+  const Box& swept(std::span<const Vec3> x);
+
+  double g_ = 0;
+  Mat3 frame_;  // rows: two directions across gravity, and up
+  std::span<const Triangle> solids_;
+  BodyAt moves_;
+  double seconds_, frame_s_;
+  std::optional<Box> swept_;  // all places of solids that move; made when it is first asked for
+};
+
+}  // namespace toile
