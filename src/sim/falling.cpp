@@ -78,7 +78,7 @@ const FallWatch::Box& FallWatch::swept(std::span<const Vec3> x) {
   swept_ = box_of(there);
   const auto frames = static_cast<long>(std::ceil(seconds_ / frame_s_));
   for (long k = 0; k <= frames; ++k) {
-    moves_(static_cast<double>(k) * frame_s_, there);
+    moves_(static_cast<double>(k) * frame_s_, x, there);
     const Box box = box_of(there);
     swept_->low = swept_->low.cwiseMin(box.low);
     swept_->high = swept_->high.cwiseMax(box.high);

@@ -115,6 +115,8 @@ void settle(const Json& value, SceneDrag& drag) {
 
 void settle(const Json& value, SceneCloth& cloth) {
   if (cloth.is_sewn()) {
+    cloth.shape_where = value.where();
+    cloth.shape_pointer = value.pointer();
     if (const Json* pins = value.find("pins"); pins != nullptr && !cloth.pins.empty())
       pins->fail("no pins on a garment that is sewn: not available yet", pins->describe());
     return;

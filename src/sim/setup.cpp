@@ -110,7 +110,7 @@ bool has_label(const GarmentMesh& garment, const std::string& label) {
 void check_labels(const SceneCloth& cloth, const GarmentMesh& garment) {
   for (const LabelHeight& height : cloth.label_heights)
     if (!has_label(garment, height.label))
-      throw InputError(cloth.where, cloth.pointer + "/label_heights_m", "a label that an edge of the pattern carries",
+      throw InputError(cloth.shape_where, cloth.shape_pointer + "/label_heights_m", "a label that an edge of the pattern carries",
                        '"' + printable(height.label) + '"');
 }
 

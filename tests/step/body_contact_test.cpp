@@ -301,7 +301,7 @@ TEST(BodyContact, WhatMovesFarAwayIsNoReasonToLookFarther) {
     for (const auto& [a, b, c] : slab.triangles()) triangles.push_back({a + 8, b + 8, c + 8});
     for (std::size_t i = 0; i < 8; ++i) rest.push_back(rest[i] + Vec3(50, 0, 0));
     BodySurface both(rest, triangles);
-    ClothRun run = on_incline(0, 0.3, both);
+    OnIncline run(0, 0.3, both);
     for (Vec3& x : run.state.x) x.y() = height_m;
     run.world.body_at = [&](double t_s, std::span<Vec3> x) {
       for (std::size_t i = 0; i < x.size(); ++i) x[i] = rest[i] + t_s * (i < 8 ? slab_m_per_s : far_m_per_s);
