@@ -67,7 +67,9 @@ class Json {
 
   // Throws InputError for the first key not in `keys`, naming the nearest valid one.
   void allow_only(std::span<const std::string_view> keys) const;
-  void allow_only(std::initializer_list<std::string_view> keys) const { allow_only(std::span(keys.begin(), keys.size())); }
+  void allow_only(std::initializer_list<std::string_view> keys) const {
+    allow_only(std::span(keys.begin(), keys.size()));
+  }
 
   // An error at this value.
   [[noreturn]] void fail(std::string_view expected, std::string_view got) const;

@@ -51,7 +51,8 @@ Drawing draw(double width_m, double height_m, double edge_m, bool joined) {
 void check_length(std::string_view key, std::string_view what, double length_m) {
   constexpr double longest_m = 32;
   if (length_m <= longest_m) return;
-  throw InputError("", key, fmt::sprintf("at most %g m %s", longest_m, std::string(what)), fmt::sprintf("%.4g m", length_m));
+  throw InputError("", key, fmt::sprintf("at most %g m %s", longest_m, std::string(what)),
+                   fmt::sprintf("%.4g m", length_m));
 }
 
 template <class Grain, class Where>

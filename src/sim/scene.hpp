@@ -121,8 +121,8 @@ struct SceneCylinder {  // an upright solid whose rims are rounded: body/solid_s
 };
 
 struct SceneMotion {
-  std::string name;      // of the mannequin's own: walk, twist, dance ...; empty: from a file
-  std::string path;      // resolved: .pc2, or a folder of OBJ files
+  std::string name;                              // of the mannequin's own: walk, twist, dance ...; empty: from a file
+  std::string path;                              // resolved: .pc2, or a folder of OBJ files
   double fps = SampleOptions{}.rate_hz;          // of the file
   double lead_in_s = SampleOptions{}.lead_in_s;  // from the body's own pose into the motion
   std::string where, pointer;

@@ -79,7 +79,8 @@ void settle(const Json& value, SceneRibbon& ribbon) {
     value.fail("an edge_m of at most a sixth of the way round", path.describe());
   if (const double along = length_of(ribbon.path_m, ribbon.closed); along > longest_m)
     path.fail(fmt::sprintf("at most %g m along it", longest_m), fmt::sprintf("%.4g m", along));
-  if (!(ribbon.across.squaredNorm() >= std::numeric_limits<double>::min())) value.at("across").fail("a direction", "zero");
+  if (!(ribbon.across.squaredNorm() >= std::numeric_limits<double>::min()))
+    value.at("across").fail("a direction", "zero");
 }
 
 void settle(const Json& value, ScenePanel& panel) {

@@ -20,41 +20,77 @@ namespace toile::scene_reading {
 class KeyVisitor {
  public:
   template <class... Any>
-  void number(const Setting& s, const Range&, const Any&...) { keys_.push_back(s.key); }
+  void number(const Setting& s, const Range&, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void whole(const Setting& s, const Range&, const Any&...) { keys_.push_back(s.key); }
+  void whole(const Setting& s, const Range&, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void wholes(const Setting& s, const Range&, const Any&...) { keys_.push_back(s.key); }
+  void wholes(const Setting& s, const Range&, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void flag(const Setting& s, const Any&...) { keys_.push_back(s.key); }
+  void flag(const Setting& s, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void text(const Setting& s, const Any&...) { keys_.push_back(s.key); }
+  void text(const Setting& s, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void text_among(const Setting& s, const Any&...) { keys_.push_back(s.key); }
+  void text_among(const Setting& s, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void path(const Setting& s, const Any&...) { keys_.push_back(s.key); }
+  void path(const Setting& s, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void name(const Setting& s, const Any&...) { keys_.push_back(s.key); }
+  void name(const Setting& s, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void fabric(const Setting& s, const Any&...) { keys_.push_back(s.key); }
+  void fabric(const Setting& s, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void vector(const Setting& s, const Range&, const Any&...) { keys_.push_back(s.key); }
+  void vector(const Setting& s, const Range&, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void box(const Setting& s, const Range&, const Any&...) { keys_.push_back(s.key); }
+  void box(const Setting& s, const Range&, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void rows(const Setting& s, const Any&...) { keys_.push_back(s.key); }
+  void rows(const Setting& s, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void list(const Setting& s, const Any&...) { keys_.push_back(s.key); }
+  void list(const Setting& s, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void table(const Setting& s, const Any&...) { keys_.push_back(s.key); }
+  void table(const Setting& s, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void heights(const Setting& s, const Range&, const Any&...) { keys_.push_back(s.key); }
+  void heights(const Setting& s, const Range&, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void object(const Setting& s, const Any&...) { keys_.push_back(s.key); }
+  void object(const Setting& s, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void group(const Setting& s, const Any&...) { keys_.push_back(s.key); }
+  void group(const Setting& s, const Any&...) {
+    keys_.push_back(s.key);
+  }
   template <class... Any>
-  void alternative(std::string_view key, const Any&...) { keys_.push_back(key); }
+  void alternative(std::string_view key, const Any&...) {
+    keys_.push_back(key);
+  }
   void exactly_one(std::initializer_list<std::string_view> keys) { groups_.push_back({keys, true}); }
   void at_most_one(std::initializer_list<std::string_view> keys) { groups_.push_back({keys, false}); }
 
@@ -238,9 +274,7 @@ class SceneReader {
   template <class T>
   static constexpr bool goes_on_from_the_last = std::is_same_v<T, RigidKey>;
 
-  bool has(std::string_view key) const {
-    return only_key_.empty() ? value_->find(key) != nullptr : key == only_key_;
-  }
+  bool has(std::string_view key) const { return only_key_.empty() ? value_->find(key) != nullptr : key == only_key_; }
   // What is given for a key; nullptr where its default holds.  Throws for one that is needed.
   const Json* find(const Setting& s) const {
     if (!only_key_.empty()) return s.key == only_key_ ? value_ : nullptr;

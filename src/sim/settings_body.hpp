@@ -16,7 +16,8 @@ inline Shorthand motion_by_name(bool mannequin) {
 template <class V>
 void describe(V& v, SceneMotion& motion) {
   v.exactly_one({"name", "file"});
-  v.text_among({"name", "one of the mannequin's own ([motions.md](motions.md))", "a file"}, motion_names(), motion.name);
+  v.text_among({"name", "one of the mannequin's own ([motions.md](motions.md))", "a file"}, motion_names(),
+               motion.name);
   v.path({"file", "a .pc2 file, or a folder of OBJ files", "a name"}, motion.path);
   v.number({"fps", "of the file"}, {1, most_fps}, motion.fps);
   v.number({"lead_in_s", "from the pose in which the body stands into the motion"}, {0, 10}, motion.lead_in_s);
@@ -41,15 +42,21 @@ void describe(V& v, SceneBody& body) {
       {{"m", LengthUnit::m}, {"dm", LengthUnit::dm}, {"cm", LengthUnit::cm}}};
   const auto chosen = [&](Kind kind) { return body.kind == kind; };
   v.at_most_one({"mannequin", "mesh", "cylinder"});
-  v.alternative("mannequin", chosen(Kind::mannequin), [&] { body.kind = Kind::mannequin; }, [&](auto& of) {
-    of.name({"mannequin", "one that is built in ([mannequin.md](mannequin.md))", "no"}, mannequins, body.mannequin);
-  });
-  v.alternative("mesh", chosen(Kind::mesh), [&] { body.kind = Kind::mesh; }, [&](auto& of) {
-    of.path({"mesh", "a closed OBJ", "no"}, body.mesh);
-  });
-  v.alternative("cylinder", chosen(Kind::cylinder), [&] { body.kind = Kind::cylinder; }, [&](auto& of) {
-    of.object({"cylinder", "upright, with rounded rims", "no"}, body.cylinder);
-  });
+  v.alternative(
+      "mannequin", chosen(Kind::mannequin), [&] { body.kind = Kind::mannequin; },
+      [&](auto& of) {
+        of.name({"mannequin", "one that is built in ([mannequin.md](mannequin.md))", "no"}, mannequins, body.mannequin);
+      });
+  v.alternative(
+      "mesh", chosen(Kind::mesh), [&] { body.kind = Kind::mesh; },
+      [&](auto& of) {
+        of.path({"mesh", "a closed OBJ", "no"}, body.mesh);
+      });
+  v.alternative(
+      "cylinder", chosen(Kind::cylinder), [&] { body.kind = Kind::cylinder; },
+      [&](auto& of) {
+        of.object({"cylinder", "upright, with rounded rims", "no"}, body.cylinder);
+      });
   v.name({"unit", "of the mesh", "metres, or an error that asks"}, units, body.unit);
   v.object({"motion", "a name, a file, or an object. The cloth drapes on the first pose, then the body moves", "none"},
            body.motion, motion_by_name(chosen(Kind::mannequin)));
@@ -71,8 +78,8 @@ void describe(V& v, SceneSolid::Box& box) {
 }
 template <class V>
 void describe(V& v, SceneSolid::Revolved& shape) {
-  v.rows(Setting{"profile_m", "from the axis to the axis, or a closed curve beside it"}.needs(), Rows{3}, shape.profile_m,
-         [](auto& row, Vec2& p) {
+  v.rows(Setting{"profile_m", "from the axis to the axis, or a closed curve beside it"}.needs(), Rows{3},
+         shape.profile_m, [](auto& row, Vec2& p) {
            row.column("distance from the axis", Range{0, 100}, p.x());
            row.column("height", Range{-100, 100}, p.y());
          });
@@ -82,8 +89,9 @@ template <class V>
 void describe(V& v, SceneSolid& solid) {
   // The key of the alternative that is `Shape`, described by `of_shape`.
   const auto alternative = [&]<class Shape>(std::type_identity<Shape>, std::string_view key, const auto& of_shape) {
-    v.alternative(key, std::holds_alternative<Shape>(solid.shape), [&] { solid.shape = Shape{}; },
-                  [&](auto& of) { of_shape(of, std::get<Shape>(solid.shape)); });
+    v.alternative(
+        key, std::holds_alternative<Shape>(solid.shape), [&] { solid.shape = Shape{}; },
+        [&](auto& of) { of_shape(of, std::get<Shape>(solid.shape)); });
   };
   v.exactly_one({"sphere", "box", "revolved", "mesh"});
   alternative(std::type_identity<SceneSolid::Sphere>{}, "sphere", [](auto& of, auto& shape) {
@@ -102,7 +110,8 @@ void describe(V& v, SceneSolid& solid) {
   v.flag({"inside_out", "a room"}, solid.inside_out);
   Placement placement{solid.translation_m, solid.rotation_deg};
   v.object({"placement", "where it stands", "around the origin"}, placement);
-  v.list({"moves", "how it moves, about its `translation_m`: [below](#moves)", "it stands still"}, solid.moves.keys(), 1);
+  v.list({"moves", "how it moves, about its `translation_m`: [below](#moves)", "it stands still"}, solid.moves.keys(),
+         1);
 }
 
 }  // namespace toile

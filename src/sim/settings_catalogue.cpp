@@ -163,10 +163,20 @@ class Catalogue {
 }  // namespace
 
 std::string unit_of(std::string_view key) {
-  static constexpr std::pair<std::string_view, std::string_view> units[] = {
-      {"_m_per_s2", "m/s2"}, {"_m_per_s", "m/s"},   {"_kg_per_m3", "kg/m3"}, {"_kg_per_m2", "kg/m2"}, {"_N_s_per_m", "N s/m"},
-      {"_N_per_m", "N/m"},   {"_N_m", "N m"},       {"_N", "N"},             {"_deg", "degrees"},     {"_mm", "mm"},
-      {"_cm", "cm"},         {"_ms", "ms"},         {"_m", "m"},             {"_s", "s"}};
+  static constexpr std::pair<std::string_view, std::string_view> units[] = {{"_m_per_s2", "m/s2"},
+                                                                            {"_m_per_s", "m/s"},
+                                                                            {"_kg_per_m3", "kg/m3"},
+                                                                            {"_kg_per_m2", "kg/m2"},
+                                                                            {"_N_s_per_m", "N s/m"},
+                                                                            {"_N_per_m", "N/m"},
+                                                                            {"_N_m", "N m"},
+                                                                            {"_N", "N"},
+                                                                            {"_deg", "degrees"},
+                                                                            {"_mm", "mm"},
+                                                                            {"_cm", "cm"},
+                                                                            {"_ms", "ms"},
+                                                                            {"_m", "m"},
+                                                                            {"_s", "s"}};
   for (const auto& [ending, unit] : units)
     if (key.ends_with(ending)) return std::string(unit);
   if (key == "fps") return "1/s";

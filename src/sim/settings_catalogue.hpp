@@ -11,26 +11,30 @@ namespace toile {
 
 struct SettingNode {
   enum class Kind {
-    number, whole, flag, text, path,
-    name,      // one of `names`
-    fabric,    // likewise; they are those of the presets
-    vector,    // three numbers in `range`
-    box,       // two corners
-    wholes,    // an array of whole numbers
-    rows,      // an array of arrays, of which `inside` are the columns
-    numbers,   // an object of numbers, by names that the user chooses
-    object,    // of the keys `inside`
-    list,      // an array of such objects
-    table      // an object of such objects, by names that the user chooses
+    number,
+    whole,
+    flag,
+    text,
+    path,
+    name,     // one of `names`
+    fabric,   // likewise; they are those of the presets
+    vector,   // three numbers in `range`
+    box,      // two corners
+    wholes,   // an array of whole numbers
+    rows,     // an array of arrays, of which `inside` are the columns
+    numbers,  // an object of numbers, by names that the user chooses
+    object,   // of the keys `inside`
+    list,     // an array of such objects
+    table     // an object of such objects, by names that the user chooses
   };
   Setting setting;
   Kind kind = Kind::object;
   Range range;
   std::vector<std::string> names;
-  std::string value;       // the default, as JSON; empty: see Setting::otherwise
-  std::size_t least = 0;   // elements of an array
-  std::string_view shared; // the name of an object that stands in several places
-  bool is_column = false;  // of rows: it has a name and no key
+  std::string value;           // the default, as JSON; empty: see Setting::otherwise
+  std::size_t least = 0;       // elements of an array
+  std::string_view shared;     // the name of an object that stands in several places
+  bool is_column = false;      // of rows: it has a name and no key
   std::string_view shorthand;  // the key that a string in the place of the object is the value of; empty: none
   std::vector<SettingNode> inside;
   struct Group {
@@ -52,7 +56,11 @@ void for_each_setting(const SettingNode& node, const std::string& path, const Vi
     const std::string here = (path.empty() ? "" : path + '.') + std::string(one.setting.key);
     visit(here, one);
     if (!one.is_leaf())
-      for_each_setting(one, here + (one.kind == SettingNode::Kind::list ? "[]" : one.kind == SettingNode::Kind::table ? "{}" : ""), visit);
+      for_each_setting(one,
+                       here + (one.kind == SettingNode::Kind::list    ? "[]"
+                               : one.kind == SettingNode::Kind::table ? "{}"
+                                                                      : ""),
+                       visit);
   }
 }
 

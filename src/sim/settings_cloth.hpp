@@ -128,7 +128,8 @@ void describe(V& v, ScenePin& pin) {
   v.vector({"near_m", "holds the particle nearest to it at the start", "nothing"}, anywhere, pin.near_m);
   v.box({"in_box_m", "holds all between two corners of a box at the start", "nothing"}, anywhere, pin.in_box_m);
   v.name({"hold", "\"path\" has `path_m`; \"moves\" have `moves`, and take what they hold along"}, holds, pin.hold);
-  v.rows({"path_m", "where the particle is led, from the first frame on", "nowhere"}, Rows{1, true}, pin.path, path_row);
+  v.rows({"path_m", "where the particle is led, from the first frame on", "nowhere"}, Rows{1, true}, pin.path,
+         path_row);
   v.list({"moves", "of all that it holds, [below](#moves)", "nowhere"}, pin.moves.keys(), 1);
   v.vector({"about_m", "centre of `moves`"}, anywhere, pin.moves.centre());
   v.number({"from_s", "when it takes hold"}, within_a_run, pin.from_s);
@@ -138,7 +139,8 @@ void describe(V& v, ScenePin& pin) {
 template <class V>
 void describe(V& v, SceneDrag& drag) {
   v.vector(Setting{"near_m", "pulls the particle nearest to it"}.needs(), anywhere, drag.near_m);
-  v.rows(Setting{"path_m", "of the hand; times count from the first frame"}.needs(), Rows{1, true}, drag.path, path_row);
+  v.rows(Setting{"path_m", "of the hand; times count from the first frame"}.needs(), Rows{1, true}, drag.path,
+         path_row);
   v.number({"stiffness_N_per_m", "of the spring in between"}, {0, 1e6, 1, true}, drag.stiffness_N_per_m);
   v.number({"damping_N_s_per_m", "of the spring"}, {0, 1e6}, drag.damping_N_s_per_m);
   v.number({"max_force_N", "of the spring, as a step begins"}, {0, 1e6, 1, true}, drag.max_force_N);
@@ -161,9 +163,10 @@ void describe(V& v, SceneCloth& cloth) {
   v.whole({"vertices", "instead: how many vertices the welded garment shall have, within 1 %", "by `resolution_cm`"},
           {20, 2e6}, cloth.vertices);
   v.object({"fabric", "a name, or an object with what differs from it", "cotton"}, cloth.fabric, fabric_by_name);
-  v.table({"panels", "what some panels have of their own, by their names ([extension](pattern-format.md#the-extension))",
-           "the pattern's"},
-          cloth.panels, &ScenePanel::name);
+  v.table(
+      {"panels", "what some panels have of their own, by their names ([extension](pattern-format.md#the-extension))",
+       "the pattern's"},
+      cloth.panels, &ScenePanel::name);
   Placement placement{cloth.translation_m, cloth.rotation_deg};
   v.object({"placement", "where the drawing goes", "as drawn"}, placement);
   v.heights({"label_heights_m",

@@ -47,21 +47,35 @@ std::string ranges(const SettingNode& rows) {
 
 std::string values(const SettingNode& node) {
   switch (node.kind) {
-    case Kind::number: return in_words(node.range);
-    case Kind::whole: return "whole, " + in_words(node.range);
-    case Kind::flag: return "true, false";
-    case Kind::text: return "text";
-    case Kind::path: return "path";
+    case Kind::number:
+      return in_words(node.range);
+    case Kind::whole:
+      return "whole, " + in_words(node.range);
+    case Kind::flag:
+      return "true, false";
+    case Kind::text:
+      return "text";
+    case Kind::path:
+      return "path";
     case Kind::name:
-    case Kind::fabric: return joined(node.names, "\"");
-    case Kind::vector: return "[x, y, z], each " + in_words(node.range);
-    case Kind::box: return "[[x, y, z], [x, y, z]], each " + in_words(node.range);
-    case Kind::wholes: return "[whole, ...], each " + in_words(node.range);
-    case Kind::rows: return columns(node) + ": " + ranges(node);
-    case Kind::numbers: return "{label: number}, each " + in_words(node.range);
-    case Kind::object: return node.shorthand.empty() ? "object" : "text, or object";
-    case Kind::list: return "array of objects";
-    case Kind::table: return "{name: object}";
+    case Kind::fabric:
+      return joined(node.names, "\"");
+    case Kind::vector:
+      return "[x, y, z], each " + in_words(node.range);
+    case Kind::box:
+      return "[[x, y, z], [x, y, z]], each " + in_words(node.range);
+    case Kind::wholes:
+      return "[whole, ...], each " + in_words(node.range);
+    case Kind::rows:
+      return columns(node) + ": " + ranges(node);
+    case Kind::numbers:
+      return "{label: number}, each " + in_words(node.range);
+    case Kind::object:
+      return node.shorthand.empty() ? "object" : "text, or object";
+    case Kind::list:
+      return "array of objects";
+    case Kind::table:
+      return "{name: object}";
   }
   return {};
 }
@@ -70,7 +84,7 @@ std::string row(const std::string& path, const SettingNode& node) {
   std::string keys = "| `" + path + "` | " + std::string(node.setting.meaning);
   if (!node.shared.empty()) keys += ": [`" + std::string(node.shared) + "`](#" + std::string(node.shared) + "-keys)";
   if (!node.setting.in_result) keys += " (not in `input_hash`)";
-  const std::string otherwise = node.setting.needed              ? "needed"
+  const std::string otherwise = node.setting.needed               ? "needed"
                                 : !node.setting.otherwise.empty() ? std::string(node.setting.otherwise)
                                 : node.value.empty()              ? ""
                                                                   : node.value;
@@ -80,7 +94,8 @@ std::string row(const std::string& path, const SettingNode& node) {
 constexpr std::string_view head = "| key | meaning | values | unit | default |\n|---|---|---|---|---|\n";
 
 // The keys of one object; those of objects with a name of their own follow in a table of that name.
-void append(const SettingNode& object, const std::string& path, std::vector<const SettingNode*>& shared, std::string& text) {
+void append(const SettingNode& object, const std::string& path, std::vector<const SettingNode*>& shared,
+            std::string& text) {
   for (const SettingNode& one : object.inside) {
     const std::string here = path + std::string(one.setting.key);
     text += row(here, one);

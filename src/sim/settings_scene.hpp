@@ -29,7 +29,8 @@ void describe_time(V& v, Scene& scene) {
   v.number({"drape_seconds", "the longest drape before a motion, and of a garment that another one goes over",
             "10; 0 for what is not sewn and moves by itself"},
            within_a_run, scene.drape_seconds);
-  v.number({"step_max_ms", "the longest step", "16.7 for patterns, 33.3 while they come to rest; a frame for what is not sewn"},
+  v.number({"step_max_ms", "the longest step",
+            "16.7 for patterns, 33.3 while they come to rest; a frame for what is not sewn"},
            {0.01, 1000, 1e-3}, scene.step_max_s);
   v.name({"integrator", "[theory/step.md](theory/step.md#more-solves-and-bdf2)"}, integrators, scene.integrator);
   v.flag({"until_still", "stop at rest, and fail if still moving at the end", "true for patterns"}, scene.until_still);
@@ -52,17 +53,19 @@ void describe_solver(V& v, Scene& scene) {
   v.number({"tolerance", "of the linear solve ([what it keeps](theory/solver.md#what-the-tolerance-keeps))",
             "0.01; 0.001 without the coarse space, and for \"paper_1998\""},
            {1e-12, 0.5}, scene.tolerance);
-  v.name(
-      {"procedure",
-       "\"paper_1998\": the listing as printed, for comparison (`relinearisations` 0 besides makes the step the paper's)"},
-      procedures, scene.procedure);
+  v.name({"procedure",
+          "\"paper_1998\": the listing as printed, for comparison (`relinearisations` 0 besides makes the step the "
+          "paper's)"},
+         procedures, scene.procedure);
   v.whole({"newton_iterations", "linear solves per step"}, {1, 3}, scene.newton_iterations);
   v.whole({"relinearisations",
-           "more solves, about the end that was found, before a step is refused because a thread stretches too much, and where "
+           "more solves, about the end that was found, before a step is refused because a thread stretches too much, "
+           "and where "
            "turning made energy ([theory/step.md](theory/step.md#how-long-a-step-may-be)); the paper's 0"},
           {0, 10}, scene.relinearisations);
   v.flag({"paper_scaling", "conditions scaled by area, as printed in 1998"}, scene.paper_scaling);
-  v.name({"damping_jacobian", "\"paper\": with the term that can make it indefinite"}, jacobians, scene.damping_jacobian);
+  v.name({"damping_jacobian", "\"paper\": with the term that can make it indefinite"}, jacobians,
+         scene.damping_jacobian);
 }
 
 template <class V>
@@ -72,16 +75,19 @@ void describe_contact(V& v, Scene& scene) {
   v.number({"friction", "of cloth on cloth, in place of every fabric's own", "the fabric's"}, {0, 100},
            scene.contact_friction);
   v.rows({"friction_between",
-          "of layers of these two fabrics on each other, by the names of their presets (\"base\"), in either order; two of "
+          "of layers of these two fabrics on each other, by the names of their presets (\"base\"), in either order; "
+          "two of "
           "the same may be named",
           "the larger of the two fabrics'"},
          Rows{0}, scene.friction_between, [](auto& row, PairFriction& pair) { describe(row, pair); });
   v.flag({"self_contact", "false: layers of cloth pass through each other"}, scene.self_contact);
-  v.flag({"flypaper",
-          "cloth between two parts of the body that come nearer to each other than two offsets is held and goes with both "
-          "([theory/step.md](theory/step.md#flypaper))"},
-         scene.flypaper);
-  v.flag({"strict_start", "end with exit code 4 when the start already intersects, instead of [untangling](untangle.md) it"},
+  v.flag(
+      {"flypaper",
+       "cloth between two parts of the body that come nearer to each other than two offsets is held and goes with both "
+       "([theory/step.md](theory/step.md#flypaper))"},
+      scene.flypaper);
+  v.flag({"strict_start",
+          "end with exit code 4 when the start already intersects, instead of [untangling](untangle.md) it"},
          scene.strict_start);
 }
 
@@ -89,11 +95,13 @@ template <class V>
 void describe_output(V& v, Scene& scene) {
   v.text(Setting{"dir", "where the files go, from where the program runs; `--out` wins", "out/NAME"}.without_effect(),
          scene.output_dir);
-  v.flag(Setting{"preview", "pictures and a film; `--no-preview` wins", "false; true for `dress` and `demo`"}.without_effect(),
+  v.flag(Setting{"preview", "pictures and a film; `--no-preview` wins", "false; true for `dress` and `demo`"}
+             .without_effect(),
          scene.preview);
-  v.wholes(Setting{"picture_frames", "frames of the motion (or of the cloth) that `frames.png` shows side by side", "none"}
-               .without_effect(),
-           {0, most_seconds * most_fps}, scene.picture_frames);
+  v.wholes(
+      Setting{"picture_frames", "frames of the motion (or of the cloth) that `frames.png` shows side by side", "none"}
+          .without_effect(),
+      {0, most_seconds * most_fps}, scene.picture_frames);
 }
 
 template <class V>
@@ -102,18 +110,20 @@ void describe(V& v, Scene& scene) {
   v.list(Setting{"cloth", "garments, dressed in this order from the inside out, or grids, tubes and ribbons"}.needs(),
          scene.cloth, 1);
   v.object(Setting{"body", "what the cloth is worn by, or falls on", "none"}.or_null(), scene.body);
-  v.list({"solids",
-          "what cloth collides with beside the body, or instead of it, of at most 2 million triangles each. Friction and "
-          "offset are the body's",
-          "none"},
-         scene.solids);
+  v.list(
+      {"solids",
+       "what cloth collides with beside the body, or instead of it, of at most 2 million triangles each. Friction and "
+       "offset are the body's",
+       "none"},
+      scene.solids);
   v.group({"world", "what acts on all cloth"}, [&](auto& of) { describe_world(of, scene); });
   v.group({"time", "frames, and how long"}, [&](auto& of) { describe_time(of, scene); });
   v.group({"solver", "how a step is solved"}, [&](auto& of) { describe_solver(of, scene); });
   v.group({"contact", "of cloth with cloth and with the body"}, [&](auto& of) { describe_contact(of, scene); });
-  v.path({"start", "directory of a run: begin as it had draped, without sewing ([command-line.md](command-line.md#start))",
-          "from the panels"},
-         scene.start);
+  v.path(
+      {"start", "directory of a run: begin as it had draped, without sewing ([command-line.md](command-line.md#start))",
+       "from the panels"},
+      scene.start);
   v.group({"output", "what is written besides"}, [&](auto& of) { describe_output(of, scene); });
 }
 

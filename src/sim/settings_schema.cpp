@@ -161,14 +161,26 @@ class Schema {
 
   void value_of(const SettingNode& node) {
     switch (node.kind) {
-      case Kind::number: number(node.range); break;
-      case Kind::whole: number(node.range, "integer"); break;
-      case Kind::flag: json_.member("type", "boolean"); break;
+      case Kind::number:
+        number(node.range);
+        break;
+      case Kind::whole:
+        number(node.range, "integer");
+        break;
+      case Kind::flag:
+        json_.member("type", "boolean");
+        break;
       case Kind::text:
-      case Kind::path: text(node); break;
+      case Kind::path:
+        text(node);
+        break;
       case Kind::name:
-      case Kind::fabric: names(node); break;
-      case Kind::vector: vector(node.range); break;
+      case Kind::fabric:
+        names(node);
+        break;
+      case Kind::vector:
+        vector(node.range);
+        break;
       case Kind::box:
         array(2, 2);
         in_braces("items", [&] { vector(node.range); });
@@ -196,7 +208,9 @@ class Schema {
         json_.member("type", "object");
         in_braces("additionalProperties", [&] { number(node.range); });
         break;
-      case Kind::object: one_of_its_forms(node); break;
+      case Kind::object:
+        one_of_its_forms(node);
+        break;
       case Kind::list:
         array(node.least);
         in_braces("items", [&] { object(node); });

@@ -146,7 +146,8 @@ std::vector<TimedPin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) 
       timed.to_s = given.to_s;
       timed.moves = given.moves;
       timed.pin.particle = i;
-      if (given.hold == ScenePin::Hold::path) timed.pin.path = [path = given.path](double t_s) { return along(path, t_s); };
+      if (given.hold == ScenePin::Hold::path)
+        timed.pin.path = [path = given.path](double t_s) { return along(path, t_s); };
       pins.push_back(std::move(timed));
     }
   }

@@ -37,7 +37,7 @@
 namespace toile {
 
 struct BodyContactOptions {
-  double offset_m = 2.5e-3;  // r: where cloth rests above the body
+  double offset_m = 2.5e-3;             // r: where cloth rests above the body
   double friction = Fabric{}.friction;  // mu; kinetic, the static one is 2 % larger
 };
 

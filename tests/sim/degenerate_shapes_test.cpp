@@ -32,7 +32,9 @@ std::string refusal(const std::string& scene_text) {
 }
 
 std::string ribbon(const std::string& keys) { return std::string(R"({"cloth": [{"ribbon": {)") + keys + "}}]}"; }
-std::string solid(const std::string& keys) { return std::string(R"({"cloth": [{"grid": {}}], "solids": [{)") + keys + "}]}"; }
+std::string solid(const std::string& keys) {
+  return std::string(R"({"cloth": [{"grid": {}}], "solids": [{)") + keys + "}]}";
+}
 
 void expect_refused(const std::string& scene, const std::string& pointer, const std::string& words) {
   const std::string message = refusal(scene);
@@ -50,7 +52,8 @@ TEST(DegenerateShapes, PointsThatAreNearlyOne) {
                    "/cloth/0/ribbon/path_m/1", "another place");
   expect_refused(ribbon(R"("closed": true, "path_m": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [1e-200, 0, 0]])"),
                  "/cloth/0/ribbon/path_m", "only once");
-  EXPECT_EQ(refusal(ribbon(R"("width_m": 1e-3, "edge_m": 0.01, "path_m": [[0, 0, 0], [1e-3, 0, 0], [0.3, 0, 0]])")), "");
+  EXPECT_EQ(refusal(ribbon(R"("width_m": 1e-3, "edge_m": 0.01, "path_m": [[0, 0, 0], [1e-3, 0, 0], [0.3, 0, 0]])")),
+            "");
 }
 
 TEST(DegenerateShapes, WaysThatAreTooLong) {
@@ -59,30 +62,38 @@ TEST(DegenerateShapes, WaysThatAreTooLong) {
     spiral += (k == 0 ? "[" : ", [") + number(std::cos(k)) + ", 0, " + number(std::sin(k)) + "]";
   expect_refused(ribbon(R"("width_m": 0.01, "edge_m": 0.01, "path_m": [)" + spiral + "]"), "/cloth/0/ribbon/path_m",
                  "at most 32 m along it");
-  expect_refused(ribbon(R"("width_m": 1e-3, "edge_m": 1, "path_m": [[-1e4, 0, 0], [1e4, 0, 0]])"), "/cloth/0/ribbon/path_m",
-                 "at most 32 m along it");
+  expect_refused(ribbon(R"("width_m": 1e-3, "edge_m": 1, "path_m": [[-1e4, 0, 0], [1e4, 0, 0]])"),
+                 "/cloth/0/ribbon/path_m", "at most 32 m along it");
   // Not from point to point, but on the way between them.
-  expect_refused(ribbon(R"("width_m": 0.01, "edge_m": 0.1, "path_m": [[0, 0, 0], [15.95, 0, 0], [15.95, 0.2, 0], [0.15, 0.2, 0]])"),
-                 "/cloth/0/ribbon", "at most 32 m along it");
+  expect_refused(
+      ribbon(
+          R"("width_m": 0.01, "edge_m": 0.1, "path_m": [[0, 0, 0], [15.95, 0, 0], [15.95, 0.2, 0], [0.15, 0.2, 0]])"),
+      "/cloth/0/ribbon", "at most 32 m along it");
   expect_refused(R"({"cloth": [{"tube": {"radius_m": 6, "edge_m": 0.5}}]})", "/cloth/0/tube", "at most 32 m around it");
 }
 
 TEST(DegenerateShapes, RibbonsThatLieOnThemselves) {
-  expect_refused(ribbon(R"("width_m": 0.1, "edge_m": 0.02, "path_m": [[0, 0, 0], [1, 0, 0], [0, 0, 0]])"), "/cloth/0/ribbon",
-                 "path_m");
+  expect_refused(ribbon(R"("width_m": 0.1, "edge_m": 0.02, "path_m": [[0, 0, 0], [1, 0, 0], [0, 0, 0]])"),
+                 "/cloth/0/ribbon", "path_m");
   // In its plane around a bend of a third of its width.
-  expect_refused(ribbon(R"("width_m": 0.6, "edge_m": 0.02, "across": [0, 1, 0], "path_m": [[-1, 0, 0], [0, 0.05, 0], [0.2, 0.2, 0], [0, 0.4, 0], [-1, 0.4, 0]])"),
-                 "/cloth/0/ribbon", "bends wider than half of width_m");
+  expect_refused(
+      ribbon(
+          R"("width_m": 0.6, "edge_m": 0.02, "across": [0, 1, 0], "path_m": [[-1, 0, 0], [0, 0.05, 0], [0.2, 0.2, 0], [0, 0.4, 0], [-1, 0.4, 0]])"),
+      "/cloth/0/ribbon", "bends wider than half of width_m");
   // The same line with the breadth across its plane is a ribbon.
-  EXPECT_EQ(refusal(ribbon(R"("width_m": 0.6, "edge_m": 0.02, "across": [0, 0, 1], "path_m": [[-1, 0, 0], [0, 0.05, 0], [0.2, 0.2, 0], [0, 0.4, 0], [-1, 0.4, 0]])")),
-            "");
-  expect_refused(ribbon(R"("across": [1e-200, 0, 0], "path_m": [[0, 0, 0], [0, 1, 0]])"), "/cloth/0/ribbon/across", "direction");
+  EXPECT_EQ(
+      refusal(ribbon(
+          R"("width_m": 0.6, "edge_m": 0.02, "across": [0, 0, 1], "path_m": [[-1, 0, 0], [0, 0.05, 0], [0.2, 0.2, 0], [0, 0.4, 0], [-1, 0.4, 0]])")),
+      "");
+  expect_refused(ribbon(R"("across": [1e-200, 0, 0], "path_m": [[0, 0, 0], [0, 1, 0]])"), "/cloth/0/ribbon/across",
+                 "direction");
 }
 
 TEST(DegenerateShapes, SolidsOfNoVolume) {
   expect_refused(solid(R"("revolved": {"profile_m": [[0, 0], [1e-300, 0.5], [0, 1]]})"), "/solids/0", "got");
   expect_refused(solid(R"("revolved": {"profile_m": [[1, 0], [1, 0.5], [1, 1]]})"), "/solids/0", "got");
-  expect_refused(solid(R"("revolved": {"profile_m": [[0, 0], [0.5, 0], [1e-200, 0], [0, 1e-200]]})"), "/solids/0", "got");
+  expect_refused(solid(R"("revolved": {"profile_m": [[0, 0], [0.5, 0], [1e-200, 0], [0, 1e-200]]})"), "/solids/0",
+                 "got");
 }
 
 // Whatever the numbers: a mesh of finite triangles with an area, or a refusal with its place.  Some are drawn from where arithmetic ends.
@@ -93,7 +104,8 @@ TEST(DegenerateShapes, AreRefusedAtTheirPlaceWhateverTheNumbers) {
     if (kind == 0) return least;
     if (kind == 1) return most;
     if (kind == 2 && least <= 0) return std::pow(10.0, -std::uniform_real_distribution<double>(3, 320)(random));
-    if (kind == 3 && least > 0) return least * std::pow(most / least, std::uniform_real_distribution<double>(0, 1)(random));
+    if (kind == 3 && least > 0)
+      return least * std::pow(most / least, std::uniform_real_distribution<double>(0, 1)(random));
     return std::uniform_real_distribution<double>(std::max(least, -2.0), std::min(most, 2.0))(random);
   };
   const auto text = [](double x) {

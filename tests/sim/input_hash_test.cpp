@@ -37,8 +37,8 @@ TEST(InputHash, OfAFileItsBytesCountAndNotItsName) {
   scratch.put("b.obj", box(1));
   scratch.put("c.obj", box(1.25));
   const auto solid = [&](const std::string& file) {
-    return input_hash(
-        parse_scene(R"({"cloth": [{"grid": {"edge_m": 0.2}}], "solids": [{"mesh": ")" + file + R"("}]})", scratch / "s.json"));
+    return input_hash(parse_scene(R"({"cloth": [{"grid": {"edge_m": 0.2}}], "solids": [{"mesh": ")" + file + R"("}]})",
+                                  scratch / "s.json"));
   };
   EXPECT_EQ(solid("a.obj"), solid("b.obj"));
   EXPECT_NE(solid("a.obj"), solid("c.obj"));
@@ -59,7 +59,8 @@ TEST(InputHash, AStartIsTheRunThatItStartsFrom) {
   const auto run = [&](const std::string& name, const std::string& start, const std::string& gravity) {
     const std::string from = start.empty() ? "" : R"(, "start": ")" + start + '"';
     const Scene scene = parse_scene(R"({"cloth": [{"grid": {"width_m": 0.4, "height_m": 0.4, "edge_m": 0.1}}],
-      "world": {"gravity_m_per_s2": [0, )" + gravity + R"(, 0]}, "time": {"seconds": 0.1})" + from + "}",
+      "world": {"gravity_m_per_s2": [0, )" +
+                                        gravity + R"(, 0]}, "time": {"seconds": 0.1})" + from + "}",
                                     scratch / "s.json");
     RunOptions options;
     options.directory = scratch / name;
@@ -76,7 +77,8 @@ TEST(InputHash, AStartIsTheRunThatItStartsFrom) {
 TEST(InputHash, SecondsThatAreGivenCount) {
   const auto with = [](const std::string& time) {
     return input_hash(parse_scene(R"({"cloth": [{"grid": {"edge_m": 0.2}}],
-      "solids": [{"sphere": {"radius_m": 0.1}, "moves": [{"t_s": 0}, {"t_s": 2, "shift_m": [0, 1, 0]}]}])" + time + "}",
+      "solids": [{"sphere": {"radius_m": 0.1}, "moves": [{"t_s": 0}, {"t_s": 2, "shift_m": [0, 1, 0]}]}])" +
+                                      time + "}",
                                   "s.json"));
   };
   EXPECT_NE(with(""), with(R"(, "time": {"seconds": 5})")) << "2 s of moves, or 5";

@@ -118,7 +118,8 @@ void for_each_value(const Given& given, const std::function<void(const Given&)>&
       for (std::size_t r = 0; r < given.value->array().size(); ++r) {
         const Given row = inside(*given.value, r, node);
         for (std::size_t k = 0; k < node.inside.size(); ++k)
-          visit({given.scene, &row.value->array()[k], &node.inside[k], given.name, row.pointer + '/' + std::to_string(k)});
+          visit({given.scene, &row.value->array()[k], &node.inside[k], given.name,
+                 row.pointer + '/' + std::to_string(k)});
       }
       return;
     case Kind::numbers:
@@ -208,7 +209,8 @@ TEST(Settings, ScenesThatWereToldByTheSameNumbersHaveTheirOwnHashes) {
   differ(R"({"cloth": [{"grid": {}, "pins": [{"near_m": [0, 0, 0], "hold": "path", "path_m": [[0, 0, 0, 0]]}]}]})",
          R"({"cloth": [{"grid": {}, "pins": [{"near_m": [0, 0, 0], "hold": "moves", "moves": [{"t_s": 0}]}]}]})");
   differ(R"({"cloth": [{"grid": {}}], "start": "a"})", R"({"cloth": [{"grid": {}}]})");
-  differ(R"({"cloth": [{"grid": {}}], "solids": [{"mesh": "a.obj"}]})", R"({"cloth": [{"grid": {}}], "body": {"mesh": "a.obj"}})");
+  differ(R"({"cloth": [{"grid": {}}], "solids": [{"mesh": "a.obj"}]})",
+         R"({"cloth": [{"grid": {}}], "body": {"mesh": "a.obj"}})");
   differ(R"({"cloth": [{"grid": {}}], "body": {"mannequin": "woman"}})", R"({"cloth": [{"grid": {}}]})");
   differ(R"({"cloth": [{"grid": {}}], "body": {"mannequin": "woman", "motion": "walk"}})",
          R"({"cloth": [{"grid": {}}], "body": {"mannequin": "woman", "motion": "a/walk"}})");
@@ -241,7 +243,8 @@ TEST(Settings, EveryValueOutOfItsRangeIsRefusedAtItsPlaceAndByTheSchema) {
       expect_refused(one, text_of(node.range.most + beyond));
       expect_refused(one, text_of(node.range.least - std::max(1e-13, 1e-6 * std::abs(node.range.least))));
       if (node.range.above) expect_refused(one, text_of(node.range.least));
-      if (node.kind == Kind::whole || node.kind == Kind::wholes) expect_refused(one, text_of(one.value->number() + 0.5));
+      if (node.kind == Kind::whole || node.kind == Kind::wholes)
+        expect_refused(one, text_of(one.value->number() + 0.5));
       expect_refused(one, "true");
     });
     if (!setting.node->names.empty()) {
@@ -290,15 +293,17 @@ TEST(Settings, TheDocumentsAreCurrent) {
   // And the table is of all keys.
   for_each_setting(settings, "", [&](const std::string& path, const SettingNode& node) {
     const std::string key(node.setting.key);
-    EXPECT_TRUE(page.find("| `" + path + "` |") != std::string::npos || page.find("| `" + key + "` |") != std::string::npos)
+    EXPECT_TRUE(page.find("| `" + path + "` |") != std::string::npos ||
+                page.find("| `" + key + "` |") != std::string::npos)
         << path;
     EXPECT_FALSE(node.setting.meaning.empty()) << path;
   });
 }
 
 TEST(Settings, AKeyOfANumberSaysItsUnit) {
-  const std::set<std::string> pure = {"friction", "compression_ratio", "strain_limit",      "rest_stretch_u", "rest_stretch_v",
-                                      "vertices", "scale",             "newton_iterations", "tolerance",      "relinearisations"};
+  const std::set<std::string> pure = {"friction",       "compression_ratio", "strain_limit", "rest_stretch_u",
+                                      "rest_stretch_v", "vertices",          "scale",        "newton_iterations",
+                                      "tolerance",      "relinearisations"};
   for_each_setting(scene_settings(), "", [&](const std::string& path, const SettingNode& node) {
     if (node.kind != Kind::number && node.kind != Kind::whole) return;
     EXPECT_NE(unit_of(node.setting.key).empty(), pure.count(std::string(node.setting.key)) == 0) << path;

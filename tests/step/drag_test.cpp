@@ -1,6 +1,8 @@
 // What the user does to a cloth while it runs: pull it, take hold of it, let it go.
 #include "support/run_cloth.hpp"
 
+#include <limits>
+
 namespace toile {
 namespace {
 
@@ -40,6 +42,7 @@ TEST(Drag, AClothHangsFromItsSpringWhereTheSpringCarriesItsWeight) {
   const Vec3 hand = point(drag, run.state.x);
   drag.target = [hand](double) { return hand; };
   drag.stiffness_N_per_m = 5;
+  drag.max_force_N = std::numeric_limits<double>::infinity();
   drag.damping_N_s_per_m = 0.2;
   run.world.drags.push_back(drag);
   run.run(120);
@@ -54,6 +57,7 @@ TEST(Drag, AMovingHandIsFollowedWithoutLag) {
   const Vec3 hand = point(drag, run.state.x), speed(0.7, 0.2, -0.3);
   drag.target = [hand, speed](double t_s) -> Vec3 { return hand + t_s * speed; };
   drag.stiffness_N_per_m = 5;
+  drag.max_force_N = std::numeric_limits<double>::infinity();
   drag.damping_N_s_per_m = 0.2;
   run.world.drags.push_back(drag);
   for (Vec3& v : run.state.v) v = speed;
@@ -72,6 +76,7 @@ TEST(Drag, AStiffSpringDoesNotOvershootWithinAStep) {
     const Vec3 to = run.state.x[i] + Vec3(0, 0.01, 0);
     drag.target = [to](double) { return to; };
     drag.stiffness_N_per_m = 1e4;
+    drag.max_force_N = std::numeric_limits<double>::infinity();
     run.world.drags.push_back(drag);
   }
   run.frame();
@@ -100,6 +105,7 @@ TEST(Release, AClothThatIsLetGoFallsFreelyAtOnce) {
   Drag drag = grip(run);
   drag.target = [](double) { return Vec3(0.1, 0.1, 0); };
   drag.stiffness_N_per_m = 10;
+  drag.max_force_N = std::numeric_limits<double>::infinity();
   run.world.drags.push_back(drag);
   run.run(30);
   run.world.pins.clear();

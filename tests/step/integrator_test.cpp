@@ -32,6 +32,8 @@ double left_after_a_period(Integrator integrator, double period_s, double step_s
     const Vec3 rest = run.state.x[i];
     spring.target = [rest](double) { return rest; };
     spring.stiffness_N_per_m = run.model.mass_kg[i] * omega * omega;
+    spring.damping_N_s_per_m = 0;  // a spring alone, of any force
+    spring.max_force_N = std::numeric_limits<double>::infinity();
     run.world.drags.push_back(spring);
     run.state.x[i] += Vec3(0, 0.01, 0);
   }

@@ -68,10 +68,14 @@ inline void write_with(const Json& json, std::string_view pointer, std::string_v
                        JsonText& text) {
   if (here == pointer) return text.raw(other);
   switch (json.type()) {
-    case Json::Type::null: return text.null();
-    case Json::Type::boolean: return text.value(json.boolean());
-    case Json::Type::number: return text.value(json.number());
-    case Json::Type::string: return text.value(json.string());
+    case Json::Type::null:
+      return text.null();
+    case Json::Type::boolean:
+      return text.value(json.boolean());
+    case Json::Type::number:
+      return text.value(json.number());
+    case Json::Type::string:
+      return text.value(json.string());
     case Json::Type::array: {
       text.begin_array();
       for (std::size_t k = 0; k < json.array().size(); ++k) {
