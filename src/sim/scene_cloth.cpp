@@ -171,7 +171,7 @@ SceneRibbon read_ribbon(const Json& value) {
   for (const Json& point : path.array()) {
     ribbon.path_m.push_back(vector_of(point));
     if (ribbon.path_m.size() > 1 && !(last_step_m(ribbon.path_m) >= least_step_m))
-      point.fail("a place at least 2 micrometres from the point before",
+      point.fail("another place than the point before, at least 2 micrometres from it",
                  fmt::sprintf("%.3g m", last_step_m(ribbon.path_m)));
   }
   const std::size_t least = ribbon.closed ? 3 : 2;
