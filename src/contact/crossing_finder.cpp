@@ -20,14 +20,33 @@ constexpr int least_exponent = -960;  // of a coordinate; 2^(whole_bits + 960) i
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-// x in steps of 2^(e - whole_bits), with e such that every |coordinate| < 2^e.
-void round_to_whole(std::span<const Vec3> x, Vec3s& whole) {
-  double largest = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
+void check_finite(std::span<const Vec3> x) {
+  for (std::size_t i = 0; i < x.size(); ++i)
     if (!x[i].allFinite())
       throw InputError("", "vertex " + std::to_string(i), "a finite position", "infinity or not a number");
-    largest = std::max(largest, x[i].cwiseAbs().maxCoeff());
+}
+
+// The largest coordinate of the cloth and of the triangles of the body that it may meet.  What is far away has no say: another step would
+// decide otherwise where positions are degenerate.
+double largest_coordinate(std::span<const Vec3> cloth, std::span<const Vec3> body,
+                          std::span<const Triangle> body_triangles) {
+  Eigen::AlignedBox3d around;
+  for (const Vec3& p : cloth) around.extend(p);
+  if (around.isEmpty()) return 0;
+  double largest = std::max(around.min().cwiseAbs().maxCoeff(), around.max().cwiseAbs().maxCoeff());
+  const Vec3 margin = Vec3::Constant(1e-3 * std::max(largest, around.diagonal().norm()));  // boxes are rounded outwards
+  around = Eigen::AlignedBox3d(around.min() - margin, around.max() + margin);
+  for (const Triangle& t : body_triangles) {
+    Eigen::AlignedBox3d box;
+    for (const Index i : t) box.extend(body[at(i)]);
+    if (box.intersects(around))
+      largest = std::max({largest, box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()});
   }
+  return largest;
+}
+
+// x in steps of 2^(e - whole_bits), with e such that `largest` < 2^e.
+void round_to_whole(std::span<const Vec3> x, double largest, Vec3s& whole) {
   const int exponent = std::max(largest > 0 ? std::ilogb(largest) + 1 : least_exponent, least_exponent);
   const double steps = std::ldexp(1.0, whole_bits - exponent);  // per metre
   whole.resize(x.size());
@@ -68,7 +87,9 @@ CrossingFinder::CrossingFinder(const Topology& topology, std::span<const Triangl
 }
 
 void CrossingFinder::refit(std::span<const Vec3> x) {
-  round_to_whole(x, next_whole_);
+  check_finite(x);
+  const double largest = largest_coordinate(x.first(at(body_.particle)), x.subspan(at(body_.particle)), body_.triangles);
+  round_to_whole(x, largest, next_whole_);
   const bool first = whole_.size() != x.size();
   const auto cloth = std::span<const Vec3>(next_whole_).first(at(body_.particle));
   const auto body = std::span<const Vec3>(next_whole_).subspan(at(body_.particle));

@@ -4,7 +4,8 @@
 // contact/intersection_contours.hpp).  The body is not asked about itself.  Pairs that share a particle are not tested: two triangles that
 // cross and share one do so through an edge that shares nothing with the other.
 //
-// Positions are rounded to whole numbers of a step of 2^-60 of the largest coordinate's power of two: exact for a double that is not 256
+// Positions are rounded to whole numbers of a step of 2^-60 of the power of two of the largest coordinate of the cloth and of what of the body is around
+// it: exact for a double that is not 256
 // times smaller than that, 1e-18 m beside it in a scene of 2 m.  About the rounded mesh every answer is exact, and degenerate positions are
 // resolved for the whole mesh at once (contact/whole_orientation.hpp), a particle's rank being its index.  So a proper crossing is always found,
 // what is apart never is one, and a surface pierced through an edge or a particle is pierced once: contours have no loose ends.

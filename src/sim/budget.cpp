@@ -1,5 +1,6 @@
 #include "sim/budget.hpp"
 
+#include "body/solid_shapes.hpp"
 #include "core/available_memory.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -31,7 +32,6 @@ constexpr double obj_copies = 4;              // of the text of a mesh while it 
 // Time of one step on two cores of a Xeon (docs/benchmarks.md, "How far from real time" and the drapes up to 100,000 particles).
 constexpr double step_us = 6;            // per particle, of small cloth
 constexpr double small_particles = 2600;
-constexpr double step_exponent = 0.35;   // iterations and refused steps grow so with the number of particles
 constexpr double body_step_us = 0.3;     // per triangle of a body
 constexpr double second_core = 1.5;      // how much faster two threads are than one
 constexpr double mannequin_s = 1.5, meshing_us = 20, load_us = 5;  // per particle of a pattern, per triangle of a body
@@ -211,10 +211,19 @@ class Estimate {
     budget_.items.push_back({"motion " + printable(body.motion->path), 0, mb_per_sample * samples * vertices});
   }
 
+  // What is too large by itself is refused where it stands in the file, as it would be when it is made, whatever all together would take.
+  static void check_own_limit(const SceneSolid& solid, double triangles) {
+    constexpr auto most = static_cast<double>(most_solid_triangles);
+    if (triangles > most)
+      throw InputError(solid.where, solid.pointer + ": edge_m", fmt::sprintf("at most %.0f triangles", most),
+                       fmt::sprintf("at least %.0f", triangles));
+  }
   void add_solid(const SceneSolid& solid, std::size_t k) {
     const std::string name = "solid " + std::to_string(k);
     if (const auto* ball = std::get_if<SceneSolid::Sphere>(&solid.shape)) {
-      add_solid_item(name + " (sphere)", ball_triangles(ball->radius_m, solid.edge_m), 0);
+      const double triangles = ball_triangles(ball->radius_m, solid.edge_m);
+      check_own_limit(solid, triangles);
+      add_solid_item(name + " (sphere)", triangles, 0);
     } else if (std::holds_alternative<SceneSolid::Box>(solid.shape)) {
       add_solid_item(name + " (box)", 12, 0);
     } else if (const auto* revolved = std::get_if<SceneSolid::Revolved>(&solid.shape)) {
@@ -223,7 +232,9 @@ class Estimate {
         widest_m = std::max(widest_m, revolved->profile_m[p].x());
         if (p > 0) along += std::ceil((revolved->profile_m[p] - revolved->profile_m[p - 1]).norm() / solid.edge_m);
       }
-      add_solid_item(name + " (revolved)", 2 * along * std::max(6.0, 2 * std::numbers::pi * widest_m / solid.edge_m), 0);
+      const double triangles = 2 * along * std::max(6.0, 2 * std::numbers::pi * widest_m / solid.edge_m);
+      check_own_limit(solid, triangles);
+      add_solid_item(name + " (revolved)", triangles, 0);
     } else {
       add_mesh(name, std::get<SceneSolid::Mesh>(solid.shape).path);
     }
@@ -263,7 +274,9 @@ class Estimate {
 
     const double longest_s = scene_->step_max_s.value_or(patterned_ ? 1.0 / 60 : 1 / scene_->fps);
     const double steps = sewing_frames_ + (budget_.frames + inner_frames) * std::ceil(1 / (scene_->fps * longest_s) - 1e-9);
-    const double slower = std::pow(std::max(1.0, budget_.particles / small_particles), step_exponent);
+    // Iterations and refused steps grow with the number of particles, measured by its power 0.35: 3/8 is made of square roots.
+    const double more = std::max(1.0, budget_.particles / small_particles), fourth_root = std::sqrt(std::sqrt(more));
+    const double slower = fourth_root * std::sqrt(fourth_root);
     const double step_s = 1e-6 * (step_us * slower * budget_.particles + body_step_us * body_triangles_);
     const double threads = available_threads() > 1 ? 1 : second_core;
     budget_.seconds += threads * steps * step_s + 1e-6 * load_us * body_triangles_;

@@ -96,7 +96,7 @@ class Run {
   // run_put_on.cpp
   void place(GarmentMesh& garment, bool tell);
   void bad_start(const std::string& name, const std::string& what);
-  void free_start(bool sewn_now);
+  bool free_start(bool sewn_now);  // false: it was stopped
   std::vector<Index> held_now(bool sewn_now) const;
   int come_apart();
   bool put_on();

@@ -26,10 +26,10 @@ void Run::bad_start(const std::string& name, const std::string& what) {
 
 // Cloth that passes through itself or the body is taken apart before the first frame, as far as it can be (sim/start_state.hpp).
 // `sewn_now`: what sewing left, not what the user gave; --strict-start is about the latter.
-void Run::free_start(bool sewn_now) {
+bool Run::free_start(bool sewn_now) {
   const Timed timed(startup(&StartupReport::crossings));
   const StartCrossings found = start_crossings(outfit_, body_triangles_, body_x_);
-  if (found.all() == 0) return;
+  if (found.all() == 0) return true;
   std::string what = std::to_string(found.cloth_cloth) + " edges of the cloth pass through it";
   if (body_) what += ", " + std::to_string(found.cloth_body) + " between cloth and body";
   if (scene_.strict_start && !sewn_now)
@@ -39,6 +39,10 @@ void Run::free_start(bool sewn_now) {
       untangle_start(outfit_, body_triangles_, body_x_, held_now(sewn_now), [&] { return stopped(); });
   if (!untangled.moved_far.empty()) qualify(reason::moved_by_untangling, untangled.moved_far);
   const int weightless = sewn_now ? come_apart() : 0;
+  if (stopped()) {  // how far it came is by chance: it begins again when the run goes on
+    end(reason::interrupted, "while untangling");
+    return false;
+  }
   const StartCrossings left = start_crossings(outfit_, body_triangles_, body_x_);
   StartReport& start = report_.start;  // of the last garment when several are sewn; trials of all of them
   start = {found.cloth_cloth,
@@ -52,6 +56,7 @@ void Run::free_start(bool sewn_now) {
   if (weightless > 0)
     tried += "and " + std::to_string(weightless) + (weightless == 1 ? " frame" : " frames") + " without weight ";
   report_.warnings.push_back((sewn_now ? "as sewn: " : "bad start: ") + what + "; after " + tried + then);
+  return true;
 }
 
 // What untangling must leave where it is: what was worn before, or what pins hold from the first moment.
@@ -107,8 +112,7 @@ bool Run::put_on() {
   if (!scene_.start.empty() || !sewn()) {
     outfit_ = scene_.start.empty() ? outfit_of_shapes(cloth_) : start_from(scene_.start, cloth_, body_x_);
     settling_.to_rest = sewn() && awaits_rest();
-    free_start(false);
-    return true;
+    return free_start(false);
   }
   for (std::size_t k = place_.cloth; k < cloth_.size(); ++k) {
     const bool is_on = resumes() && place_.phase == RunPhase::inner_drape;
@@ -186,8 +190,7 @@ bool Run::sew(std::size_t k) {
   }
   settling_ = {true, outfit_.mesh.particle_count, dressing.labels(), awaits_rest()};
   outfit_ = dressing.worn();
-  free_start(true);
-  return true;
+  return free_start(true);
 }
 
 // Until the seams are closed or will not close; returns what the last frame was.

@@ -43,7 +43,7 @@ void check_count(const Json& shape, double area_m2, double edge_m) {
 }
 
 // The triangulation counts in 2^-20 m, with 25 bits.
-constexpr double nearest_points_m = 1.0 / (1 << 20), longest_m = 32;
+constexpr double nearest_points_m = 2e-6, longest_m = 32;
 
 double area_m2(const SceneCloth& cloth) {
   if (cloth.grid) return cloth.grid->width_m * cloth.grid->height_m;
@@ -69,7 +69,7 @@ void settle(const Json& value, SceneRibbon& ribbon) {
   for (std::size_t k = 1; k < ribbon.path_m.size(); ++k)
     if (!((ribbon.path_m[k] - ribbon.path_m[k - 1]).norm() >= nearest_points_m))
       path.array()[k].fail(fmt::sprintf("another place than the point before, by at least %g m", nearest_points_m),
-                           fmt::sprintf("%g m", (ribbon.path_m[k] - ribbon.path_m[k - 1]).stableNorm()));
+                           fmt::sprintf("%g m", (ribbon.path_m[k] - ribbon.path_m[k - 1]).norm()));
   const std::size_t least = ribbon.closed ? 3 : 2;
   if (ribbon.path_m.size() < least)
     path.fail("at least " + std::to_string(least) + " points [x, y, z]", std::to_string(ribbon.path_m.size()));

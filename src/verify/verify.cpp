@@ -179,8 +179,11 @@ RunRecord read_record(const std::string& directory) {
   record.text = read_file(path, Json::text_limit);
   record.report = Json::parse(record.text, printable(path));
   const Json& report = *record.report;
-  record.fps = report.at("fps").number();
-  if (!(record.fps > 0)) report.at("fps").fail("a number > 0", report.at("fps").describe());
+  const bool any_frames = report.number_or("frames", -1) != 0;  // without, nothing is measured
+  if (any_frames || report.find("fps") != nullptr) {
+    record.fps = report.at("fps").number();
+    if (!(record.fps > 0)) report.at("fps").fail("a number > 0", report.at("fps").describe());
+  }
   const Json* body = report.find("body");
   record.has_body = body != nullptr && body->is_object() && body->number_or("vertices", 0) > 0;
   if (const Json* rest = report.find("rest_stretch"); rest != nullptr && !rest->is_null()) record.rest_stretch = *rest;

@@ -64,13 +64,13 @@ ObjMesh moved(ObjMesh mesh, const Vec3& by) {
 using Path = std::function<Vec3(int)>;  // shift of a frame
 
 void write_pc2(const std::string& file, const std::vector<Vec3>& rest, int frames, const Path& path) {
+  std::filesystem::remove(file);
   Pc2Writer writer(file, static_cast<Index>(rest.size()), 0, 1);
   for (int f = 0; f < frames; ++f) {
     std::vector<Vec3> x = rest;
     for (Vec3& p : x) p += path(f);
     writer.append(x);
   }
-  
 }
 
 void write_objs(const Folder& folder, int first, int frames, const Path& path) {
@@ -235,6 +235,7 @@ TEST(BodyMotion, RefusesNumbersThatAreNotFiniteAndVerticesThatJump) {
   const Folder folder;
   std::vector<Vec3> x = figure().positions;
   const auto write = [&](const Vec3& of_vertex_9) {
+    std::filesystem::remove(folder / "walk.pc2");
     Pc2Writer writer(folder / "walk.pc2", 16, 0, 1);
     writer.append(x);
     std::vector<Vec3> next = x;
@@ -331,6 +332,7 @@ TEST(BodyMotion, AWalkSampledAt60HzIsTheWalk) {
   const Folder folder;
   const Mannequin& m = test::mannequin_of(MannequinKind::dancer);
   const BodyMotion walk = BodyMotion::of_mannequin(m, Motion::named("walk", MannequinKind::dancer));
+  std::filesystem::remove(folder / "walk.pc2");
   Pc2Writer writer(folder / "walk.pc2", static_cast<Index>(m.positions.size()), 0, 1);
   for (int f = 0; f <= 120; ++f) writer.append(at(walk, f / 60.0));
   

@@ -93,10 +93,15 @@ class RunDirectory {
       write_obj(file("body.obj"), run.body);
       write_cache("body.pc2", run.body_frames);
     }
+    seal(run);
+  }
+  // The report of what is there now.
+  void seal(const RunFiles& run) const {
     write_text("report.json", sealed(run.report.substr(0, run.report.rfind('}')) + R"(, "files": )" + listed(run) + '}'));
   }
   void write_text(const char* name, const std::string& text) const { std::ofstream(file(name)) << text; }
   void write_cache(const char* name, const std::vector<Vec3s>& frames) const {
+    std::filesystem::remove(file(name));
     Pc2Writer writer(file(name), static_cast<Index>(frames.at(0).size()), 0, 1);
     for (const Vec3s& x : frames) writer.append(x);
   }
@@ -228,6 +233,7 @@ TEST(VerifyDirectory, NamesTheFirstFrameThatIsNotFinite) {
         file.write(reinterpret_cast<const char*>(&bad), sizeof bad);
       }
       file.close();
+      directory.seal(run);
       const VerifyReport report = verify_directory(directory.path());
       EXPECT_FALSE(report.finite);
       EXPECT_EQ(report.first_bad_frame, 23) << cache;
