@@ -1,15 +1,15 @@
 // apps/cli/check_command.cpp: `toile check`: reads scenes, patterns and meshes, says what they hold or what is wrong with them.
 #include "body_option.hpp"
 #include "commands.hpp"
-#include "output_folder.hpp"
 #include "core/hash.hpp"
 #include "garment/garment_mesh.hpp"
 #include "garment/pattern_check.hpp"
 #include "io/file.hpp"
 #include "io/json.hpp"
+#include "io/json_text.hpp"
 #include "io/obj.hpp"
 #include "mesh/check.hpp"
-#include "io/json_text.hpp"
+#include "output_folder.hpp"
 #include "sim/budget.hpp"
 #include "sim/setup.hpp"
 #include "sim/start_run.hpp"
@@ -169,7 +169,8 @@ std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json)
 }
 
 // As `dress` loads it, and what that would take for 10 s on the mannequin.
-std::string check_pattern_text(const CommandLine& line, const std::string& path, const std::string& text, JsonText& json) {
+std::string check_pattern_text(const CommandLine& line, const std::string& path, const std::string& text,
+                               JsonText& json) {
   const double resolution_m = line.resolution_cm ? 0.01 * *line.resolution_cm : SceneCloth{}.resolution_m;
   const Pattern pattern = parse_pattern(text, printable(path));
   Scene dressed;

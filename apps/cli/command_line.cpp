@@ -22,13 +22,16 @@ void add_common(CLI::App& command, CommandLine& line) {
 }
 
 void add_checkpoint_option(CLI::App& command, CommandLine& line) {
-  command.add_option("--checkpoint-frames", line.checkpoint_frames,
-                     "Keep the state every so many frames (default: every second)")
+  command
+      .add_option("--checkpoint-frames", line.checkpoint_frames,
+                  "Keep the state every so many frames (default: every second)")
       ->check(CLI::Range(1, 1000000));
 }
 
 void add_limits(CLI::App& command, CommandLine& line) {
-  command.add_option("--max-memory", line.limits.memory_mb, "Refuse what is estimated to take more, MB (default: what there is)")
+  command
+      .add_option("--max-memory", line.limits.memory_mb,
+                  "Refuse what is estimated to take more, MB (default: what there is)")
       ->check(CLI::Range(1.0, 1e12));
   command.add_option("--max-frames", line.limits.frames, "Refuse what may take more frames, sewing included")
       ->check(CLI::Range(1.0, 1e12))
@@ -188,24 +191,24 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     throw Error(ExitCode::usage, one_line(error.what()) + " (toile --help lists what there is)");
   }
   if (app.get_subcommands().empty())
-    throw Error(ExitCode::usage,
-                "a command is missing: demo, dress, run, check, verify, preview, resume, untangle or bench (toile --help)");
+    throw Error(
+        ExitCode::usage,
+        "a command is missing: demo, dress, run, check, verify, preview, resume, untangle or bench (toile --help)");
 
   const CLI::App* chosen = app.get_subcommands().front();
-  for (const auto& [option, value] :
-       {std::pair{"--resolution", line.resolution_cm},
-        {"--fps", line.fps},
-        {"--seconds", line.seconds},
-        {"--max-memory", line.limits.memory_mb},
-        {"--max-frames", line.limits.frames},
-        {"--max-hours", line.limits.hours}})
+  for (const auto& [option, value] : {std::pair{"--resolution", line.resolution_cm},
+                                      {"--fps", line.fps},
+                                      {"--seconds", line.seconds},
+                                      {"--max-memory", line.limits.memory_mb},
+                                      {"--max-frames", line.limits.frames},
+                                      {"--max-hours", line.limits.hours}})
     if (value && !std::isfinite(*value))
       throw Error(ExitCode::usage, std::string(option) + ": expected a finite number");  // Range lets NaN pass
   using Command = CommandLine::Command;
   const std::pair<const CLI::App*, Command> commands[] = {
-      {demo, Command::demo},     {dress, Command::dress},     {run, Command::run},           {check, Command::check},
-      {verify, Command::verify}, {preview, Command::preview}, {resume, Command::resume},     {untangle, Command::untangle},
-      {bench, Command::bench}};
+      {demo, Command::demo},     {dress, Command::dress},       {run, Command::run},
+      {check, Command::check},   {verify, Command::verify},     {preview, Command::preview},
+      {resume, Command::resume}, {untangle, Command::untangle}, {bench, Command::bench}};
   for (const auto& [command, value] : commands)
     if (command == chosen) line.command = value;
   if (chosen == bench && bench->get_subcommands().empty())

@@ -58,7 +58,8 @@ ExitCode fail(ExitCode code, const char* message, bool json) noexcept {
 int threads_for(const CommandLine& line) {
   const int cores = usable_cores(), wanted = line.threads == 0 ? cores : std::min(line.threads, cores);
   if (line.threads > cores && !line.quiet)
-    std::fprintf(stderr, "toile: warning: --threads %d: there are %d cores to use, and more threads would only be slower\n",
+    std::fprintf(stderr,
+                 "toile: warning: --threads %d: there are %d cores to use, and more threads would only be slower\n",
                  line.threads, cores);
   const int given = start_threads(wanted);
   if (given < wanted && !line.quiet)

@@ -14,9 +14,11 @@
 namespace toile {
 namespace {
 
-constexpr long unheard_us = 800'000;      // with what the system takes to free a large run, a second
-constexpr long orderly_us = 2'000'000;   // the last files of a large run; what is not written then is taken up by `toile resume`
-constexpr long refused_us = 2'000'000;   // exceptions unwind in milliseconds, unless a thread waits for one that has gone
+constexpr long unheard_us = 800'000;  // with what the system takes to free a large run, a second
+constexpr long orderly_us =
+    2'000'000;  // the last files of a large run; what is not written then is taken up by `toile resume`
+constexpr long refused_us =
+    2'000'000;  // exceptions unwind in milliseconds, unless a thread waits for one that has gone
 constexpr std::size_t reserve = 1 << 20;  // bytes, for the way out: an exception and a message take some kilobytes
 
 static_assert(std::atomic<int>::is_always_lock_free);  // handlers may touch them

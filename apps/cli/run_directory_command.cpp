@@ -1,7 +1,7 @@
 // apps/cli/run_directory_command.cpp: `toile verify` and `toile preview`: what is done to a finished run.
 #include "commands.hpp"
-#include "io/run_folder.hpp"
 #include "io/json_text.hpp"
+#include "io/run_folder.hpp"
 #include "sim/picture_run.hpp"
 #include "sim/report.hpp"
 #include "terminal.hpp"

@@ -88,7 +88,8 @@ CrossingFinder::CrossingFinder(const Topology& topology, std::span<const Triangl
 
 void CrossingFinder::refit(std::span<const Vec3> x) {
   check_finite(x);
-  const double largest = largest_coordinate(x.first(at(body_.particle)), x.subspan(at(body_.particle)), body_.triangles);
+  const double largest =
+      largest_coordinate(x.first(at(body_.particle)), x.subspan(at(body_.particle)), body_.triangles);
   round_to_whole(x, largest, next_whole_);
   const bool first = whole_.size() != x.size();
   const auto cloth = std::span<const Vec3>(next_whole_).first(at(body_.particle));

@@ -46,11 +46,14 @@ double limit_mb(decltype(RLIMIT_AS) resource) {
 }  // namespace
 
 double available_memory_mb() {
-  double least = number_in_file("/proc/meminfo", "MemAvailable:").value_or(std::numeric_limits<double>::infinity()) / 1024;
+  double least =
+      number_in_file("/proc/meminfo", "MemAvailable:").value_or(std::numeric_limits<double>::infinity()) / 1024;
   const std::string group = "/sys/fs/cgroup/";
-  least = std::min(least, left_in_group_mb(group + "memory.max", group + "memory.current", group + "memory.stat", "inactive_file"));
-  least = std::min(least, left_in_group_mb(group + "memory/memory.limit_in_bytes", group + "memory/memory.usage_in_bytes",
-                                           group + "memory/memory.stat", "total_inactive_file"));
+  least = std::min(
+      least, left_in_group_mb(group + "memory.max", group + "memory.current", group + "memory.stat", "inactive_file"));
+  least =
+      std::min(least, left_in_group_mb(group + "memory/memory.limit_in_bytes", group + "memory/memory.usage_in_bytes",
+                                       group + "memory/memory.stat", "total_inactive_file"));
   return std::min({least, limit_mb(RLIMIT_AS), limit_mb(RLIMIT_DATA)});
 }
 

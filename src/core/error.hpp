@@ -48,7 +48,7 @@ class IoError : public Error {
   IoError(std::string_view path, std::string_view what);
 };
 
-// `name` with control characters replaced, and cut to a length fit for one line of a log.
+// `name` with control characters and bytes that are not UTF-8 replaced, and cut to a length fit for one line of a log.
 std::string printable(std::string_view name);
 
 // The candidate nearest to `name` by edit distance, for "did you mean"; empty when there is none.

@@ -87,10 +87,8 @@ class StateWriter {
     if (there) put(*value);
   }
   template <class T>
-    requires requires(T& value, StateWriter& archive) { value.remember(archive); }
-  void put(T& value) {
-    value.remember(*this);
-  }
+  requires requires(T& value, StateWriter& archive) { value.remember(archive); }
+  void put(T& value) { value.remember(*this); }
 
   std::string bytes_;
 };
@@ -177,10 +175,8 @@ class StateReader {
     if (there) get(value.emplace());
   }
   template <class T>
-    requires requires(T& value, StateReader& archive) { value.remember(archive); }
-  void get(T& value) {
-    value.remember(*this);
-  }
+  requires requires(T& value, StateReader& archive) { value.remember(archive); }
+  void get(T& value) { value.remember(*this); }
 
   std::string_view bytes_;
   std::string file_;

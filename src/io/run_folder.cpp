@@ -172,8 +172,9 @@ void RunFolder::refuse_strangers(std::span<const std::string_view> names) const 
   add_listed(path("unfinished.json"), listed);
   for (const std::string_view name : names) {
     if (!is_there(path(name)) || std::find(listed.begin(), listed.end(), name) != listed.end()) continue;
-    throw IoError(path(name), "not written by an earlier run of Toile (no report.json there lists it), and would be "
-                              "replaced: name another folder with --out, or move it away");
+    throw IoError(path(name),
+                  "not written by an earlier run of Toile (no report.json there lists it), and would be "
+                  "replaced: name another folder with --out, or move it away");
   }
 }
 
@@ -182,7 +183,8 @@ void RunFolder::refuse_inputs(std::span<const std::string> inputs) const {
   for (const std::string& input : inputs) {
     if (input.empty()) continue;
     if (std::filesystem::equivalent(input, directory_, ignored))
-      throw IoError(printable(input), "is an input of this run and the folder for its files: name another folder with --out");
+      throw IoError(printable(input),
+                    "is an input of this run and the folder for its files: name another folder with --out");
     for (const std::string_view name : run_file_names)
       if (std::filesystem::equivalent(input, path(name), ignored))
         throw IoError(printable(input), "is an input of this run, which would write over it as " + path(name) +

@@ -25,7 +25,7 @@ extern char** environ;
 namespace toile {
 namespace {
 
-constexpr int film_descriptor = 3;            // of the child
+constexpr int film_descriptor = 3;           // of the child
 constexpr std::size_t kept_messages = 4096;  // bytes of ffmpeg's messages, from the end
 
 void close_if_open(int& descriptor) {

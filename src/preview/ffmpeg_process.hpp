@@ -18,8 +18,7 @@ std::string find_ffmpeg();
 class FfmpegProcess {
  public:
   // Starts the encoder; `film` names the result in messages, `output` is the descriptor of the file that ffmpeg writes.  Throws IoError.
-  FfmpegProcess(const std::string& program, const std::string& film, int output, int width, int height,
-                double fps);
+  FfmpegProcess(const std::string& program, const std::string& film, int output, int width, int height, double fps);
   // A child that was not finished is killed.
   ~FfmpegProcess();
   FfmpegProcess(const FfmpegProcess&) = delete;

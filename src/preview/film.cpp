@@ -24,7 +24,7 @@ void write_mp4(const std::string& path, int count, double fps, const std::functi
     throw InputError(path, "film", "a frame rate in (0, 1000] per second", std::to_string(fps));
   const std::string program = find_ffmpeg();
 
-  AtomicFile film(path);  // a folder that is missing or closed to us is told before the first picture
+  AtomicFile film(path);                // a folder that is missing or closed to us is told before the first picture
   std::optional<FfmpegProcess> ffmpeg;  // after `film`: on the way out the child is ended first
   int width = 0, height = 0;
   for (int i = 0; i < count; ++i) {

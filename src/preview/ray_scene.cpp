@@ -125,7 +125,9 @@ struct RayScene::Device {
     const RTCError error = rtcGetDeviceError(nullptr);
     if (error == RTC_ERROR_UNSUPPORTED_CPU)
       throw Error(ExitCode::internal, "preview: the ray tracer (Embree) cannot start on this processor");
-    throw Error(ExitCode::resource_limit, "preview: not enough memory or threads for the ray tracer (Embree) to start: error " + std::to_string(static_cast<int>(error)));
+    throw Error(ExitCode::resource_limit,
+                "preview: not enough memory or threads for the ray tracer (Embree) to start: error " +
+                    std::to_string(static_cast<int>(error)));
   }
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;

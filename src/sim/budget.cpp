@@ -21,19 +21,20 @@ namespace toile {
 namespace {
 
 // Memory, measured as the peak of whole runs (bench/notes.md, "What a run takes").
-constexpr double program_mb = 10;             // without cloth or body
-constexpr double mb_per_particle = 7.2e-3;    // model, matrix, contact, judge; 6.1 in the air, 8.2 where cloth lies on cloth
+constexpr double program_mb = 10;  // without cloth or body
+constexpr double mb_per_particle =
+    7.2e-3;  // model, matrix, contact, judge; 6.1 in the air, 8.2 where cloth lies on cloth
 constexpr double mb_per_body_triangle = 1.1e-3;
-constexpr double mannequin_mb = 32;           // while it is made, and given back
+constexpr double mannequin_mb = 32;                 // while it is made, and given back
 constexpr double mb_per_sample = 12.0 / (1 << 20);  // of a vertex of a motion from a file: three floats
 constexpr double obj_bytes_per_triangle = 40;       // "f 1234 1235 1236", and half of "v 0.123456 1.234567 -0.123456"
-constexpr double obj_copies = 4;              // of the text of a mesh while it is read: itself, and what it says
+constexpr double obj_copies = 4;                    // of the text of a mesh while it is read: itself, and what it says
 
 // Time of one step on two cores of a Xeon (docs/benchmarks.md, "How far from real time" and the drapes up to 100,000 particles).
-constexpr double step_us = 6;            // per particle, of small cloth
+constexpr double step_us = 6;  // per particle, of small cloth
 constexpr double small_particles = 2600;
-constexpr double body_step_us = 0.3;     // per triangle of a body
-constexpr double second_core = 1.5;      // how much faster two threads are than one
+constexpr double body_step_us = 0.3;                               // per triangle of a body
+constexpr double second_core = 1.5;                                // how much faster two threads are than one
 constexpr double mannequin_s = 1.5, meshing_us = 20, load_us = 5;  // per particle of a pattern, per triangle of a body
 
 // A seam wider than two of the largest panels laid side by side is a mistake of units or of a sign; 40 s of sewing would close it.
@@ -273,7 +274,8 @@ class Estimate {
     budget_.unwritten_frames = sewing_frames_ + inner_frames;
 
     const double longest_s = scene_->step_max_s.value_or(patterned_ ? 1.0 / 60 : 1 / scene_->fps);
-    const double steps = sewing_frames_ + (budget_.frames + inner_frames) * std::ceil(1 / (scene_->fps * longest_s) - 1e-9);
+    const double steps =
+        sewing_frames_ + (budget_.frames + inner_frames) * std::ceil(1 / (scene_->fps * longest_s) - 1e-9);
     // Iterations and refused steps grow with the number of particles, measured by its power 0.35: 3/8 is made of square roots.
     const double more = std::max(1.0, budget_.particles / small_particles), fourth_root = std::sqrt(std::sqrt(more));
     const double slower = fourth_root * std::sqrt(fourth_root);
@@ -322,24 +324,31 @@ void check_budget(const Budget& budget, const BudgetLimits& limits) {
   if (!budget.far_panels.empty()) {
     const FarPanel& far = budget.far_panels.front();
     const SewingOptions sewing;
-    refuse(far.file, fmt::sprintf("panel %s: expected within %.0f m of what it is sewn to, got %.4g m from panel %s (seam %s); it "
-                        "would be drawn in for %.0f s",
-                        quoted(far.panel), most_drawn_m, far.distance_m, quoted(far.other), far.seam,
-                        far.distance_m / sewing.closing_speed_m_per_s));
+    refuse(
+        far.file,
+        fmt::sprintf("panel %s: expected within %.0f m of what it is sewn to, got %.4g m from panel %s (seam %s); it "
+                     "would be drawn in for %.0f s",
+                     quoted(far.panel), most_drawn_m, far.distance_m, quoted(far.other), far.seam,
+                     far.distance_m / sewing.closing_speed_m_per_s));
   }
   const double memory_mb = limits.memory_mb.value_or(available_memory_mb());
   if (budget.memory_mb > memory_mb)
-    refuse(budget.name, fmt::sprintf("memory: expected at most %s MB (%s), got about %s MB: %s", with_thousands(memory_mb),
+    refuse(budget.name,
+           fmt::sprintf("memory: expected at most %s MB (%s), got about %s MB: %s", with_thousands(memory_mb),
                         limits.memory_mb ? "--max-memory" : "what there is; --max-memory sets another limit",
                         with_thousands(budget.memory_mb), largest_items(budget)));
   const double frames = budget.frames + budget.unwritten_frames;
   if (frames > limits.frames)
-    refuse(budget.name, fmt::sprintf("frames: expected at most %s (--max-frames), got up to %s, %s of them before the first is written",
-                        with_thousands(limits.frames), with_thousands(frames), with_thousands(budget.unwritten_frames)));
+    refuse(
+        budget.name,
+        fmt::sprintf("frames: expected at most %s (--max-frames), got up to %s, %s of them before the first is written",
+                     with_thousands(limits.frames), with_thousands(frames), with_thousands(budget.unwritten_frames)));
   if (budget.seconds > 3600 * limits.hours)
-    refuse(budget.name, fmt::sprintf("time: expected at most %.4g hours (--max-hours), got about %.4g: %s frames of %s triangles: %s",
-                        limits.hours, budget.seconds / 3600, with_thousands(frames), with_thousands(budget.triangles),
-                        largest_items(budget)));
+    refuse(
+        budget.name,
+        fmt::sprintf("time: expected at most %.4g hours (--max-hours), got about %.4g: %s frames of %s triangles: %s",
+                     limits.hours, budget.seconds / 3600, with_thousands(frames), with_thousands(budget.triangles),
+                     largest_items(budget)));
 }
 
 }  // namespace toile

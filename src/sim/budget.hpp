@@ -32,13 +32,13 @@ struct FarPanel {
 };
 
 struct Budget {
-  std::string name;               // of the scene
-  std::vector<BudgetItem> items;  // in the order of the scene
+  std::string name;                     // of the scene
+  std::vector<BudgetItem> items;        // in the order of the scene
   double particles = 0, triangles = 0;  // of the cloth
-  double memory_mb = 0;           // 2^20 bytes, at the peak
-  double frames = 0;              // written: drape and motion
-  double unwritten_frames = 0;    // of sewing, and of the drape of what another garment goes over
-  double seconds = 0;             // wall time
+  double memory_mb = 0;                 // 2^20 bytes, at the peak
+  double frames = 0;                    // written: drape and motion
+  double unwritten_frames = 0;          // of sewing, and of the drape of what another garment goes over
+  double seconds = 0;                   // wall time
   std::vector<FarPanel> far_panels;
 };
 

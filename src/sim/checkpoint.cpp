@@ -22,9 +22,7 @@ constexpr std::string_view magic = "TOILESTATE";
 constexpr std::uint32_t format = 1;  // of what the classes remember: another order or another member is another format
 constexpr std::size_t head_bytes = magic.size() + sizeof format + 2 * sizeof(std::uint64_t);
 
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 template <class T>
 void append(std::string& bytes, T value) {
@@ -107,7 +105,8 @@ std::optional<std::string> read_checkpoint(const std::string& path, std::uint64_
   Hash sums;
   for (const std::uint64_t sum : {checksum(file.data(), head_bytes), checksum(state.data(), state.size())})
     sums.add_bytes(&sum, sizeof sum);
-  if (take<std::uint64_t>(bytes) != sums.value()) refuse("checksum", "that of the state", "another: the file has changed");
+  if (take<std::uint64_t>(bytes) != sums.value())
+    refuse("checksum", "that of the state", "another: the file has changed");
   if (inputs != input_hash)
     refuse("input_hash", hex_of(input_hash) + ", that of the scene and its files now", hex_of(inputs));
   return state;

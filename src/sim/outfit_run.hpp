@@ -89,7 +89,7 @@ class OutfitRun {
   }
 
  private:
-  std::vector<Vec2> panel_rest_stretch() const;    // [panel] of the model, as it is now
+  std::vector<Vec2> panel_rest_stretch() const;  // [panel] of the model, as it is now
   void take_up(std::span<const Vec2> panel_rest_stretch);
   void settle();
   void choose_steps();

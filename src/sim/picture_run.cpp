@@ -114,7 +114,8 @@ Timing timing_of(const std::filesystem::path& folder) {
   Timing timing;
   const std::string path = (folder / "report.json").string();
   if (!std::filesystem::exists(path)) {
-    if (const auto run = read_unfinished_run(folder.string()); run && run->fps > 0) timing = {run->motion_first_frame, run->fps};
+    if (const auto run = read_unfinished_run(folder.string()); run && run->fps > 0)
+      timing = {run->motion_first_frame, run->fps};
     return timing;
   }
   const Json report = Json::parse(read_file(path, Json::text_limit), printable(path));

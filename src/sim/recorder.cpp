@@ -16,7 +16,8 @@ constexpr double at_rest_mm_per_s = 2, rest_s = 0.5;  // when a drape may stop
 // an odd number as it was.
 Vec3s as_written(std::span<const Vec3> x) {
   std::vector<float> single(3 * x.size());
-  for (std::size_t i = 0; i < single.size(); ++i) single[i] = static_cast<float>(x[i / 3][static_cast<Eigen::Index>(i % 3)]);
+  for (std::size_t i = 0; i < single.size(); ++i)
+    single[i] = static_cast<float>(x[i / 3][static_cast<Eigen::Index>(i % 3)]);
   Vec3s rounded;
   rounded.reserve(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) rounded.emplace_back(single[3 * i], single[3 * i + 1], single[3 * i + 2]);

@@ -144,10 +144,10 @@ class Run {
   std::optional<FallWatch> fall_watch_;
 
   RunPlace place_;
-  Vec3s before_inner_;   // x of the frame before, while a garment that others go over is draped
-  int slow_inner_ = 0;   // its slow frames in a row
+  Vec3s before_inner_;  // x of the frame before, while a garment that others go over is draped
+  int slow_inner_ = 0;  // its slow frames in a row
   PhaseSeconds seconds_before_motion_;
-  std::string state_;           // that was read,
+  std::string state_;                      // that was read,
   std::unique_ptr<StateReader> taken_up_;  // until the phase that it is about has taken it
   WrittenFrames written_;                  // then
 };

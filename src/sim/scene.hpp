@@ -93,7 +93,8 @@ struct SceneCloth {
   std::optional<SceneGrid> grid;
   std::optional<SceneTube> tube;
   std::optional<SceneRibbon> ribbon;
-  std::string shape_where, shape_pointer;  // of the shape, or of the cloth with a pattern, in the file: for what is found when it is meshed
+  std::string shape_where,
+      shape_pointer;  // of the shape, or of the cloth with a pattern, in the file: for what is found when it is meshed
   bool is_sewn() const { return !pattern.empty(); }
   // Of its triangles: of the outlines of a pattern, or of its shape.
   double edge_m() const { return grid ? grid->edge_m : tube ? tube->edge_m : ribbon ? ribbon->edge_m : resolution_m; }

@@ -110,8 +110,8 @@ bool has_label(const GarmentMesh& garment, const std::string& label) {
 void check_labels(const SceneCloth& cloth, const GarmentMesh& garment) {
   for (const LabelHeight& height : cloth.label_heights)
     if (!has_label(garment, height.label))
-      throw InputError(cloth.shape_where, cloth.shape_pointer + "/label_heights_m", "a label that an edge of the pattern carries",
-                       '"' + printable(height.label) + '"');
+      throw InputError(cloth.shape_where, cloth.shape_pointer + "/label_heights_m",
+                       "a label that an edge of the pattern carries", '"' + printable(height.label) + '"');
 }
 
 std::vector<TimedPin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) {
@@ -159,9 +159,9 @@ std::vector<TimedPin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) 
 LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read, Hash& inputs) {
   LoadedCloth loaded;
   std::optional<double> counted_edge_m;
-  const std::string where = cloth.is_sewn()       ? printable(cloth.pattern)
+  const std::string where = cloth.is_sewn()             ? printable(cloth.pattern)
                             : cloth.shape_where.empty() ? printable(cloth.name)
-                                                  : cloth.shape_where + ": " + cloth.shape_pointer;
+                                                        : cloth.shape_where + ": " + cloth.shape_pointer;
   try {
     loaded.garment = cloth.is_sewn() ? load_garment(cloth, read, inputs, counted_edge_m) : load_shape(cloth);
   } catch (const InputError& error) {

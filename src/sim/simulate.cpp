@@ -134,8 +134,8 @@ void Run::qualify(std::string_view code, const std::string& detail) {
 void Run::collapse(const std::string& when, const FrameReport& frame, const ClothMesh& mesh, std::span<const Vec3> x) {
   std::string words = when + ": " + frame.diagnosis;
   if (!frame.offenders.empty()) {
-    const ObjMesh offenders = offenders_obj(mesh, x, frame.offenders, body_triangles_,
-                                            body_ ? body_->positions() : std::span<const Vec3>{});
+    const ObjMesh offenders =
+        offenders_obj(mesh, x, frame.offenders, body_triangles_, body_ ? body_->positions() : std::span<const Vec3>{});
     words += "; offenders.obj: " + name_triangles(mesh, frame.offenders);
     const auto of_body = std::count(offenders.object.begin(), offenders.object.end(), 1);
     if (of_body > 0) words += ", and " + std::to_string(of_body) + " triangles of the body near them";

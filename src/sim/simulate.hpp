@@ -28,10 +28,11 @@ struct Progress {
 
 struct RunOptions {
   std::string directory;
-  std::string command;                 // as typed, for the report
-  std::vector<std::string> arguments;  // its words but the program's name, with which `toile resume` asks for the run again
-  std::vector<std::string> inputs;     // files beside those that the scene names: the scene's own
-  bool resume = false;                 // go on with the unfinished run in the directory
+  std::string command;  // as typed, for the report
+  std::vector<std::string>
+      arguments;  // its words but the program's name, with which `toile resume` asks for the run again
+  std::vector<std::string> inputs;  // files beside those that the scene names: the scene's own
+  bool resume = false;              // go on with the unfinished run in the directory
   CheckpointOptions checkpoints;
   double seconds_before = 0;  // wall time since the program began, for the report
   TextSource read = read_text_file;

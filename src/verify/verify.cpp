@@ -2,9 +2,9 @@
 #include "verify/verify.hpp"
 
 #include "core/error.hpp"
+#include "io/file.hpp"
 #include "io/json.hpp"
 #include "io/obj.hpp"
-#include "io/file.hpp"
 #include "io/pc2.hpp"
 #include "io/run_folder.hpp"
 #include "verify/integrity.hpp"
@@ -206,7 +206,8 @@ void add_reported(const Json& report, VerifyReport& result) {
 // In words: of a run that has not ended.
 std::string interrupted(const std::string& directory, const UnfinishedRun& run, int frames) {
   if (is_written_to(directory)) return "the run still goes on (" + run.process + ")";
-  return (frames > 0 ? "interrupted at frame " + std::to_string(frames - 1) : std::string("interrupted before frame 0")) +
+  return (frames > 0 ? "interrupted at frame " + std::to_string(frames - 1)
+                     : std::string("interrupted before frame 0")) +
          " (" + run.process + "); toile resume goes on with it";
 }
 

@@ -61,7 +61,7 @@ struct VerifyReport {
   // Reason codes of report.json that no file shows (a time limit, a crash): the judge cannot acquit of them.
   std::vector<std::string> reported_reasons;
   std::vector<std::string> changes;  // of the files since they were written, in words (verify/integrity.hpp)
-  std::string interrupted;           // of a run that has not ended: in words, how far it came and what to do; empty otherwise
+  std::string interrupted;  // of a run that has not ended: in words, how far it came and what to do; empty otherwise
   std::vector<Reason> reported_qualifications;  // of report.json, likewise: what no file shows
 };
 

@@ -241,7 +241,6 @@ TEST(BodyMotion, RefusesNumbersThatAreNotFiniteAndVerticesThatJump) {
     std::vector<Vec3> next = x;
     next[9] += of_vertex_9;
     writer.append(next);
-    
   };
   const auto read = [&] { BodyMotion::from_pc2(folder / "walk.pc2", figure_body(), {}); };
   write(Vec3(0, 0.0 / 0.0, 0));
@@ -335,7 +334,7 @@ TEST(BodyMotion, AWalkSampledAt60HzIsTheWalk) {
   std::filesystem::remove(folder / "walk.pc2");
   Pc2Writer writer(folder / "walk.pc2", static_cast<Index>(m.positions.size()), 0, 1);
   for (int f = 0; f <= 120; ++f) writer.append(at(walk, f / 60.0));
-  
+
   SampleOptions options;
   options.rate_hz = 60;
   const BodyMotion sampled = BodyMotion::from_pc2(folder / "walk.pc2", from_mannequin(m), options);

@@ -279,9 +279,10 @@ void expect_scene_refused_by_both(const std::string& text, std::initializer_list
 }
 
 TEST(CheckAndDress, RefuseShapesByTheirPlaceInTheFile) {
-  expect_scene_refused_by_both(R"({"cloth": [
+  expect_scene_refused_by_both(
+      R"({"cloth": [
       {"ribbon": {"width_m": 0.05, "edge_m": 0.01, "path_m": [[0, 0, 0], [1e-300, 0, 0], [0.3, 0, 0]]}}], "time": {"seconds": 0.1}})",
-                               {"s.json:2", "/cloth/0/ribbon/path_m/1", "another place than the point before, by at least 2e-06 m", "got 0 m"});
+      {"s.json:2", "/cloth/0/ribbon/path_m/1", "another place than the point before, by at least 2e-06 m", "got 0 m"});
   std::string path;
   for (int k = 0; k < 45; ++k) path += (k == 0 ? "[" : ", [") + std::to_string(k) + ", 0, 0]";
   expect_scene_refused_by_both(R"({"cloth": [{"grid": {}},

@@ -49,7 +49,8 @@ TEST(Budget, ManyItemsThatAreEachAllowedAreRefusedTogether) {
   EXPECT_NE(said.find("and 47 more"), std::string::npos) << said;
   scratch.put("sheets.json", sheets(200, 0.2));
   EXPECT_NE(refused(scratch, {"run", "sheets.json"}, {"--max-memory", "1000"}).find("and 197 more"), std::string::npos);
-  EXPECT_EQ(run_toile(scratch, {"check", "sheets.json", "--max-memory", "50000"}).exit_code, 0) << "and no more than that";
+  EXPECT_EQ(run_toile(scratch, {"check", "sheets.json", "--max-memory", "50000"}).exit_code, 0)
+      << "and no more than that";
   // Without the option, what there is.
   EXPECT_EQ(run_toile(scratch, {"check", "bomb.json"}).exit_code, 7) << "350 GB";
 }
@@ -58,9 +59,11 @@ TEST(Budget, FramesAndHoursHaveLimitsToo) {
   const Scratch scratch;
   scratch.put("s.json", R"({"name": "long", "cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.05}}],
       "time": {"fps": 1000, "seconds": 3600}})");
-  EXPECT_NE(refused(scratch, {"run", "s.json"}, {}).find("long: frames: expected at most 1,000,000 (--max-frames), got up to 3,600,000"),
+  EXPECT_NE(refused(scratch, {"run", "s.json"}, {})
+                .find("long: frames: expected at most 1,000,000 (--max-frames), got up to 3,600,000"),
             std::string::npos);
-  EXPECT_NE(refused(scratch, {"run", "s.json"}, {"--max-frames", "1e7", "--max-hours", "0.1"}).find("long: time: expected at most 0.1 hours"),
+  EXPECT_NE(refused(scratch, {"run", "s.json"}, {"--max-frames", "1e7", "--max-hours", "0.1"})
+                .find("long: time: expected at most 0.1 hours"),
             std::string::npos);
   EXPECT_EQ(run_toile(scratch, {"check", "s.json", "--max-frames", "1e7"}).exit_code, 0);
   for (const char* option : {"--max-memory", "--max-frames", "--max-hours"})
@@ -83,29 +86,35 @@ TEST(Budget, APanelThatIsFarAwayIsRefusedByName) {
   const Scratch scratch;
   scratch.put("far.json", two_squares("99000"));
   const std::string said = refused(scratch, {"dress", "far.json", "--body", "woman"}, {});
-  EXPECT_NE(said.find("far.json: panel \"far\": expected within 20 m of what it is sewn to, got 990 m from panel \"near\" (seam "),
-            std::string::npos)
+  EXPECT_NE(
+      said.find(
+          "far.json: panel \"far\": expected within 20 m of what it is sewn to, got 990 m from panel \"near\" (seam "),
+      std::string::npos)
       << said;
   scratch.put("near.json", two_squares("60"));
   EXPECT_EQ(run_toile(scratch, {"check", "near.json"}).exit_code, 0);
 }
 
 TEST(Budget, TheEstimateOfMemoryIsNearThePeak) {
-  constexpr double band = 0.35;  // small scenes, whose memory is the program's own to a part, move more than large ones (bench/notes.md)
+  constexpr double band =
+      0.35;  // small scenes, whose memory is the program's own to a part, move more than large ones (bench/notes.md)
   const Scratch scratch;
   scratch.put("sheet.json", R"({"cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.021},
       "placement": {"translation_m": [0, 0.01, 0], "rotation_deg": [-90, 0, 0]}}], "body": {"cylinder": {"radius_m": 0.2, "height_m": 0.5}},
       "time": {"seconds": 1}})");
-  scratch.put("finer.json", R"({"cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.009}}], "time": {"seconds": 0.2}})");
+  scratch.put("finer.json",
+              R"({"cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.009}}], "time": {"seconds": 0.2}})");
   scratch.put("ball.json", R"({"cloth": [{"grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.05}}],
       "solids": [{"sphere": {"radius_m": 0.5}, "edge_m": 0.01, "placement": {"translation_m": [0, -1, 0]}}], "time": {"seconds": 0.1}})");
-  scratch.put("shirt.json", R"({"cloth": [{"pattern": ")" + std::string(TOILE_SOURCE_DIR) + R"(/patterns/tshirt.json", "resolution_cm": 1.5}],
+  scratch.put("shirt.json", R"({"cloth": [{"pattern": ")" + std::string(TOILE_SOURCE_DIR) +
+                                R"(/patterns/tshirt.json", "resolution_cm": 1.5}],
       "body": {"mannequin": "woman", "motion": "walk"}, "time": {"drape_seconds": 0.3, "seconds": 0.2}})");
   for (const char* scene : {"sheet", "finer", "ball", "shirt"}) {
     const std::string file = std::string(scene) + ".json";
     const Json checked = Json::parse(run_toile(scratch, {"check", file, "--json"}).out, "stdout");
     const double estimate_mb = checked.at("files").array().front().at("budget").at("memory_mb").number();
-    const Json report = Json::parse(run_toile(scratch, {"run", file, "--out", scene, "--json", "--no-preview"}).out, "stdout");
+    const Json report =
+        Json::parse(run_toile(scratch, {"run", file, "--out", scene, "--json", "--no-preview"}).out, "stdout");
     const double peak_mb = report.at("peak_memory_mb").number();
     EXPECT_NEAR(estimate_mb / peak_mb, 1, band) << scene << ": " << estimate_mb << " MB, measured " << peak_mb;
   }
@@ -113,7 +122,9 @@ TEST(Budget, TheEstimateOfMemoryIsNearThePeak) {
 
 TEST(Budget, CheckSaysWhatARunWillTake) {
   const Scratch scratch;
-  scratch.put("s.json", R"({"cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.05}}], "time": {"fps": 30, "seconds": 2}})");
+  scratch.put(
+      "s.json",
+      R"({"cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.05}}], "time": {"fps": 30, "seconds": 2}})");
   const std::string tshirt = std::string(TOILE_SOURCE_DIR) + "/patterns/tshirt.json";
   const Json said = Json::parse(run_toile(scratch, {"check", "s.json", tshirt, "--json"}).out, "stdout");
   const Json &sheet = said.at("files").array()[0].at("budget"), &shirt = said.at("files").array()[1].at("budget");

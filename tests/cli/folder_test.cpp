@@ -75,7 +75,8 @@ TEST(Folder, ARunThatIsKilledAnywhereGoesOnToTheSameBits) {
 
 TEST(Folder, HasOneWriterAtATime) {
   const Scratch scratch;
-  scratch.put("s.json", R"({"cloth": [{"grid": {"edge_m": 0.03}, "pins": [{"near_m": [0, 0, 0]}]}], "time": {"seconds": 600}})");
+  scratch.put("s.json",
+              R"({"cloth": [{"grid": {"edge_m": 0.03}, "pins": [{"near_m": [0, 0, 0]}]}], "time": {"seconds": 600}})");
   const Ended first = run_toile(scratch, {"run", "s.json", "--out", "a"}, [&](pid_t child) {
     wait_until([&] { return std::filesystem::exists(scratch / "a/cloth.pc2"); });
     for (const char* command : {"run", "resume", "preview"}) {

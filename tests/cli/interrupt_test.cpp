@@ -21,7 +21,8 @@ using test::run_toile;
 constexpr auto promised = 3s;  // it is 1 s where no other work is
 
 // A sheet of 130,000 particles: steps take a second.
-const char* const large_sheet = R"({"cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.003}}], "time": {"seconds": 10}})";
+const char* const large_sheet =
+    R"({"cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.003}}], "time": {"seconds": 10}})";
 
 // Checks it so often that it takes some seconds.
 std::vector<std::string> long_check() {
@@ -72,14 +73,17 @@ TEST(Interrupt, IsHeardInEveryPhase) {
   } phases[] = {
       {"the body is made", {"dress", tshirt, "--body", "woman", "--no-preview", "--out", "a"}, 300ms},
       {"sewing", {"dress", tshirt, "--body", "woman", "--no-preview", "--out", "a"}, 3000ms},
-      {"a fine mesh", {"dress", tshirt, "--body", "woman", "--resolution", "0.15", "--no-preview", "--out", "a"}, 1500ms},
+      {"a fine mesh",
+       {"dress", tshirt, "--body", "woman", "--resolution", "0.15", "--no-preview", "--out", "a"},
+       1500ms},
       {"a large sheet is made", {"run", "large.json", "--out", "b"}, 400ms},
       {"its steps", {"run", "large.json", "--out", "b"}, 6000ms},
       {"check", long_check(), 500ms},
       {"bench paper", {"bench", "paper"}, 1500ms},
       {"bench micro", {"bench", "micro", "--repeat", "1000"}, 1500ms},
   };
-  for (const auto& phase : phases) expect_interrupted(stop_toile(scratch, phase.words, phase.after, {SIGINT}), phase.what);
+  for (const auto& phase : phases)
+    expect_interrupted(stop_toile(scratch, phase.words, phase.after, {SIGINT}), phase.what);
 }
 
 TEST(Interrupt, EverySignalThatAsksForAnEndIsAnswered) {
@@ -88,7 +92,8 @@ TEST(Interrupt, EverySignalThatAsksForAnEndIsAnswered) {
   for (const int signal : {SIGTERM, SIGHUP, SIGXCPU})
     expect_interrupted(stop_toile(scratch, {"run", "large.json", "--out", "a"}, 1000ms, {signal}), strsignal(signal));
   // The system sends SIGXCPU every second, and a terminal that is closed SIGHUP twice: nobody is impatient.
-  scratch.put("s.json", R"({"cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.02}}], "time": {"seconds": 300}})");
+  scratch.put("s.json",
+              R"({"cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.02}}], "time": {"seconds": 300}})");
   for (const int signal : {SIGHUP, SIGXCPU}) {
     const Stopped stopped = stop_toile(scratch, {"run", "s.json", "--out", "s"}, 1500ms, {signal, signal}, 0ms);
     expect_interrupted(stopped, strsignal(signal));
@@ -117,7 +122,8 @@ TEST(Interrupt, EndsVerifyAndThePreviewWithItsEncoder) {
   Stopped stopped;
   std::chrono::steady_clock::time_point sent;
   stopped.ended = run_toile(scratch, {"preview", "a"}, [&](pid_t child) {
-    for (int k = 0; k < 600 && !std::filesystem::exists(scratch / "a/preview.png"); ++k) std::this_thread::sleep_for(100ms);
+    for (int k = 0; k < 600 && !std::filesystem::exists(scratch / "a/preview.png"); ++k)
+      std::this_thread::sleep_for(100ms);
     std::this_thread::sleep_for(1s);
     sent = std::chrono::steady_clock::now();
     kill(child, SIGINT);
@@ -129,16 +135,19 @@ TEST(Interrupt, EndsVerifyAndThePreviewWithItsEncoder) {
 
 // The program under a limit of its address space.
 Ended run_within(const Scratch& scratch, std::vector<std::string> words, std::size_t bytes) {
-  words.insert(words.begin(), {"-c", "ulimit -v " + std::to_string(bytes >> 10) + "; exec \"$0\" \"$@\"", TOILE_PROGRAM});
+  words.insert(words.begin(),
+               {"-c", "ulimit -v " + std::to_string(bytes >> 10) + "; exec \"$0\" \"$@\"", TOILE_PROGRAM});
   return test::run_program(scratch, "/bin/sh", std::move(words), [](pid_t) {});
 }
 
 TEST(RefusedMemory, EndsWithExitCodeSevenAtEverySize) {
   const Scratch scratch;
-  scratch.put("s.json", R"({"cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.009}}], "time": {"seconds": 0.1}})");
+  scratch.put("s.json",
+              R"({"cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.009}}], "time": {"seconds": 0.1}})");
   int refused = 0;
   for (std::size_t mb = 60; mb <= 180; mb += 10) {
-    const Ended ended = run_within(scratch, {"run", "s.json", "--out", "a", "--quiet", "--max-memory", "100000"}, mb << 20);
+    const Ended ended =
+        run_within(scratch, {"run", "s.json", "--out", "a", "--quiet", "--max-memory", "100000"}, mb << 20);
     EXPECT_EQ(ended.signal, 0) << mb << " MB";
     EXPECT_TRUE(ended.exit_code == 0 || ended.exit_code == 7) << mb << " MB: " << ended.exit_code << ' ' << ended.err;
     if (ended.exit_code == 7) {
@@ -152,13 +161,15 @@ TEST(RefusedMemory, EndsWithExitCodeSevenAtEverySize) {
 
 TEST(RefusedThreads, AreFewerAndAWarning) {
   const Scratch scratch;
-  scratch.put("s.json", R"({"cloth": [{"grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.05}}], "time": {"seconds": 0.2}})");
+  scratch.put("s.json",
+              R"({"cloth": [{"grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.05}}], "time": {"seconds": 0.2}})");
   const Ended many = run_toile(scratch, {"run", "s.json", "--out", "a", "--threads", "500", "--json"});
   EXPECT_EQ(many.exit_code, 0) << many.err;
   EXPECT_NE(many.err.find("warning: --threads 500: there are"), std::string::npos) << many.err;
   EXPECT_LT(Json::parse(many.out, "stdout").at("threads").integer(), 500);
   EXPECT_EQ(run_toile(scratch, {"run", "s.json", "--out", "a", "--threads", "500", "--quiet"}).err, "");
-  const Ended little = run_within(scratch, {"run", "s.json", "--out", "b", "--threads", "500"}, std::size_t{200000} << 10);
+  const Ended little =
+      run_within(scratch, {"run", "s.json", "--out", "b", "--threads", "500"}, std::size_t{200000} << 10);
   EXPECT_EQ(little.signal, 0);
   EXPECT_EQ(little.exit_code, 0) << little.err;
 }

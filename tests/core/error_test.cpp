@@ -72,5 +72,13 @@ TEST(NearestName, CountsInsertionsDeletionsAndSubstitutionsAlike) {
 
 TEST(NearestName, IsEmptyWithoutCandidates) { EXPECT_EQ(nearest("wind", {}), ""); }
 
+TEST(Printable, IsUtf8WhateverTheBytes) {
+  EXPECT_EQ(printable("\xc3\xa4 \xe2\x82\xac \xf0\x9f\x91\x95"), "\xc3\xa4 \xe2\x82\xac \xf0\x9f\x91\x95");
+  EXPECT_EQ(printable("a\xfdz\xc3"), "a?z?");
+  EXPECT_EQ(printable("\xc0\xaf\xed\xa0\x80\xf5\x80"), "???????") << "overlong, a surrogate, beyond Unicode";
+  const std::string cut = printable(std::string(199, 'a') + "\xc3\xa4");
+  EXPECT_EQ(cut, std::string(199, 'a') + "...") << "no half of a character";
+}
+
 }  // namespace
 }  // namespace toile

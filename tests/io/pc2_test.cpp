@@ -110,7 +110,8 @@ TEST(Pc2, IsNotWrittenOverAFileOrThroughALink) {
   scratch.put("a.pc2", "precious");
   std::filesystem::create_symlink(scratch / "a.pc2", scratch / "b.pc2");
   std::filesystem::create_symlink(scratch / "nowhere", scratch / "c.pc2");
-  for (const char* name : {"a.pc2", "b.pc2", "c.pc2"}) EXPECT_THROW(Pc2Writer(scratch / name, 1, 0, 1), IoError) << name;
+  for (const char* name : {"a.pc2", "b.pc2", "c.pc2"})
+    EXPECT_THROW(Pc2Writer(scratch / name, 1, 0, 1), IoError) << name;
   EXPECT_EQ(scratch.get("a.pc2"), "precious");
   EXPECT_FALSE(std::filesystem::exists(scratch / "nowhere"));
 }

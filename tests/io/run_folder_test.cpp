@@ -17,8 +17,7 @@ TEST(RunFolder, HasOneWriterAtATimeAndNamesIt) {
   const Scratch scratch;
   RunFolder first(scratch / "out", Use::new_run, owner, {});
   for (const Use use : {Use::new_run, Use::resume, Use::pictures}) {
-    const std::string message =
-        message_of<IoError>([&] { RunFolder second(scratch / "out", use, owner, {}); });
+    const std::string message = message_of<IoError>([&] { RunFolder second(scratch / "out", use, owner, {}); });
     EXPECT_NE(message.find("process " + std::to_string(::getpid())), std::string::npos) << message;
     EXPECT_NE(message.find("toile run s.json"), std::string::npos) << message;
   }

@@ -81,9 +81,10 @@ TEST(Resume, OfShapesThatAreLedAndPulled) {
 }
 
 TEST(Resume, OfALayerOnALayerWithOtherSolvers) {
-  for (const char* solver :
-       {R"("solver": {"newton_iterations": 2}, "time": {"seconds": 0.5, "integrator": "bdf2"})",
-        R"("solver": {"preconditioner": "block_ssor", "procedure": "paper_1998"}, "time": {"seconds": 0.5, "step_max_ms": 10})"})
+  for (
+      const char* solver :
+      {R"("solver": {"newton_iterations": 2}, "time": {"seconds": 0.5, "integrator": "bdf2"})",
+       R"("solver": {"preconditioner": "block_ssor", "procedure": "paper_1998"}, "time": {"seconds": 0.5, "step_max_ms": 10})"})
     compare(parse_scene(R"({"cloth": [
       {"name": "a", "grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.04}, "placement": {"translation_m": [0, 0.21, 0], "rotation_deg": [-90, 0, 0]}},
       {"name": "b", "grid": {"width_m": 0.25, "height_m": 0.25, "edge_m": 0.04}, "placement": {"translation_m": [0.02, 0.23, 0], "rotation_deg": [-90, 20, 0]}}],
@@ -106,18 +107,22 @@ TEST(Resume, OfCrossingCloth) {
 // Sewing, the drape of what goes below, sewing over it, settling, drape and motion: a stop in each.
 TEST(Resume, OfAnOutfitThatMoves) {
   const std::string folder = std::string(TOILE_SOURCE_DIR) + "/patterns/";
-  compare(parse_scene(R"({"cloth": [{"pattern": ")" + folder + R"(short_skirt.json", "resolution_cm": 7}, {"pattern": ")" +
-                          folder + R"(tshirt.json", "resolution_cm": 7}],
+  compare(
+      parse_scene(R"({"cloth": [{"pattern": ")" + folder + R"(short_skirt.json", "resolution_cm": 7}, {"pattern": ")" +
+                      folder + R"(tshirt.json", "resolution_cm": 7}],
       "body": {"mannequin": "woman", "motion": "sway"}, "time": {"seconds": 0.3, "drape_seconds": 0.8}})",
-                      "s.json"),
-          {37});
+                  "s.json"),
+      {37});
 }
 
 TEST(Resume, RefusesOtherInputsAndADamagedState) {
   const Scratch scratch;
   const auto scene = [](const char* gravity) {
-    return parse_scene(R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05}}], "time": {"seconds": 1},
-      "world": {"gravity_m_per_s2": [0, )" + std::string(gravity) + ", 0]}}", "s.json");
+    return parse_scene(
+        R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05}}], "time": {"seconds": 1},
+      "world": {"gravity_m_per_s2": [0, )" +
+            std::string(gravity) + ", 0]}}",
+        "s.json");
   };
   RunOptions options = options_of(scratch / "out");
   int left = 10;

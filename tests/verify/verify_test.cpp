@@ -2,9 +2,9 @@
 #include "verify/verify.hpp"
 
 #include "core/error.hpp"
-#include "io/obj.hpp"
 #include "core/hash.hpp"
 #include "io/json_text.hpp"
+#include "io/obj.hpp"
 #include "io/pc2.hpp"
 #include "io/run_folder.hpp"
 #include "verify/verdict.hpp"
@@ -13,9 +13,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <functional>
 #include <limits>
+#include <sstream>
 
 namespace toile {
 namespace {
@@ -97,7 +97,8 @@ class RunDirectory {
   }
   // The report of what is there now.
   void seal(const RunFiles& run) const {
-    write_text("report.json", sealed(run.report.substr(0, run.report.rfind('}')) + R"(, "files": )" + listed(run) + '}'));
+    write_text("report.json",
+               sealed(run.report.substr(0, run.report.rfind('}')) + R"(, "files": )" + listed(run) + '}'));
   }
   void write_text(const char* name, const std::string& text) const { std::ofstream(file(name)) << text; }
   void write_cache(const char* name, const std::vector<Vec3s>& frames) const {
