@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <system_error>
 
 namespace toile {
 namespace {
@@ -136,9 +137,19 @@ std::string out_path(const CommandLine& line, bool resolved) {
   return path.string();
 }
 
+// An input is never an output.
+void refuse_inputs(const CommandLine& line) {
+  std::error_code ignored;
+  for (const bool resolved : {true, false})
+    for (const std::string& input : {line.inputs.front(), line.body})
+      if (!input.empty() && std::filesystem::equivalent(input, out_path(line, resolved), ignored))
+        throw IoError(printable(input), "is an input, which would be written over: name another file with --out");
+}
+
 }  // namespace
 
 ExitCode untangle_command(const CommandLine& line) {
+  refuse_inputs(line);
   ClothFile cloth = load_cloth_file(line.inputs.front());
   const SolidMesh solid = load_solid(line);
 

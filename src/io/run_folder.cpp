@@ -130,7 +130,8 @@ RunFolder::RunFolder(std::string directory, Use use, const Owner& owner, std::sp
     if (begun_ && !was_unfinished_) throw IoError(directory_, "no unfinished run to go on with");
     refuse_strangers(run_file_names);
     const AtomicFile probe(path("report.json"));  // not committed: leaves nothing, but fails now if it must fail
-    if (use_ == Use::new_run) write_unfinished({});
+    // An unfinished run can be resumed until another one begins: what it was asked for stays.
+    if (use_ == Use::new_run && !was_unfinished_) write_unfinished({});
   } catch (...) {
     undo();
     throw;
@@ -223,6 +224,7 @@ void RunFolder::write_unfinished(const std::function<void(JsonText&)>& facts) co
 
 void RunFolder::begin() {
   begun_ = true;
+  write_unfinished({});
   for (const std::string_view name : run_file_names) {  // the report is the first of them
     if (name == "unfinished.json") continue;
     remove_file(path(name));

@@ -73,6 +73,8 @@ class RunFolder {
   // After report.json has been written: the run is finished, or (`goes_on`) can be taken up again.
   void finish(bool goes_on);
 
+  // An earlier run there was not finished.
+  bool was_unfinished() const { return was_unfinished_; }
   const std::string& directory() const { return directory_; }
   std::string path(std::string_view name) const;
 

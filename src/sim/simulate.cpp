@@ -30,6 +30,9 @@ Report Run::operator()() {
   folder_ = std::make_unique<RunFolder>(
       options_.directory, options_.resume ? RunFolder::Use::resume : RunFolder::Use::new_run,
       RunFolder::Owner{options_.command, options_.arguments, std::string(toile_version())}, inputs);
+  if (!options_.resume && folder_->was_unfinished())
+    report_.warnings.emplace_back(
+        "the folder held a run that was interrupted; it is replaced, toile resume would have gone on with it");
   Hash hash;
   load(hash);
   describe_run(hash.hex());

@@ -57,6 +57,17 @@ TEST(UntangleCommand, ABodyInAFileAndItsUnit) {
   EXPECT_NEAR((after.positions[0] - start.x[0]).norm(), 1, 4) << "centimetres";
 }
 
+TEST(UntangleCommand, AnInputIsNeverAnOutput) {
+  const Scratch scratch;
+  const test::TangledStart start = test::tangled_start(1, 0);
+  put(scratch, "cloth.obj", start.x, start.triangles);
+  const std::string before = scratch.get("cloth.obj");
+  const Ended ended = run_toile(scratch, {"untangle", "cloth.obj", "--out", "./cloth.obj"});
+  EXPECT_EQ(ended.exit_code, 6);
+  EXPECT_EQ(ended.err_lines(), 1) << ended.err;
+  EXPECT_EQ(scratch.get("cloth.obj"), before);
+}
+
 TEST(UntangleCommand, QuadsNamesAndCommentsStay) {
   const Scratch scratch;
   // Two strips of quads, one standing through the other.

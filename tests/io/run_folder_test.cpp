@@ -71,6 +71,21 @@ TEST(RunFolder, TakesOverWhatAnEarlierReportLists) {
   EXPECT_EQ(scratch.file_count(), 1u) << "the notes";
 }
 
+TEST(RunFolder, ARunThatDoesNotBeginLeavesAnUnfinishedOneAsItWas) {
+  const Scratch scratch;
+  {
+    RunFolder folder(scratch / "out", Use::new_run, owner, {});
+    folder.begin();
+  }
+  const std::string before = scratch.get("out/unfinished.json");
+  {
+    const RunFolder::Owner other{"toile run other.json", {"run", "other.json"}, "0.1.0"};
+    RunFolder folder(scratch / "out", Use::new_run, other, {});
+    EXPECT_TRUE(folder.was_unfinished());
+  }
+  EXPECT_EQ(scratch.get("out/unfinished.json"), before);
+}
+
 TEST(RunFolder, AReportThatDoesNotListAFileDoesNotGiveItAway) {
   const Scratch scratch;
   scratch.put("report.json", R"({"toile_version": "0.1.0", "files": {"cloth.obj": {}}})");
