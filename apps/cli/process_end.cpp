@@ -73,7 +73,7 @@ bool set_deadline(ExitCode code, long us) {
 void on_signal(int signal) {
   // Who closes a terminal may send SIGHUP twice, and the system sends SIGXCPU every second: no sign of impatience.
   const bool impatient = signal == SIGINT || signal == SIGTERM;
-  if (stop_asked.exchange(1) != 0 && impatient) leave(ExitCode::interrupted, "interrupted");
+  if (stop_asked.exchange(1) != 0 && impatient) leave(ExitCode::interrupted, "interrupted at once");
   set_deadline(ExitCode::interrupted, unheard_us);
 }
 
