@@ -1,5 +1,7 @@
 #include "core/error.hpp"
 
+#include "core/utf8.hpp"
+
 #include <algorithm>
 #include <vector>
 
@@ -23,31 +25,12 @@ InputError::InputError(std::string_view where, std::string_view place, std::stri
 IoError::IoError(std::string_view path, std::string_view what)
     : Error(ExitCode::io, printable(path) + ": " + std::string(what)) {}
 
-namespace {
-
-// Bytes of the character that begins the text; 0: it is not UTF-8.
-std::size_t character_bytes(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  const std::size_t bytes = first < 0x80 ? 1 : first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  if (bytes == 1) return 1;
-  if (first < 0xc2 || first > 0xf4 || text.size() < bytes) return 0;
-  for (std::size_t i = 1; i < bytes; ++i)
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  const bool overlong = (first == 0xe0 && byte(1) < 0xa0) || (first == 0xf0 && byte(1) < 0x90);
-  const bool beyond =
-      (first == 0xed && byte(1) > 0x9f) || (first == 0xf4 && byte(1) > 0x8f);  // surrogates, U+110000 ...
-  return overlong || beyond ? 0 : bytes;
-}
-
-}  // namespace
-
 std::string printable(std::string_view name) {
   constexpr std::size_t limit = 200;
   std::string out;
   std::size_t i = 0;
   while (i < name.size()) {
-    const std::size_t bytes = character_bytes(name.substr(i));
+    const std::size_t bytes = utf8_character_bytes(name.substr(i));
     if (i + std::max<std::size_t>(bytes, 1) > limit) break;
     const auto byte = static_cast<unsigned char>(name[i]);
     if (bytes == 0 || byte < 0x20 || byte == 0x7f) {

@@ -2,8 +2,10 @@
 //
 //   JsonText text;  text.begin_object();  text.member("frames", 75);  text.end_object();  text.str()
 //
-// A number that is not finite becomes null: JSON has no other word for it.
+// A number that is not finite becomes null, and a byte that is not UTF-8 U+FFFD: JSON has no other words for them.
 #pragma once
+#include "core/utf8.hpp"
+
 #include <charconv>
 #include <cmath>
 #include <concepts>
@@ -89,18 +91,22 @@ class JsonText {
   void quote(std::string_view string) {
     static constexpr char hex[] = "0123456789abcdef";
     text_ += '"';
-    for (const char c : string) {
-      const auto byte = static_cast<unsigned char>(c);
-      if (c == '"' || c == '\\') {
+    while (!string.empty()) {
+      const std::size_t bytes = utf8_character_bytes(string);
+      const auto byte = static_cast<unsigned char>(string.front());
+      if (bytes == 0) {
+        text_ += "\xef\xbf\xbd";
+      } else if (byte == '"' || byte == '\\') {
         text_ += '\\';
-        text_ += c;
+        text_ += string.front();
       } else if (byte < 0x20) {
         text_ += "\\u00";
         text_ += hex[byte >> 4];
         text_ += hex[byte & 15];
       } else {
-        text_ += c;
+        text_ += string.substr(0, bytes);
       }
+      string.remove_prefix(bytes == 0 ? 1 : bytes);
     }
     text_ += '"';
   }

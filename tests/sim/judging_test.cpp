@@ -9,6 +9,7 @@
 #include "sim/start_state.hpp"
 #include "sim/untangle.hpp"
 #include "support/tangled_starts.hpp"
+#include "support/tube_pattern.hpp"
 #include "verify/verify.hpp"
 
 #include <gtest/gtest.h>
@@ -35,13 +36,7 @@ bool has(const std::vector<Reason>& reasons, std::string_view code) {
 
 // A tube of 1 m around, 20 cm high from y = 0 up, sewn about an upright cylinder.
 Scene tube_around(const Scratch& scratch, const std::string& body, const std::string& more = "") {
-  scratch.put("tube.json", R"({"pattern": {"panels": {
-    "front": {"translation": [0, 0, 25], "rotation": [0, 0, 0], "vertices": [[-25,0],[25,0],[25,20],[-25,20]],
-      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]},
-    "back": {"translation": [0, 0, -25], "rotation": [0, 0, 0], "vertices": [[-25,0],[-25,20],[25,20],[25,0]],
-      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
-    "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
-    "properties": {"units_in_meter": 100}})");
+  scratch.put("tube.json", test::tube_pattern_text);
   return parse_scene(
       R"({"cloth": [{"name": "tube", "pattern": "tube.json", "resolution_cm": 5}], "body": {"cylinder": )" + body +
           "}" + more + R"(, "time": {"seconds": 10}})",

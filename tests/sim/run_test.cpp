@@ -12,6 +12,7 @@
 #include "sim/simulate.hpp"
 #include "sim/tangles.hpp"
 #include "support/sheets.hpp"
+#include "support/tube_pattern.hpp"
 #include "verify/crossings.hpp"
 #include "verify/verify.hpp"
 
@@ -75,6 +76,15 @@ TEST(JsonText, IsReadBackToTheBit) {
   EXPECT_EQ(json.at("third").number(), 1.0 / 3);
   EXPECT_TRUE(json.at("nan").is_null());
   EXPECT_EQ(json.at("nested").array().size(), 3u);
+}
+
+TEST(JsonText, IsJsonWhateverTheBytes) {
+  JsonText text;
+  text.begin_object();
+  text.member("caf\xe9 \xc3\xa9", "\xff\xf0\x9f\x91\x95\xc3");
+  text.end_object();
+  EXPECT_EQ(Json::parse(text.str(), "text").at("caf\xef\xbf\xbd \xc3\xa9").string(),
+            "\xef\xbf\xbd\xf0\x9f\x91\x95\xef\xbf\xbd");
 }
 
 TEST(Run, LeavesFilesThatTheJudgeReadsAsTheReportSays) {
@@ -218,13 +228,7 @@ TEST(Run, APanelThatTheClothDoesNotHaveIsNamed) {
 
 // Two rectangles sewn at both sides around a cylinder, or around one that is too thick for them.
 Scene tube(const Scratch& scratch, double body_radius_m) {
-  scratch.put("tube.json", R"({"pattern": {"panels": {
-    "front": {"translation": [0, 0, 25], "rotation": [0, 0, 0], "vertices": [[-25,0],[25,0],[25,20],[-25,20]],
-      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]},
-    "back": {"translation": [0, 0, -25], "rotation": [0, 0, 0], "vertices": [[-25,0],[-25,20],[25,20],[25,0]],
-      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
-    "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
-    "properties": {"units_in_meter": 100}})");
+  scratch.put("tube.json", test::tube_pattern_text);
   Scene scene = parse_scene(
       R"({"cloth": [{"pattern": "tube.json", "resolution_cm": 4}], "body": {"cylinder": {"height_m": 1, "top_m": [0, 0.6, 0]}}, "time": {"seconds": 0.8}})",
       scratch / "s.json");
