@@ -147,6 +147,7 @@ void Run::watch_falling() {
   if (!sewn() || !body_ || scene_.gravity_m_per_s2.isZero(0)) return;
   for (const SceneCloth& cloth : scene_.cloth)
     if (!cloth.drags.empty()) return;
+  touches_.touched.resize(outfit_.parts.size(), 0);
   fall_watch_.emplace(scene_.gravity_m_per_s2, body_triangles_, motion_ ? motion_->at : BodyAt{},
                       motion_ ? frames_in_motion() * frame_s() : 0, frame_s());
 }
