@@ -1,4 +1,5 @@
 // apps/cli/check_command.cpp: `toile check`: reads scenes, patterns and meshes, says what they hold or what is wrong with them.
+#include "body/solid_shapes.hpp"
 #include "body_option.hpp"
 #include "commands.hpp"
 #include "core/hash.hpp"
@@ -92,37 +93,17 @@ std::string describe(const Scene& scene, const BudgetLimits& limits, JsonText& j
                                               : fmt::sprintf("%.1f hours", budget.seconds / 3600));
 }
 
-// What of a mesh a face uses: `untangle` and `dress` leave the rest out.
-struct UsedMesh {
-  Vec3s x;
-  std::vector<Triangle> triangles;
-};
-UsedMesh used_of(const ObjMesh& mesh) {
-  std::vector<Index> number(mesh.positions.size(), -1);
-  UsedMesh used{{}, mesh.triangles};
-  for (const Triangle& t : mesh.triangles)
-    for (const Index i : t) number[static_cast<std::size_t>(i)] = 0;
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    if (number[i] < 0) continue;
-    number[i] = static_cast<Index>(used.x.size());
-    used.x.push_back(mesh.positions[i]);
-  }
-  for (Triangle& t : used.triangles)
-    for (Index& i : t) i = number[static_cast<std::size_t>(i)];
-  return used;
-}
-
 // A mesh may be meant as a cloth (`untangle CLOTH`) or as a body; one that neither command takes is refused.
 std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json) {
   const std::string file = printable(path), text = read_file(path);
   const ObjMesh mesh = parse_obj(text, file);
-  const UsedMesh used = used_of(mesh);
-  const std::size_t unused = mesh.positions.size() - used.x.size();
+  const SolidMesh used = whole_of(mesh);  // `untangle` and `dress` leave the rest out, too
+  const std::size_t unused = mesh.positions.size() - used.positions.size();
   const std::string no_cloth = complaint([&] {
-    check_triangles(file, used.x, used.triangles);
-    check_areas(file, used.x, used.triangles);
+    check_triangles(file, used.positions, used.triangles);
+    check_areas(file, used.positions, used.triangles);
   });
-  const std::string open = complaint([&] { check_closed(file, used.x, used.triangles); });
+  const std::string open = complaint([&] { check_closed(file, used.positions, used.triangles); });
   CollisionBody body;
   const std::string no_body = complaint([&] { body = read_body(path, text, unit); });
   if (!no_cloth.empty() && !no_body.empty()) throw Error(ExitCode::bad_input, open.empty() ? no_body : no_cloth);

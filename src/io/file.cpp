@@ -162,14 +162,6 @@ void AtomicFile::write(const void* data, std::size_t size) {
   size_ += size;
 }
 
-void AtomicFile::overwrite(std::size_t offset, const void* data, std::size_t size) {
-  if (!file_) fail("cannot write", EBADF);
-  if (offset > size_ || size > size_ - offset) fail("cannot overwrite what was not written", EINVAL);
-  if (::fseeko(file_, static_cast<off_t>(offset), SEEK_SET) != 0) fail("cannot write", errno);
-  if (size > 0 && std::fwrite(data, 1, size, file_) != size) fail("cannot write", errno);
-  if (::fseeko(file_, 0, SEEK_END) != 0) fail("cannot write", errno);
-}
-
 // The file gets its own name where nothing stands there; else one of which it is moved over the old file.
 void AtomicFile::give_name() {
   const std::string itself = "/proc/self/fd/" + std::to_string(::fileno(file_));

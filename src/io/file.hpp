@@ -30,8 +30,6 @@ class AtomicFile {
 
   void write(const void* data, std::size_t size);
   void write(std::string_view text) { write(text.data(), text.size()); }
-  // Overwrites bytes already written (a header's count), then continues at the end.
-  void overwrite(std::size_t offset, const void* data, std::size_t size);
   // Once; nothing may be written afterwards.
   void commit();
 

@@ -34,7 +34,6 @@ class Pc2Writer {
   // core/hash.hpp: of every frame's bytes, and of the header as it is now.
   std::span<const std::uint64_t> frame_checksums() const { return checksums_; }
   std::uint64_t header_checksum() const;
-  const std::string& path() const { return file_.path(); }
 
  private:
   Pc2Writer(const std::string& path, Index points);

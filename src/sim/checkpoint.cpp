@@ -37,6 +37,13 @@ T take(std::string_view& bytes) {
   return value;
 }
 
+std::uint64_t checksum_of(std::string_view head, std::string_view state) {
+  Hash sums;
+  for (const std::uint64_t sum : {checksum(head.data(), head.size()), checksum(state.data(), state.size())})
+    sums.add_bytes(&sum, sizeof sum);
+  return sums.value();
+}
+
 }  // namespace
 
 Checkpoints::Checkpoints(const RunWriter& writer, std::uint64_t input_hash, const CheckpointOptions& options)
@@ -63,13 +70,10 @@ void Checkpoints::save(std::string state) {
     append(head, format);
     append(head, input_hash);
     append(head, static_cast<std::uint64_t>(state.size()));
-    Hash sums;
-    for (const std::uint64_t sum : {checksum(head.data(), head.size()), checksum(state.data(), state.size())})
-      sums.add_bytes(&sum, sizeof sum);
     AtomicFile file(writer->path("checkpoint.bin"));
     file.write(head);
     file.write(state);
-    const std::uint64_t sum = sums.value();
+    const std::uint64_t sum = checksum_of(head, state);
     file.write(&sum, sizeof sum);
     file.commit();
   };
@@ -102,10 +106,7 @@ std::optional<std::string> read_checkpoint(const std::string& path, std::uint64_
     refuse("size", std::to_string(size) + " bytes of state", std::to_string(bytes.size() - sizeof(std::uint64_t)));
   std::string state(bytes.substr(0, static_cast<std::size_t>(size)));
   bytes.remove_prefix(static_cast<std::size_t>(size));
-  Hash sums;
-  for (const std::uint64_t sum : {checksum(file.data(), head_bytes), checksum(state.data(), state.size())})
-    sums.add_bytes(&sum, sizeof sum);
-  if (take<std::uint64_t>(bytes) != sums.value())
+  if (take<std::uint64_t>(bytes) != checksum_of(std::string_view(file).substr(0, head_bytes), state))
     refuse("checksum", "that of the state", "another: the file has changed");
   if (inputs != input_hash)
     refuse("input_hash", hex_of(input_hash) + ", that of the scene and its files now", hex_of(inputs));

@@ -71,13 +71,11 @@ class Run {
   // Taking up and keeping the state.
   template <class Archive>
   void remember(Archive& archive) {
-    WrittenFrames frames;
     if constexpr (!Archive::reads) {
-      frames = writer_->frames();
+      written_ = writer_->frames();
       report_.seconds_total = earlier_s_ + total_.seconds();
     }
-    archive(place_, frames, report_, qualifications_, before_inner_, slow_inner_, seconds_before_motion_, touches_);
-    if constexpr (Archive::reads) written_ = frames;
+    archive(place_, written_, report_, qualifications_, before_inner_, slow_inner_, seconds_before_motion_, touches_);
   }
   void take_up(std::uint64_t input_hash);
   // Until restore() has been called.
@@ -149,7 +147,7 @@ class Run {
   PhaseSeconds seconds_before_motion_;
   std::string state_;                      // that was read,
   std::unique_ptr<StateReader> taken_up_;  // until the phase that it is about has taken it
-  WrittenFrames written_;                  // then
+  WrittenFrames written_;                  // when the state was kept
 };
 
 template <class Phase>

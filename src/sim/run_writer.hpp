@@ -62,7 +62,6 @@ class RunWriter {
 
   int cloth_frames() const { return cloth_ ? cloth_->samples() : 0; }
   int sewing_frames() const { return sewing_ ? sewing_->samples() : 0; }
-  RunFolder& folder() { return *folder_; }
   std::string path(std::string_view name) const { return folder_->path(name); }
 
  private:

@@ -93,22 +93,6 @@ TEST(AtomicFile, KeepsTheOldFileUntilCommitted) {
   EXPECT_EQ(scratch.get("a"), "new");
 }
 
-TEST(AtomicFile, OverwritesAndContinuesAtTheEnd) {
-  const Scratch scratch;
-  AtomicFile file(scratch / "a");
-  file.write("head....tail");
-  file.overwrite(4, "1234", 4);
-  file.write("!");
-  file.overwrite(0, "H", 1);
-  file.write("!");
-  for (const std::size_t beyond : {std::size_t{13}, static_cast<std::size_t>(-1)}) {
-    EXPECT_NE(message_of<IoError>([&] { file.overwrite(beyond, "xx", 2); }).find("overwrite what was not written"),
-              std::string::npos);
-  }
-  file.commit();
-  EXPECT_EQ(scratch.get("a"), "Head1234tail!!");
-}
-
 TEST(AtomicFile, HasNoNameThatCouldBePlantedOrShared) {
   const Scratch scratch;
   scratch.put("victim", "precious");
@@ -233,7 +217,6 @@ TEST(AtomicFile, TakesNothingAfterItsEnd) {
   AtomicFile file(scratch / "a");
   file.commit();
   EXPECT_THROW(file.write("x"), IoError);
-  EXPECT_THROW(file.overwrite(0, "x", 1), IoError);
   EXPECT_THROW(file.commit(), IoError);
   EXPECT_EQ(scratch.get("a"), "");
 }
