@@ -81,6 +81,12 @@ std::string as_json(const VerifyReport& audit, const Verdict& verdict) {
   add_count(json, "cloth_body_edges_outside_pinches", audit.outside_pinches);
   add_count(json, "cloth_cloth_edges", audit.cloth_cloth_edges);
   json.end_object();
+  json.key("inputs");
+  json.begin_object();
+  json.member("known", audit.inputs);
+  json.member("changed", static_cast<int>(audit.changed_inputs.size()));
+  json.member("missing", audit.missing_inputs);
+  json.end_object();
   json.key("worst_frame");
   audit.worst_frame >= 0 ? json.value(audit.worst_frame) : json.null();
   json.key("worst_frame_crossings");
@@ -144,6 +150,10 @@ std::string as_text(const std::string& directory, const VerifyReport& audit, con
     out += fmt::sprintf(
         "  gap to the body: least %.2f mm, median %.2f mm; where it lies on it, median %.2f mm, p90 %.2f mm\n",
         audit.gap.min_mm, audit.gap.p50_mm, audit.gap.hover_p50_mm, audit.gap.hover_p90_mm);
+  }
+  if (audit.inputs > 0) {
+    out += fmt::sprintf("  files that it read: %d, %d of them changed since, %d no longer there\n", audit.inputs,
+                        static_cast<int>(audit.changed_inputs.size()), audit.missing_inputs);
   }
   return out;
 }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <limits>
 #include <system_error>
 
 namespace toile {
@@ -117,6 +118,11 @@ std::string read_file(const std::string& path, std::size_t limit_bytes) {
   if (std::ferror(closed.file)) throw IoError(path, reason("cannot read", errno));
   text.resize(count);
   return text;
+}
+
+std::string checksum_of_file(const std::string& path) {
+  const std::string bytes = read_file(path, std::numeric_limits<std::size_t>::max() - 1);
+  return hex_of(checksum(bytes.data(), bytes.size()));
 }
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {

@@ -14,6 +14,9 @@ namespace toile {
 // The whole file.  Throws IoError (cannot open, is a directory, read error) or InputError when larger than `limit`.
 std::string read_file(const std::string& path, std::size_t limit_bytes = std::size_t{1} << 31);
 
+// core/hash.hpp: of all its bytes, in hexadecimal digits.  Throws IoError.
+std::string checksum_of_file(const std::string& path);
+
 // A regular file opened for reading, for the caller to close, and its size.  Throws IoError.
 std::FILE* open_regular_file(const std::string& path, std::uint64_t& size_bytes);
 

@@ -185,6 +185,13 @@ void add_rest_stretch(JsonText& text, const Report& report) {
 }
 
 // Pictures are Toile's, too, and may be made at any time: they are listed, without a checksum.
+void add_inputs(JsonText& text, const Report& report) {
+  text.key("inputs");
+  text.begin_object();
+  for (const WrittenFile& input : report.inputs) text.member(input.name, input.checksum);
+  text.end_object();
+}
+
 void add_files(JsonText& text, const Report& report) {
   text.key("files");
   text.begin_object();
@@ -328,6 +335,7 @@ std::string to_json(const Report& report, int indent) {
     text.end_object();
   }
   text.member("peak_memory_mb", report.peak_memory_mb);
+  add_inputs(text, report);
   add_files(text, report);
   text.end_object();
   return text.str();

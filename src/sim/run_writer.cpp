@@ -111,8 +111,7 @@ void RunWriter::finish(const std::function<std::string(const std::vector<Written
   std::vector<WrittenFile> files;
   const auto add_obj = [&](const char* name) {
     if (!std::filesystem::exists(path(name))) return;
-    const std::string text = read_file(path(name));
-    files.push_back({name, hex_of(checksum(text.data(), text.size())), {}});
+    files.push_back({name, checksum_of_file(path(name)), {}});
   };
   const auto add_cache = [&](const char* name, const std::unique_ptr<Pc2Writer>& writer) {
     if (!writer) return;

@@ -1,5 +1,10 @@
 #include "sim/scene_inputs.hpp"
 
+#include "body/body_samples.hpp"
+#include "io/file.hpp"
+
+#include <filesystem>
+
 namespace toile {
 
 std::vector<std::string> input_paths(const Scene& scene) {
@@ -14,6 +19,33 @@ std::vector<std::string> input_paths(const Scene& scene) {
     if (const auto* mesh = std::get_if<SceneSolid::Mesh>(&solid.shape)) add(mesh->path);
   add(scene.start);
   return paths;
+}
+
+std::vector<std::string> input_files(std::span<const std::string> paths) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    const fs::path place(path);
+    if (fs::is_regular_file(place)) {
+      files.push_back(path);
+    } else if (fs::exists(place / "report.json")) {
+      for (const char* name : {"report.json", "cloth.obj", "cloth.pc2", "body.obj", "body.pc2"})
+        if (fs::is_regular_file(place / name)) files.push_back((place / name).string());
+    } else if (fs::is_directory(place) || place.filename().string().find('%') != std::string::npos) {
+      for (const NumberedFile& frame : numbered_files(path)) files.push_back(frame.path);
+    }
+  }
+  return files;
+}
+
+std::vector<WrittenFile> checksums_of_inputs(std::span<const std::string> paths, const std::string& directory) {
+  namespace fs = std::filesystem;
+  std::vector<WrittenFile> inputs;
+  for (const std::string& file : input_files(paths)) {
+    const fs::path seen = fs::absolute(file).lexically_proximate(fs::absolute(directory).lexically_normal());
+    inputs.push_back({seen.generic_string(), checksum_of_file(file), {}});
+  }
+  return inputs;
 }
 
 }  // namespace toile

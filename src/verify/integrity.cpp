@@ -28,11 +28,25 @@ Integrity::Integrity(const std::string& directory, std::string_view text, const 
     if (!std::filesystem::exists(path)) {
       changes_.push_back(printable(name) + " is not there");
     } else if (const Json* sum = file.find("checksum")) {
-      const std::string bytes = read_file(path);
-      if (sum->string() != hex_of(checksum(bytes.data(), bytes.size())))
-        changes_.push_back(printable(name) + " is not as it was written");
+      if (sum->string() != checksum_of_file(path)) changes_.push_back(printable(name) + " is not as it was written");
     }
   }
+}
+
+Integrity::Inputs Integrity::check_inputs(const std::string& directory, const Json& report) {
+  Inputs result;
+  const Json* inputs = report.find("inputs");
+  if (inputs == nullptr || !inputs->is_object()) return result;
+  for (const auto& [name, sum] : inputs->object()) {
+    ++result.known;
+    const std::string path = join(directory, name);  // `name` itself when it is absolute
+    if (!std::filesystem::is_regular_file(path)) {
+      ++result.missing;
+    } else if (checksum_of_file(path) != sum.string()) {
+      result.changed.push_back(name);
+    }
+  }
+  return result;
 }
 
 const Json* Integrity::entry(std::string_view name) const {

@@ -26,6 +26,13 @@ class Integrity {
   // One sentence each, for a person.
   const std::vector<std::string>& changes() const { return changes_; }
 
+  // What the run read: not part of it, but what it is of.
+  struct Inputs {
+    int known = 0, missing = 0;        // in the report; no longer where they were
+    std::vector<std::string> changed;  // their paths
+  };
+  static Inputs check_inputs(const std::string& directory, const Json& report);
+
  private:
   const Json* entry(std::string_view name) const;
 

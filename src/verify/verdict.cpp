@@ -25,6 +25,10 @@ std::string edges(int found, int limit, const std::vector<Crossing>& crossings, 
   return text;
 }
 
+std::string first_of(const std::vector<std::string>& all) {
+  return all.size() == 1 ? all.front() : all.front() + "; and " + std::to_string(all.size() - 1) + " more";
+}
+
 // Written so that NaN is an excess.
 bool within(double value, double limit) { return value <= limit; }
 
@@ -45,11 +49,11 @@ Verdict judge(const VerifyReport& report, const Limits& limits) {
     if (!known) verdict.reasons.push_back({std::string(code), std::move(detail)});
   };
 
-  if (!report.changes.empty()) {
-    std::string detail = report.changes.front();
-    if (report.changes.size() > 1) detail += "; and " + std::to_string(report.changes.size() - 1) + " more";
-    add(reason::data_changed, std::move(detail));
-  }
+  if (!report.changes.empty()) add(reason::data_changed, first_of(report.changes));
+  if (!report.changed_inputs.empty())
+    verdict.qualifications.push_back(
+        {std::string(reason::inputs_changed),
+         "since the run read it, something else stands in " + first_of(report.changed_inputs)});
   if (!report.interrupted.empty())
     add(reason::unfinished, report.interrupted);
   else if (report.frames == 0 || report.frames < report.frames_expected)

@@ -30,7 +30,8 @@ inline constexpr std::string_view not_finite = "not_finite";
 inline constexpr std::string_view stretch = "stretch";
 inline constexpr std::string_view unfinished = "unfinished";
 inline constexpr std::string_view data_changed = "data_changed";
-inline constexpr std::string_view moved_by_untangling = "moved_by_untangling";  // of a qualification
+inline constexpr std::string_view moved_by_untangling = "moved_by_untangling";  // of a qualification, as the next
+inline constexpr std::string_view inputs_changed = "inputs_changed";
 }  // namespace reason
 
 // Is this code decided by measuring the files, so that the judge needs nobody's word for it?  `unfinished` is not: a

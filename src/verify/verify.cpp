@@ -280,7 +280,13 @@ VerifyReport verify_directory(const std::string& directory) {
   const bool may_lack_cloth = record.report ? record.report->number_or("frames", -1) == 0 : true;
   VerifyReport result;
   if (any_cloth || !may_lack_cloth) result = audit_frames(directory, record, integrity ? &*integrity : nullptr);
-  if (record.report) add_reported(*record.report, result);
+  if (record.report) {
+    add_reported(*record.report, result);
+    Integrity::Inputs inputs = Integrity::check_inputs(directory, *record.report);
+    result.inputs = inputs.known;
+    result.missing_inputs = inputs.missing;
+    for (const std::string& name : inputs.changed) result.changed_inputs.push_back(printable(name));
+  }
   if (integrity) {
     integrity->check_cache(directory, "sewing.pc2");
     result.changes = integrity->changes();

@@ -60,7 +60,9 @@ struct VerifyReport {
   bool must_be_still = false;  // from report.json: limits.still_mm_per_s is a number
   // Reason codes of report.json that no file shows (a time limit, a crash): the judge cannot acquit of them.
   std::vector<std::string> reported_reasons;
-  std::vector<std::string> changes;  // of the files since they were written, in words (verify/integrity.hpp)
+  std::vector<std::string> changes;         // of the files since they were written, in words (verify/integrity.hpp)
+  std::vector<std::string> changed_inputs;  // which do not hold what the run read
+  int inputs = 0, missing_inputs = 0;       // of report.json; no longer where they were
   std::string interrupted;  // of a run that has not ended: in words, how far it came and what to do; empty otherwise
   std::vector<Reason> reported_qualifications;  // of report.json, likewise: what no file shows
 };
@@ -98,7 +100,7 @@ class RunAudit {
 
 // Reads the files of a run; every frame is judged, and compared with the checksum that the report has of it.  The body's files may be absent
 // together when report.json knows of no body; those of the cloth when it says that no frame was written.  Of report.json it uses `fps`, and if
-// present `frames`, `body.vertices`, `reasons`, `qualification_details`, `limits.still_mm_per_s`, `files` and `rest_stretch` {"panel": [b_u, b_v]}.  A run that goes on or
+// present `frames`, `body.vertices`, `reasons`, `qualification_details`, `limits.still_mm_per_s`, `inputs`, `files` and `rest_stretch` {"panel": [b_u, b_v]}.  A run that goes on or
 // was killed has unfinished.json instead: what it wrote is judged, and it is no pass.
 // Throws IoError (missing, unreadable) or InputError (truncated, not what the format says, sizes that contradict each
 // other), naming the file, what was expected and what it has.

@@ -123,6 +123,23 @@ TEST(Folder, LeavesTheUsersFilesAlone) {
   EXPECT_TRUE(std::filesystem::exists(scratch / "b/report.json"));
 }
 
+TEST(Folder, VerifySaysWhenTheInputsAreOthersNow) {
+  const Scratch scratch;
+  scratch.put("in/s.json", scene);
+  ASSERT_EQ(run_toile(scratch, {"run", "in/s.json", "--out", "deep/a", "--seconds", "0.2", "--quiet"}).exit_code, 0);
+  std::filesystem::rename(scratch / "deep", scratch / "other");  // as far from each other as before
+  const auto verify = [&] { return run_toile(scratch, {"verify", "other/a"}); };
+  EXPECT_EQ(verify().out.find("reservations"), std::string::npos);
+  EXPECT_NE(verify().out.find("files that it read: 1, 0 of them changed since, 0 no longer there"), std::string::npos);
+  scratch.put("in/s.json", std::string(scene) + " ");
+  const Ended changed = verify();
+  EXPECT_EQ(changed.exit_code, 0);
+  EXPECT_NE(changed.out.find("pass, with reservations: inputs_changed"), std::string::npos) << changed.out;
+  EXPECT_NE(changed.out.find("in/s.json"), std::string::npos) << changed.out;
+  std::filesystem::remove(scratch / "in/s.json");
+  EXPECT_NE(verify().out.find("1 no longer there"), std::string::npos);
+}
+
 TEST(Folder, EveryFlippedBitIsNoticed) {
   const Scratch scratch;
   scratch.put("s.json", scene);

@@ -34,6 +34,7 @@ class Scratch {
   std::string operator/(std::string_view name) const { return (path_ / name).string(); }
   std::string directory() const { return path_.string(); }
   std::string put(std::string_view name, std::string_view bytes) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name, std::ios::binary) << bytes;
     return *this / name;
   }

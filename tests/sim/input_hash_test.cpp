@@ -1,5 +1,6 @@
 // What `input_hash` is made of besides the settings: the bytes of the files that a scene names.
 #include "io/scratch.hpp"
+#include "sim/scene_inputs.hpp"
 #include "sim/setup.hpp"
 #include "sim/simulate.hpp"
 #include "sim/start_run.hpp"
@@ -8,6 +9,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace toile {
 namespace {
@@ -42,6 +44,21 @@ TEST(InputHash, OfAFileItsBytesCountAndNotItsName) {
   };
   EXPECT_EQ(solid("a.obj"), solid("b.obj"));
   EXPECT_NE(solid("a.obj"), solid("c.obj"));
+}
+
+// What `verify` compares: the files themselves, of a folder those that a scene reads from it.
+TEST(InputFiles, AreThoseThatASceneReads) {
+  const Scratch scratch;
+  for (const char* name : {"walk/b_1.obj", "walk/b_2.obj", "walk/notes.txt", "run/report.json", "run/cloth.obj",
+                           "run/cloth.pc2", "run/preview.png", "100%/p.json"})
+    scratch.put(name, name);
+  const std::vector<std::string> paths = {scratch / "walk", scratch / "walk/b_%d.obj", scratch / "run",
+                                          scratch / "100%/p.json", "tshirt"};
+  std::vector<std::string> names;
+  for (const WrittenFile& file : checksums_of_inputs(paths, scratch / "out/here")) names.push_back(file.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"../../walk/b_1.obj", "../../walk/b_2.obj", "../../walk/b_1.obj",
+                                             "../../walk/b_2.obj", "../../run/report.json", "../../run/cloth.obj",
+                                             "../../run/cloth.pc2", "../../100%/p.json"}));
 }
 
 TEST(InputHash, TextsThatFollowEachOtherDoNotRunIntoEachOther) {
