@@ -67,12 +67,12 @@ class BodyImpactQuery {
         workspace_(workspace),
         start_(start),
         end_(end),
-        separation_m_(separation_share * guard.contact_m) {}
+        separation_m_(separation_share * guard.contact_m),
+        most_(most_impacts(start.size())) {}
 
   void walk(TreeTask task, std::vector<Impact>& found) const {
-    const std::size_t most = most_impacts_of_a_task(start_.size());
     tree_.visit_cross(body_.tree(), task, [&](Index a, Index b) {
-      if (found.size() > most) return;
+      if (found.size() > most_) return;
       const Mover &p = workspace_.cloth[at(a)], &q = workspace_.body[at(b)];
       const double moving = (p.displacement - q.displacement).norm() + p.differ + q.differ + separation_m_,
                    reach = p.radius + q.radius + moving;
@@ -149,6 +149,7 @@ class BodyImpactQuery {
   const BodyImpactWorkspace& workspace_;
   std::span<const Vec3> start_, end_;
   double separation_m_;
+  std::size_t most_;  // of one task as of all: how the body's tree is cut into tasks, a solid far away decides, too
 };
 
 // Does the segment pq pass through the triangle?
@@ -180,7 +181,8 @@ bool find_body_impacts(const ClothTopology& cloth, TriangleTree& tree, std::span
     workspace.found[i].clear();
     query.walk(workspace.tasks[i], workspace.found[i]);
   });
-  return gather_impacts(std::span(workspace.found).first(workspace.tasks.size()), start.size(), impacts);
+  return gather_impacts(std::span(workspace.found).first(workspace.tasks.size()), start.size(),
+                        most_impacts(start.size()), impacts);
 }
 
 bool mark_through_body(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x, const BodySurface& body,

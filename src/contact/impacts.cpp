@@ -68,7 +68,7 @@ class ImpactQuery {
             if (found.size() <= most) decide_edges(e, f, found);
           });
     });
-    return gather_impacts(found(workspace_.tasks.size()), start_.size(), impacts);
+    return gather_impacts(found(workspace_.tasks.size()), start_.size(), most, impacts);
   }
 
   // All of them, by lists that hold.  False: they are so many that the walk might have stopped, and is to say.
@@ -86,7 +86,7 @@ class ImpactQuery {
         look_up_edges(pairs, begin, std::min(begin + list_grain, edges), workspace_.found[i]);
       }
     });
-    return gather_impacts(found(blocks), start_.size(), impacts) && impacts.size() <= few_impacts;
+    return gather_impacts(found(blocks), start_.size(), few_impacts, impacts) && impacts.size() <= few_impacts;
   }
 
  private:
@@ -178,19 +178,22 @@ bool find_impacts(const ClothTopology& cloth, TriangleTree& tree, std::span<cons
     tree.refit(workspace.boxes);
     all = query.walk(impacts);
   }
+  return all;
+}
+
+bool gather_impacts(std::span<const std::vector<Impact>> found, std::size_t particles, std::size_t of_a_task,
+                    std::vector<Impact>& impacts) {
+  const std::size_t most = most_impacts(particles);
+  bool all = true;
+  for (const std::vector<Impact>& of_task : found) {
+    impacts.insert(impacts.end(), of_task.begin(), of_task.end());
+    all = of_task.size() <= of_a_task && impacts.size() <= most;
+    if (!all) break;
+  }
   std::sort(impacts.begin(), impacts.end(), [](const Impact& a, const Impact& b) {
     return a.kind != b.kind ? a.kind < b.kind : a.particle < b.particle;
   });
   return all;
-}
-
-bool gather_impacts(std::span<const std::vector<Impact>> found, std::size_t particles, std::vector<Impact>& impacts) {
-  const std::size_t most = most_impacts(particles), of_a_task = most_impacts_of_a_task(particles);
-  for (const std::vector<Impact>& of_task : found) {
-    impacts.insert(impacts.end(), of_task.begin(), of_task.end());
-    if (of_task.size() > of_a_task || impacts.size() > most) return false;
-  }
-  return true;
 }
 
 double impact_time(const Impact& pair, std::span<const Vec3> start, std::span<const Vec3> end) {

@@ -44,13 +44,13 @@ struct ImpactWorkspace {
 // Impacts beyond which a motion is not worth correcting: whatever made it threw cloth through cloth, or through the body.
 inline constexpr std::size_t few_impacts = 20'000;
 inline std::size_t most_impacts(std::size_t particles) { return few_impacts + 4 * particles; }
-// A task that finds more by itself stops there: a hundred that each went on to most_impacts would fill the memory.
+// A task of cloth with cloth that finds more by itself stops there: a hundred that each went on to most_impacts would fill the memory.
 inline std::size_t most_impacts_of_a_task(std::size_t particles) {
   return std::max(few_impacts, most_impacts(particles) / 8);
 }
-// What tasks have found, in their order.  Returns false, and stops, at more than these.
+// What tasks have found, sorted by (kind, particles).  Returns false, and stops, at more than most_impacts of all, or `of_a_task` of one.
 [[nodiscard]] bool gather_impacts(std::span<const std::vector<Impact>> found, std::size_t particles,
-                                  std::vector<Impact>& impacts);
+                                  std::size_t of_a_task, std::vector<Impact>& impacts);
 
 // All impacts, sorted by (kind, particles).  `contact_m` is r per particle, a pair takes the least of
 // its four; 0 exempts, and so does being let be (contact/pinched.hpp; `pinched` per particle, or empty).  Of `tree` only the hierarchy is used;

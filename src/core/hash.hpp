@@ -33,7 +33,7 @@ inline std::uint64_t checksum(const void* data, std::size_t size) {
     take(word);
   }
   std::uint64_t rest = 0;
-  std::memcpy(&rest, bytes, size);
+  if (size > 0) std::memcpy(&rest, bytes, size);  // of nothing there may be no pointer
   take(rest);
   return value;
 }

@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace toile {
 namespace {
@@ -84,6 +87,34 @@ TEST(BodyImpacts, AreThoseThatTryingEveryPairFinds) {
     all += expected.size();
   }
   EXPECT_GT(all, 100u);
+}
+
+// Impacts at one time are met in their order, so it must not be that of the body's tree.
+TEST(BodyImpacts, ComeInAnOrderThatASolidFarAwayDoesNotChange) {
+  Scene scene(4e-3);
+  Random random(3);
+  Vec3s end = scene.sheet.x;
+  for (Vec3& p : end) p += Vec3(0, -0.02, 0) + random.vector(0.01);
+  const auto impacts_with = [&](const BodySurface& body) {
+    std::vector<Impact> impacts;
+    EXPECT_TRUE(find_body_impacts(scene.cloth, scene.tree, scene.sheet.x, end, {&body, r_m, scene.exempt},
+                                  scene.workspace, impacts));
+    std::vector<std::pair<ContactKind, std::array<Index, 4>>> names;
+    for (const Impact& impact : impacts) names.emplace_back(impact.kind, impact.particle);
+    return names;
+  };
+  const auto alone = impacts_with(scene.body);
+  ASSERT_GT(alone.size(), 50u);
+  EXPECT_TRUE(std::is_sorted(alone.begin(), alone.end()));
+  for (const double away_m : {-50.0, 3.0, 40.0}) {
+    Vec3s x(scene.body.positions().begin(), scene.body.positions().end());
+    std::vector<Triangle> triangles(scene.body.triangles().begin(), scene.body.triangles().end());
+    const BodySurface far = test::sphere(Vec3(away_m, 2, 10), 1, 2);
+    const auto first = static_cast<Index>(x.size());
+    for (const Triangle& t : far.triangles()) triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    x.insert(x.end(), far.positions().begin(), far.positions().end());
+    EXPECT_EQ(impacts_with(BodySurface(x, triangles)), alone) << away_m;
+  }
 }
 
 TEST(BodyImpacts, LeaveOutWhatIsExempt) {

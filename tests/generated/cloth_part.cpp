@@ -114,7 +114,9 @@ std::string ClothPart::turning_moves() const {
 
 void ClothPart::set_pins(Object& cloth) const {
   const std::string corner = (centre_ + Place{-0.3, 0.3, 0}).text(), other = (centre_ + Place{0.3, 0.3, 0}).text();
-  const std::string box = list({vector(-9, -9, -9), vector(centre_.x - 0.05, 9, 9)});
+  // A cloth that is turned may reach no farther to this side than its middle.
+  const double side = is("placed", "turned") ? 0.001 : -0.05;
+  const std::string box = list({vector(-9, -9, -9), vector(centre_.x + side, 9, 9)});
   const std::string half = number(0.5 * seconds_);
   std::vector<std::string> pins;
   if (is("pins", "near")) pins = {Object().set("near_m", corner).text()};
