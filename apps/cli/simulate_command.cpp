@@ -215,7 +215,10 @@ ExitCode simulate_command(const CommandLine& line) {
   options.resume = line.resume;
   options.checkpoints.every_frames = line.checkpoint_frames.value_or(0);
   options.seconds_before = since_start.seconds();
-  if (line.command == CommandLine::Command::demo) options.read = embedded_text;
+  if (line.command == CommandLine::Command::demo) {
+    options.read = embedded_text;
+    options.built_in = true;
+  }
   options.progress = [&](const Progress& progress) { bar.show(progress); };
   options.stop = interrupted;
   options.limits = line.limits;

@@ -35,7 +35,7 @@ Report Run::operator()() {
         "the folder held a run that was interrupted; it is replaced, toile resume would have gone on with it");
   Hash hash;
   load(hash);
-  report_.inputs = checksums_of_inputs(inputs, folder_->directory());
+  if (!options_.built_in) report_.inputs = checksums_of_inputs(inputs, folder_->directory());
   describe_run(hash.hex());
   if (options_.resume) {
     take_up(hash.value());

@@ -36,6 +36,7 @@ struct RunOptions {
   CheckpointOptions checkpoints;
   double seconds_before = 0;  // wall time since the program began, for the report
   TextSource read = read_text_file;
+  bool built_in = false;                          // what the scene names is not on the disk: only `read` knows it
   std::function<void(const Progress&)> progress;  // may be empty
   std::function<bool()> stop;                     // asked between frames; may be empty
   BudgetLimits limits;                            // what the run may take: refused beyond, before anything is made

@@ -226,6 +226,7 @@ TEST(Check, GoesOnAfterABadFile) {
 
 TEST(Demo, TheDefaultIsAGarmentOnABodyThatWalks) {
   const Scratch scratch;
+  scratch.put("patterns/tshirt.json", "not the one that is built in");
   const Ended ended =
       run_toile(scratch, {"demo", "--resolution", "4", "--seconds", "0.2", "--no-preview", "--out", scratch / "out"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -233,6 +234,7 @@ TEST(Demo, TheDefaultIsAGarmentOnABodyThatWalks) {
   EXPECT_EQ(report.at("verdict").string(), "pass");
   EXPECT_EQ(report.at("motion").at("name").string(), "walk");
   EXPECT_EQ(report.at("motion").at("frames").number(), 6);
+  EXPECT_TRUE(report.at("inputs").object().empty()) << "no file was read";
 }
 
 TEST(Demo, ListsWhatItHas) {
