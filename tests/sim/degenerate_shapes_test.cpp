@@ -106,7 +106,8 @@ TEST(DegenerateShapes, AreRefusedAtTheirPlaceWhateverTheNumbers) {
     if (kind == 2 && least <= 0) return std::pow(10.0, -std::uniform_real_distribution<double>(3, 320)(random));
     if (kind == 3 && least > 0)
       return least * std::pow(most / least, std::uniform_real_distribution<double>(0, 1)(random));
-    return std::uniform_real_distribution<double>(std::max(least, -2.0), std::min(most, 2.0))(random);
+    const double low = std::clamp(-2.0, least, most);
+    return std::uniform_real_distribution<double>(low, std::clamp(2.0, low, most))(random);
   };
   const auto text = [](double x) {
     char digits[32];
