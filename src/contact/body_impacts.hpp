@@ -33,8 +33,8 @@ struct BodyImpactWorkspace {
   std::vector<Mover> cloth, body;  // [triangle]
 };
 
-// All impacts, sorted by (kind, particles), so that their order does not depend on what else the body has.  Of `tree` only the hierarchy is used; its boxes
-// become those of the motion.
+// All impacts, sorted by (kind, particles), so that their order does not depend on what else the body has.  Of `tree` only the hierarchy is
+// used; its boxes become those of the motion.
 // Returns false when there are too many, as find_impacts does: then not all are there.
 [[nodiscard]] bool find_body_impacts(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                                      std::span<const Vec3> end, const BodyGuard& guard, BodyImpactWorkspace& workspace,

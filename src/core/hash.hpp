@@ -1,7 +1,7 @@
 // core/hash.hpp: 64-bit fingerprints of bits; not for security.
 //
 //   Hash       FNV-1a: `state_hash`, `input_hash`, golden tests
-//   checksum   of a frame or a file: whether it is what was written.  Eight bytes at a time, as every step is one-to-one in the state
+//   Checksum   of a frame or a file: whether it is what was written.  Eight bytes at a time, as every step is one-to-one in the state
 //              and in the word: two texts of one length that differ in one word never have the same.
 #pragma once
 #include <cstddef>
@@ -20,22 +20,34 @@ inline std::string hex_of(std::uint64_t value) {
   return text;
 }
 
-inline std::uint64_t checksum(const void* data, std::size_t size) {
-  const auto* bytes = static_cast<const unsigned char*>(data);
-  std::uint64_t value = 0x9e3779b97f4a7c15ULL ^ size;
-  const auto take = [&value](std::uint64_t word) {
-    value = (value ^ word) * 0xff51afd7ed558ccdULL;
-    value ^= value >> 32;
-  };
-  for (; size >= 8; bytes += 8, size -= 8) {
-    std::uint64_t word;
-    std::memcpy(&word, bytes, 8);
-    take(word);
+// In pieces, of whose lengths all but the last are multiples of eight.
+class Checksum {
+ public:
+  explicit Checksum(std::uint64_t size_bytes) : value_(0x9e3779b97f4a7c15ULL ^ size_bytes) {}
+  void add(const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    for (; size >= 8; bytes += 8, size -= 8) {
+      std::uint64_t word;
+      std::memcpy(&word, bytes, 8);
+      value_ = after(word);
+    }
+    if (size > 0) std::memcpy(&rest_, bytes, size);  // of nothing there may be no pointer
   }
-  std::uint64_t rest = 0;
-  if (size > 0) std::memcpy(&rest, bytes, size);  // of nothing there may be no pointer
-  take(rest);
-  return value;
+  std::uint64_t value() const { return after(rest_); }
+
+ private:
+  std::uint64_t after(std::uint64_t word) const {
+    const std::uint64_t value = (value_ ^ word) * 0xff51afd7ed558ccdULL;
+    return value ^ (value >> 32);
+  }
+
+  std::uint64_t value_, rest_ = 0;
+};
+
+inline std::uint64_t checksum(const void* data, std::size_t size) {
+  Checksum sum(size);
+  sum.add(data, size);
+  return sum.value();
 }
 
 class Hash {

@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
-#include <limits>
 #include <system_error>
+#include <vector>
 
 namespace toile {
 namespace {
@@ -92,13 +92,18 @@ std::FILE* open_regular_file(const std::string& path, std::uint64_t& size_bytes)
   return file;
 }
 
+namespace {
+
+struct Closed {
+  std::FILE* file;
+  ~Closed() { std::fclose(file); }
+};
+
+}  // namespace
+
 std::string read_file(const std::string& path, std::size_t limit_bytes) {
   const auto too_large = [&](const std::string& size) {
     throw InputError(printable(path), "", "a file of at most " + std::to_string(limit_bytes) + " bytes", size);
-  };
-  struct Closed {
-    std::FILE* file;
-    ~Closed() { std::fclose(file); }
   };
   std::uint64_t size = 0;
   const Closed closed{open_regular_file(path, size)};
@@ -121,8 +126,17 @@ std::string read_file(const std::string& path, std::size_t limit_bytes) {
 }
 
 std::string checksum_of_file(const std::string& path) {
-  const std::string bytes = read_file(path, std::numeric_limits<std::size_t>::max() - 1);
-  return hex_of(checksum(bytes.data(), bytes.size()));
+  std::uint64_t size = 0;
+  const Closed closed{open_regular_file(path, size)};
+  Checksum sum(size);
+  std::vector<char> piece(std::size_t{1} << 20);
+  for (;;) {
+    const std::size_t got = std::fread(piece.data(), 1, piece.size(), closed.file);
+    sum.add(piece.data(), got);
+    if (got < piece.size()) break;
+  }
+  if (std::ferror(closed.file)) throw IoError(path, reason("cannot read", errno));
+  return hex_of(sum.value());
 }
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {

@@ -184,14 +184,19 @@ void add_rest_stretch(JsonText& text, const Report& report) {
   }
 }
 
-// Pictures are Toile's, too, and may be made at any time: they are listed, without a checksum.
 void add_inputs(JsonText& text, const Report& report) {
   text.key("inputs");
-  text.begin_object();
-  for (const WrittenFile& input : report.inputs) text.member(input.name, input.checksum);
-  text.end_object();
+  text.begin_array();
+  for (const InputFile& input : report.inputs) {
+    text.begin_object();
+    text.member("path", input.path);
+    text.member("checksum", input.checksum);
+    text.end_object();
+  }
+  text.end_array();
 }
 
+// Pictures are Toile's, too, and may be made at any time: they are listed, without a checksum.
 void add_files(JsonText& text, const Report& report) {
   text.key("files");
   text.begin_object();

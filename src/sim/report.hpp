@@ -64,8 +64,12 @@ struct StartReport {  // of cloth that passed through itself or the body before 
   }
 };
 
-// A file of the run as it was written, or read (core/hash.hpp): of an OBJ or an input the checksum of all, of a cache that of its header and of
-// each frame.
+// A file that the run read (core/hash.hpp), its path as seen from the folder of the run.
+struct InputFile {
+  std::string path, checksum;
+};
+
+// A file of the run as it was written (core/hash.hpp): of an OBJ the checksum of all, of a cache that of its header and of each frame.
 struct WrittenFile {
   std::string name, checksum;
   std::vector<std::string> frames;  // of a cache
@@ -94,7 +98,7 @@ struct Report {
   LayerGap layer_gap;  // last frame
   Verdict verdict;
   double peak_memory_mb = 0;
-  std::vector<WrittenFile> inputs;  // their paths as seen from the folder of the run
+  std::vector<InputFile> inputs;
   std::vector<WrittenFile> files;
 
   // Of a run that is taken up again, what was known when it was left; the rest follows from the scene.

@@ -4,25 +4,14 @@
 #include "io/file.hpp"
 
 #include <filesystem>
+#include <set>
 
 namespace toile {
+namespace {
 
-std::vector<std::string> input_paths(const Scene& scene) {
-  std::vector<std::string> paths;
-  const auto add = [&](const std::string& path) {
-    if (!path.empty()) paths.push_back(path);
-  };
-  for (const SceneCloth& cloth : scene.cloth) add(cloth.pattern);
-  add(scene.body.mesh);
-  if (scene.body.motion) add(scene.body.motion->path);
-  for (const SceneSolid& solid : scene.solids)
-    if (const auto* mesh = std::get_if<SceneSolid::Mesh>(&solid.shape)) add(mesh->path);
-  add(scene.start);
-  return paths;
-}
+namespace fs = std::filesystem;
 
-std::vector<std::string> input_files(std::span<const std::string> paths) {
-  namespace fs = std::filesystem;
+std::vector<std::string> files_among(std::span<const std::string> paths) {
   std::vector<std::string> files;
   for (const std::string& path : paths) {
     const fs::path place(path);
@@ -38,12 +27,29 @@ std::vector<std::string> input_files(std::span<const std::string> paths) {
   return files;
 }
 
-std::vector<WrittenFile> checksums_of_inputs(std::span<const std::string> paths, const std::string& directory) {
-  namespace fs = std::filesystem;
-  std::vector<WrittenFile> inputs;
-  for (const std::string& file : input_files(paths)) {
-    const fs::path seen = fs::absolute(file).lexically_proximate(fs::absolute(directory).lexically_normal());
-    inputs.push_back({seen.generic_string(), checksum_of_file(file), {}});
+}  // namespace
+
+std::vector<std::string> input_paths(const Scene& scene) {
+  std::vector<std::string> paths;
+  const auto add = [&](const std::string& path) {
+    if (!path.empty()) paths.push_back(path);
+  };
+  for (const SceneCloth& cloth : scene.cloth) add(cloth.pattern);
+  add(scene.body.mesh);
+  if (scene.body.motion) add(scene.body.motion->path);
+  for (const SceneSolid& solid : scene.solids)
+    if (const auto* mesh = std::get_if<SceneSolid::Mesh>(&solid.shape)) add(mesh->path);
+  add(scene.start);
+  return paths;
+}
+
+std::vector<InputFile> checksums_of_inputs(std::span<const std::string> paths, const std::string& directory) {
+  const fs::path from = fs::absolute(directory).lexically_normal();
+  std::set<std::string> known;
+  std::vector<InputFile> inputs;
+  for (const std::string& file : files_among(paths)) {
+    const std::string seen = fs::absolute(file).lexically_proximate(from).generic_string();
+    if (known.insert(seen).second) inputs.push_back({seen, checksum_of_file(file)});
   }
   return inputs;
 }

@@ -1,4 +1,4 @@
-// sim/scene_inputs.hpp: which files and folders a scene reads, and what they held when it was read.
+// sim/scene_inputs.hpp: which files and folders a scene reads, and what they hold.
 #pragma once
 #include "sim/report.hpp"
 #include "sim/scene.hpp"
@@ -11,11 +11,8 @@ namespace toile {
 
 std::vector<std::string> input_paths(const Scene& scene);
 
-// The files among `paths`; of a folder those that a scene reads from it: the frames of a motion, or the run that is the start.
-std::vector<std::string> input_files(std::span<const std::string> paths);
-
-// With the checksum of what they hold now, and their paths as seen from `directory`.  What is not a file (a pattern that is built in) is left out.
-// Throws IoError.
-std::vector<WrittenFile> checksums_of_inputs(std::span<const std::string> paths, const std::string& directory);
+// The files among `paths`, each once; of a folder those that a scene reads from it: the frames of a motion, or the run that is the start.
+// With the checksum of what they hold now, and their paths as seen from `directory`.  What is neither is left out.  Throws IoError.
+std::vector<InputFile> checksums_of_inputs(std::span<const std::string> paths, const std::string& directory);
 
 }  // namespace toile

@@ -36,14 +36,15 @@ Integrity::Integrity(const std::string& directory, std::string_view text, const 
 Integrity::Inputs Integrity::check_inputs(const std::string& directory, const Json& report) {
   Inputs result;
   const Json* inputs = report.find("inputs");
-  if (inputs == nullptr || !inputs->is_object()) return result;
-  for (const auto& [name, sum] : inputs->object()) {
+  if (inputs == nullptr) return result;
+  for (const Json& input : inputs->array()) {
     ++result.known;
-    const std::string path = join(directory, name);  // `name` itself when it is absolute
+    const std::string& seen = input.at("path").string();
+    const std::string path = join(directory, seen);  // `seen` itself when it is absolute
     if (!std::filesystem::is_regular_file(path)) {
       ++result.missing;
-    } else if (checksum_of_file(path) != sum.string()) {
-      result.changed.push_back(name);
+    } else if (checksum_of_file(path) != input.at("checksum").string()) {
+      result.changed.push_back(seen);
     }
   }
   return result;

@@ -140,6 +140,20 @@ TEST(Folder, VerifySaysWhenTheInputsAreOthersNow) {
   EXPECT_NE(verify().out.find("1 no longer there"), std::string::npos);
 }
 
+TEST(Folder, AFileThatIsReadTwiceIsOneInput) {
+  const Scratch scratch;
+  scratch.put("box.obj",
+              "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
+              "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+  scratch.put("s.json", R"({"cloth": [{"grid": {"edge_m": 0.1}}], "time": {"seconds": 0.1},
+      "solids": [{"mesh": "box.obj", "placement": {"translation_m": [3, 0, 0]}},
+                 {"mesh": "box.obj", "placement": {"translation_m": [-3, 0, 0]}}]})");
+  run_toile(scratch, {"run", "s.json", "--out", "a", "--quiet"});
+  const Ended judged = run_toile(scratch, {"verify", "a"});
+  EXPECT_EQ(judged.exit_code, 0) << judged.err;
+  EXPECT_NE(judged.out.find("files that it read: 2, 0 of them changed"), std::string::npos) << judged.out;
+}
+
 TEST(Folder, EveryFlippedBitIsNoticed) {
   const Scratch scratch;
   scratch.put("s.json", scene);

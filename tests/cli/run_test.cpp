@@ -234,7 +234,7 @@ TEST(Demo, TheDefaultIsAGarmentOnABodyThatWalks) {
   EXPECT_EQ(report.at("verdict").string(), "pass");
   EXPECT_EQ(report.at("motion").at("name").string(), "walk");
   EXPECT_EQ(report.at("motion").at("frames").number(), 6);
-  EXPECT_TRUE(report.at("inputs").object().empty()) << "no file was read";
+  EXPECT_TRUE(report.at("inputs").array().empty()) << "no file was read";
 }
 
 TEST(Demo, ListsWhatItHas) {

@@ -1,5 +1,7 @@
 #include "io/file.hpp"
 
+#include "core/hash.hpp"
+
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -16,6 +18,18 @@ namespace toile {
 namespace {
 
 using namespace std::string_literals;
+
+// It is read in pieces of a mebibyte.
+TEST(ReadFile, AFilesChecksumIsThatOfItsBytes) {
+  const Scratch scratch;
+  std::string bytes;
+  for (const std::size_t size : {0UL, 1UL, 8UL, 13UL, 1UL << 20, (1UL << 20) + 3, (3UL << 20) - 1}) {
+    while (bytes.size() < size) bytes += static_cast<char>(bytes.size() * 7 + bytes.size() / 251);
+    bytes.resize(size);
+    EXPECT_EQ(checksum_of_file(scratch.put("f", bytes)), hex_of(checksum(bytes.data(), size))) << size;
+    bytes.clear();
+  }
+}
 
 TEST(ReadFile, ReturnsEveryByte) {
   const Scratch scratch;

@@ -55,10 +55,10 @@ TEST(InputFiles, AreThoseThatASceneReads) {
   const std::vector<std::string> paths = {scratch / "walk", scratch / "walk/b_%d.obj", scratch / "run",
                                           scratch / "100%/p.json", "tshirt"};
   std::vector<std::string> names;
-  for (const WrittenFile& file : checksums_of_inputs(paths, scratch / "out/here")) names.push_back(file.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"../../walk/b_1.obj", "../../walk/b_2.obj", "../../walk/b_1.obj",
-                                             "../../walk/b_2.obj", "../../run/report.json", "../../run/cloth.obj",
-                                             "../../run/cloth.pc2", "../../100%/p.json"}));
+  for (const InputFile& file : checksums_of_inputs(paths, scratch / "out/here")) names.push_back(file.path);
+  EXPECT_EQ(names, (std::vector<std::string>{"../../walk/b_1.obj", "../../walk/b_2.obj", "../../run/report.json",
+                                             "../../run/cloth.obj", "../../run/cloth.pc2", "../../100%/p.json"}))
+      << "each once";
 }
 
 TEST(InputHash, TextsThatFollowEachOtherDoNotRunIntoEachOther) {
