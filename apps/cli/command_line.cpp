@@ -178,6 +178,11 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App* bench = add_bench(app, line);
   for (CLI::App* command : {demo, dress, run, check, verify, preview}) add_common(*command, line);
   for (CLI::App* command : {demo, dress, run, check}) add_limits(*command, line);
+  for (CLI::App* command : {demo, dress, run})
+    command
+        ->add_option("--time-limit", line.time_limit_s,
+                     "Seconds that dressing may take, up to the motion; then what there is is written; 0: any")
+        ->check(CLI::Range(0.0, 1e9));
 
   try {
     app.parse(argc, argv);

@@ -29,6 +29,7 @@ struct CommandLine {
   std::optional<int> checkpoint_frames;  // absent: by time
   bool resume = false;                   // simulate_command: go on with what is in `out`
   BudgetLimits limits;
+  std::optional<double> time_limit_s;  // default_time_limit_s for `dress`, else none
 
   // Of bench.
   bool csv = false;

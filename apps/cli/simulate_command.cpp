@@ -179,6 +179,9 @@ Scene scene_of(const CommandLine& line) {
   return scene;
 }
 
+// Of `dress`: what nobody watches may not run for a quarter of an hour.
+constexpr double default_time_limit_s = 300;
+
 std::string summary(const Report& report, const std::string& directory) {
   const PhaseReport& drape = report.drape;
   std::string out = directory + ": " + judgement_line(report.verdict) + " (ended: " + report.ended + ")\n" +
@@ -222,6 +225,8 @@ ExitCode simulate_command(const CommandLine& line) {
   options.progress = [&](const Progress& progress) { bar.show(progress); };
   options.stop = interrupted;
   options.limits = line.limits;
+  const bool dresses = line.command == CommandLine::Command::dress;
+  options.time_limit_s = line.time_limit_s.value_or(dresses ? default_time_limit_s : 0);
   const Report report = simulate(scene, options);
   ExitCode code = exit_code(report);
 

@@ -56,6 +56,7 @@ MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_inde
   }
   garment.mesh.particle_count += static_cast<Index>(planar.points.size());
   garment.mesh.panel_names.push_back(panel.name);
+  garment.panel_labels.push_back(panel.label);
   garment.mesh.panel_cloth.push_back({panel.fabric, panel.rest_stretch});
   for (std::size_t f = 0; f < panel.folds.size(); ++f) {
     for (const auto& [a, b] : mesh.folded.line[f])
@@ -143,6 +144,12 @@ void orient_panels(GarmentMesh& garment, const Pattern& pattern, const std::vect
   }
 }
 
+void merge_pairs(GarmentMesh& garment) {
+  DisjointSets merged(at(garment.mesh.particle_count));
+  for (const SeamPair& pair : garment.pairs) merged.join(pair.a, pair.b);
+  garment.merged = merged.representatives();
+}
+
 GarmentMesh join_panels(const Pattern& pattern, std::span<const PanelMesh> panels) {
   GarmentMesh garment;
   garment.name = pattern.name;
@@ -158,13 +165,29 @@ GarmentMesh join_panels(const Pattern& pattern, std::span<const PanelMesh> panel
   for (const Stitch& stitch : pattern.stitches) add_seam(garment, pattern, stitch, meshed);
   orient_panels(garment, pattern, meshed);
 
-  DisjointSets merged(at(garment.mesh.particle_count));
-  for (const SeamPair& pair : garment.pairs) merged.join(pair.a, pair.b);
-  garment.merged = merged.representatives();
+  merge_pairs(garment);
   return garment;
 }
 
 }  // namespace
+
+void GarmentMesh::leave_open(std::span<const Index> open_pairs) {
+  if (open_pairs.empty()) return;
+  std::vector<char> open(pairs.size(), 0);
+  for (const Index k : open_pairs) open[at(k)] = 1;
+  std::vector<SeamPair> closed;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (!open[k]) closed.push_back(pairs[k]);
+  pairs = std::move(closed);
+  merge_pairs(*this);
+}
+
+std::vector<Index> GarmentMesh::panel_of_particle() const {
+  std::vector<Index> panel(x.size(), -1);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const Index i : mesh.triangles[t]) panel[at(i)] = mesh.panel[t];
+  return panel;
+}
 
 GarmentMesh mesh_garment(const Pattern& pattern, double resolution_m) {
   PanelMesher panels(pattern);

@@ -12,6 +12,7 @@
 #include "garment/pattern.hpp"
 #include "mesh/cloth_mesh.hpp"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,9 +41,14 @@ struct GarmentMesh {
   std::vector<Seam> seams;      // one per stitch
   std::vector<SeamPair> pairs;  // a dart's apex, sewn to itself, is not among them
   std::vector<LabelledEdge> labels;
+  std::vector<std::string> panel_labels;  // [panel] "body", "arm", "leg" ... or empty
   std::vector<Index> merged;        // [particle] smallest particle of the class it will be welded into (itself if none)
   std::vector<bool> on_panel_edge;  // [particle]
   bool legacy_frame = false;
+
+  // Takes these of `pairs` away (their places, ascending): the weld leaves them open.
+  void leave_open(std::span<const Index> open_pairs);
+  std::vector<Index> panel_of_particle() const;  // -1: of a particle in no triangle
 };
 
 struct MeshQuality {  // for reports

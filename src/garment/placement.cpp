@@ -109,15 +109,23 @@ Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size
   }
   for (Vec3& p : garment.x) p += shifts[best];
   placement.shift_m += shifts[best];
-  placement.blocked = blocked[best].pairs;
+  find_blocked(garment, body, placement);
+  return placement;
+}
+
+void find_blocked(const GarmentMesh& garment, const BodySurface& body, Placement& placement) {
+  const BodyLines lines(body);
+  placement.blocked_seams.clear();
+  placement.blocked = 0;
   placement.panel_crossings = edges_in_body(garment, lines, Vec3::Zero());
   for (const SeamPair& pair : garment.pairs) {
-    if (lines.blocked(garment.x[at(pair.a)], garment.x[at(pair.b)])) placement.blocked_seams.push_back(pair.seam);
+    if (!lines.blocked(garment.x[at(pair.a)], garment.x[at(pair.b)])) continue;
+    ++placement.blocked;
+    placement.blocked_seams.push_back(pair.seam);
   }
   std::sort(placement.blocked_seams.begin(), placement.blocked_seams.end());
   placement.blocked_seams.erase(std::unique(placement.blocked_seams.begin(), placement.blocked_seams.end()),
                                 placement.blocked_seams.end());
-  return placement;
 }
 
 }  // namespace toile

@@ -23,6 +23,8 @@ struct Placement {
 // of the body's height: their origin is near the pelvis.  Of the body's vertices the first `person_vertices` are the person's; what comes
 // behind them, solids, has no part in that height.
 Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size_t person_vertices);
+// The garment where it is: everything of `placement` but the shift and what was before it.
+void find_blocked(const GarmentMesh& garment, const BodySurface& body, Placement& placement);
 inline Placement place_garment(GarmentMesh& garment, const BodySurface& body) {
   return place_garment(garment, body, body.positions().size());
 }

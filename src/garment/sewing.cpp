@@ -149,7 +149,11 @@ void Sewing::judge_progress() {
   }
   const bool reached = options_.closing_speed_m_per_s * time_s_ >= longest_m_;
   const bool stopped = reached && time_s_ - best_time_s_ >= options_.patience_s;
-  const bool near = gap < options_.weld_gap_m || (stopped && gap < options_.weld_share * mean_edge_m_);
+  const bool given_up = stopped && (escalations_ == most_escalations || gaps().front().stretch > options_.too_small);
+  const double weldable_m = given_up  ? std::min(0.5 * mean_edge_m_, options_.last_gap_m)
+                            : stopped ? options_.weld_share * mean_edge_m_
+                                      : 0;
+  const bool near = gap < std::max(options_.weld_gap_m, weldable_m);
   weld_obstacle_.reset();
   if (near || escalations_ >= lets_through) {
     Vec3s closed = state_.x;
@@ -164,7 +168,7 @@ void Sewing::judge_progress() {
   }
   if (escalations_ > 0) thin_layers();
   if (!stopped) return;
-  if (escalations_ == most_escalations || gaps().front().stretch > options_.too_small) {
+  if (given_up) {
     status_ = SewingStatus::blocked;
     return;
   }
@@ -239,6 +243,16 @@ double Sewing::widest_gap_m() const {
   for (const SeamPair& pair : garment_->pairs)
     widest = std::max(widest, (state_.x[at(pair.b)] - state_.x[at(pair.a)]).norm());
   return widest;
+}
+
+std::vector<Index> Sewing::open_pairs() const {
+  std::vector<Index> open;
+  for (std::size_t k = 0; k < garment_->pairs.size(); ++k) {
+    const SeamPair& pair = garment_->pairs[k];
+    if (!((state_.x[at(pair.b)] - state_.x[at(pair.a)]).norm() < options_.weld_gap_m))
+      open.push_back(static_cast<Index>(k));
+  }
+  return open;
 }
 
 double Sewing::closed_share() const {

@@ -35,6 +35,7 @@ struct SewingOptions {
   double weld_gap_m = 1.5e-3;
   double weld_share =
       0.25;  // of the mean edge: a gap this small is welded where a seam stops closing (a fitted shoulder under tension)
+  double last_gap_m = 5e-3;      // and half an edge: welded rather than left open, when all else has been tried
   double patience_s = 0.2;       // without progress, before layers are thinned, and before each doubling of the pull
   double too_small = 0.2;        // stretch beside an open seam at which pulling harder is given up
   double taut = 0.05;            // likewise, from which on the size is said to be why the seam is open
@@ -82,6 +83,8 @@ class Sewing {
   // Seams by gap, widest first.
   std::vector<SeamGap> gaps() const;
   double widest_gap_m() const;
+  // Places in GarmentMesh::pairs of those that are wider apart than what is welded, ascending.
+  std::vector<Index> open_pairs() const;
   // Where the last attempt to weld would have pushed cloth through cloth.
   std::optional<Vec3> weld_obstacle() const { return weld_obstacle_; }
   const ImplicitEuler& integrator() const { return stepper_->integrator(); }

@@ -86,6 +86,14 @@ std::string Dressing::explain() const {
   return text;
 }
 
+std::vector<Index> Dressing::leave_open() {
+  std::vector<Index> open = sewing_->open_pairs();
+  panels_.leave_open(open);
+  return open;
+}
+
+std::vector<Index> Dressing::particle_of() const { return weld(panels_).particle_of; }
+
 Outfit Dressing::worn() const {
   Outfit worn = outfit_;
   const WeldedMesh welded = weld(panels_);
@@ -95,8 +103,6 @@ Outfit Dressing::worn() const {
   return worn;
 }
 
-LabelSprings Dressing::labels() const {
-  return LabelSprings(panels_, options_.label_heights).welded(weld(panels_).particle_of);
-}
+LabelSprings Dressing::labels() const { return LabelSprings(panels_, options_.label_heights).welded(particle_of()); }
 
 }  // namespace toile

@@ -28,8 +28,13 @@ class Dressing {
   Sewing& sewing() { return *sewing_; }
   const GarmentMesh& panels() const { return panels_; }  // the outfit's and the garment's
   std::string explain() const;                           // where a seam is open, and why
+  // Gives up what is still apart, before worn() of seams that are not closed: what would not close stays open.  Returns
+  // Sewing::open_pairs().
+  std::vector<Index> leave_open();
   // The outfit with the garment on, once the seams are closed; its particles come to rest from where sewing left them.
   Outfit worn() const;
+  // [particle of panels()] particle of worn().
+  std::vector<Index> particle_of() const;
   // Springs of the labels that hold the new garment, on the particles of worn().
   LabelSprings labels() const;
 

@@ -94,6 +94,26 @@ std::vector<std::array<Vec3, 2>> crossing_edges(const Take& cloth, const Vec3s& 
   return edges;
 }
 
+// Between what belongs together and was left open (report.json); none in a run without a report.
+std::vector<std::array<Vec3, 2>> open_seams(const std::filesystem::path& folder, const Vec3s& x) {
+  std::vector<std::array<Vec3, 2>> lines;
+  const std::string path = (folder / "report.json").string();
+  if (!std::filesystem::exists(path)) return lines;
+  const Json report = Json::parse(read_file(path, Json::text_limit), printable(path));
+  const Json* seams = report.find("open_seams");
+  if (seams == nullptr) return lines;
+  for (const Json& seam : seams->array()) {
+    for (const Json& pair : seam.at("vertices").array()) {
+      std::vector<Vec3> ends;
+      for (const Json& end : pair.array())
+        if (const double i = end.number(); i >= 0 && i < static_cast<double>(x.size()))
+          ends.push_back(x[static_cast<std::size_t>(i)]);
+      if (ends.size() == 2) lines.push_back({ends[0], ends[1]});
+    }
+  }
+  return lines;
+}
+
 // `count` frames of first ... last, evenly.
 void add_shots(const Take& take, int first, int last, int count, std::vector<Shot>& shots) {
   for (int k = 0; k < count; ++k)
@@ -167,6 +187,8 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   show({&last, last.frames->samples() - 1});
   const bool finite = std::all_of(x.begin(), x.end(), [](const Vec3& p) { return p.allFinite(); });
   if (draped && finite) scene.red_segments = crossing_edges(cloth, x, body, body_x);
+  if (draped && finite)
+    for (const auto& line : open_seams(folder, x)) scene.red_segments.push_back(line);
   RenderOptions sheet;
   sheet.width = options.sheet_width;
   sheet.height = options.sheet_height;

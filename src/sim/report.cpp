@@ -114,6 +114,8 @@ void add_measurements(JsonText& text, const Report& report) {
   text.member("max", s.max);
   text.member("judged_p99", s.judged_p99);
   text.member("judged_max", s.judged_max);
+  text.member("gauge_p99", s.gauge_p99);
+  text.member("gauge_max", s.gauge_max);
   text.end_object();
   text.key("shear_degrees");
   text.begin_object();
@@ -167,6 +169,30 @@ void add_measurements(JsonText& text, const Report& report) {
   text.member("speed_mm_per_s_p99", report.audit.still_mm_per_s_p99);
   text.end_object();
   add_jitter(text, report.audit.jitter);
+}
+
+void add_open_seams(JsonText& text, const Report& report) {
+  text.key("open_seams");
+  text.begin_array();
+  for (const OpenSeam& seam : report.open_seams) {
+    text.begin_object();
+    text.member("name", seam.name);
+    text.member("gap_mm", 1e3 * seam.gap_m);
+    text.key("where_m");
+    text.begin_array();
+    for (const double d : seam.where) text.value(d);
+    text.end_array();
+    text.key("vertices");
+    text.begin_array();
+    for (const auto& pair : seam.vertices) {
+      text.begin_array();
+      for (const Index i : pair) text.value(i);
+      text.end_array();
+    }
+    text.end_array();
+    text.end_object();
+  }
+  text.end_array();
 }
 
 void add_rest_stretch(JsonText& text, const Report& report) {
@@ -324,6 +350,7 @@ std::string to_json(const Report& report, int indent) {
     text.end_array();
     text.end_object();
   }
+  add_open_seams(text, report);
   text.key("motion");
   if (report.motion_first_frame < 0) {
     text.null();

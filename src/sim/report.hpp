@@ -64,6 +64,18 @@ struct StartReport {  // of cloth that passed through itself or the body before 
   }
 };
 
+// A seam that sewing left open, or a part of it.
+struct OpenSeam {
+  std::string name;
+  double gap_m = 0;                            // the widest, when sewing ended,
+  Vec3 where{0, 0, 0};                         // and where
+  std::vector<std::array<Index, 2>> vertices;  // of cloth.obj, that belong together
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(name, gap_m, where, vertices);
+  }
+};
+
 // A file that the run read (core/hash.hpp), its path as seen from the folder of the run.
 struct InputFile {
   std::string path, checksum;
@@ -78,7 +90,7 @@ struct WrittenFile {
 struct Report {
   std::string command, name;
   std::string input_hash, state_hash;
-  std::string ended;  // "still", "time", "seam_blocked", "step_collapsed", "interrupted"
+  std::string ended;  // "still", "time", "seam_blocked", "step_collapsed", "time_limit", "interrupted" ...
   int threads = 1;
   int vertices = 0, triangles = 0, panels = 0, seams = 0;
   int body_vertices = 0, body_triangles = 0;
@@ -92,6 +104,7 @@ struct Report {
   std::string motion_name;
   Vec3 shift_m{0, 0, 0};  // by which the flat panels were moved before sewing
   StartReport start;
+  std::vector<OpenSeam> open_seams;
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, std::array<double, 2>>> rest_stretch;  // panel, b along the two axes of vt
   VerifyReport audit;
@@ -104,7 +117,7 @@ struct Report {
   // Of a run that is taken up again, what was known when it was left; the rest follows from the scene.
   template <class Archive>
   void remember(Archive& archive) {
-    archive(seconds_total, startup, sewing, drape, motion, motion_first_frame, shift_m, start, warnings);
+    archive(seconds_total, startup, sewing, drape, motion, motion_first_frame, shift_m, start, open_seams, warnings);
   }
 };
 

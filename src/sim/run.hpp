@@ -9,9 +9,11 @@
 #pragma once
 #include "core/state_archive.hpp"
 #include "core/stopwatch.hpp"
+#include "garment/placement.hpp"
 #include "io/run_folder.hpp"
 #include "sim/checkpoint.hpp"
 #include "sim/dressing.hpp"
+#include "sim/dressing_body.hpp"
 #include "sim/falling.hpp"
 #include "sim/outfit_run.hpp"
 #include "sim/phase_report.hpp"
@@ -19,6 +21,8 @@
 #include "sim/setup.hpp"
 #include "sim/simulate.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,7 +32,7 @@
 
 namespace toile {
 
-enum class RunPhase : std::uint8_t { sewing, inner_drape, drape, motion };
+enum class RunPhase : std::uint8_t { sewing, growth, inner_drape, drape, motion };
 
 struct RunPlace {
   RunPhase phase = RunPhase::sewing;
@@ -55,12 +59,25 @@ class Run {
   void say(std::string_view phase, double share, double seconds_left = -1) const {
     if (options_.progress) options_.progress({phase, share, seconds_left});
   }
-  bool stopped() const { return options_.stop && options_.stop(); }
+  bool stopped() const {
+    user_stopped_ = user_stopped_ || (options_.stop && options_.stop());
+    return user_stopped_ || out_of_time();
+  }
+  bool out_of_time() const {
+    return options_.time_limit_s > 0 && place_.phase != RunPhase::motion && total_.seconds() > options_.time_limit_s;
+  }
+  std::function<bool()> stop() const {
+    return [this] { return stopped(); };
+  }
+  bool cut_off(const std::string& when);
   BodySurface* body() { return body_ ? &*body_ : nullptr; }
   bool sewn() const { return scene_.cloth.front().is_sewn(); }
   bool awaits_rest() const { return scene_.until_still || motion_.has_value(); }
   double frame_s() const { return 1 / scene_.fps; }
   int frames_in(double seconds) const;
+  bool all_closed() const {
+    return std::all_of(open_pairs_.begin(), open_pairs_.end(), [](const auto& open) { return open.empty(); });
+  }
   void end(std::string_view how, std::string detail);
   void qualify(std::string_view code, const std::string& detail);
   void collapse(const std::string& when, const FrameReport& frame, const ClothMesh& mesh, std::span<const Vec3> x);
@@ -75,7 +92,8 @@ class Run {
       written_ = writer_->frames();
       report_.seconds_total = earlier_s_ + total_.seconds();
     }
-    archive(place_, written_, report_, qualifications_, before_inner_, slow_inner_, seconds_before_motion_, touches_);
+    archive(place_, written_, report_, failure_, qualifications_, open_pairs_, before_inner_, slow_inner_,
+            seconds_before_motion_, touches_);
   }
   void take_up(std::uint64_t input_hash);
   // Until restore() has been called.
@@ -93,6 +111,7 @@ class Run {
 
   // run_put_on.cpp
   void place(GarmentMesh& garment, bool tell);
+  Placement place_around_arms(GarmentMesh& garment);
   void bad_start(const std::string& name, const std::string& what);
   bool free_start(bool sewn_now);  // false: it was stopped
   std::vector<Index> held_now(bool sewn_now) const;
@@ -101,7 +120,11 @@ class Run {
   void wear_again();
   std::vector<LabelHeight> heights_of(std::size_t cloth, std::vector<std::string>& warnings);
   bool sew(std::size_t cloth);
+  void leave_open(std::size_t cloth, Dressing& dressing);
   FrameReport sew_frames(Dressing& dressing, bool filmed);
+  void make_thin();
+  void stand();
+  bool grow(std::size_t cloth);
   bool drape_inner(std::size_t cloth);
 
   // run_live.cpp
@@ -128,10 +151,12 @@ class Run {
   std::vector<LoadedCloth> cloth_;
   Outfit outfit_;
   Settling settling_;
-  Vec3s body_x_;  // at the last frame
+  Vec3s body_x_;      // at the last frame
+  Vec3s standing_x_;  // how the body stands when it is dressed
   std::vector<Triangle> body_triangles_;
   std::optional<BodySurface> body_;
   std::size_t person_vertices_ = 0, person_triangles_ = 0;  // of body_x_ and body_triangles_; solids come behind
+  std::optional<DressingBody> dressing_body_;               // until the first garment is on
   std::optional<BodyMovement> motion_;
   StepOptions step_;
   std::unique_ptr<RunFolder> folder_;
@@ -140,6 +165,12 @@ class Run {
   std::optional<Checkpoints> checkpoints_;
   TouchMemory touches_;
   std::optional<FallWatch> fall_watch_;
+
+  std::vector<std::vector<Index>>
+      open_pairs_;              // [garment that is on] what its weld left open: places in GarmentMesh::pairs
+  bool stopped_short_ = false;  // put on as far as it went: that one frame is written, and nothing moves
+
+  mutable bool user_stopped_ = false;  // options_.stop has said so
 
   RunPlace place_;
   Vec3s before_inner_;  // x of the frame before, while a garment that others go over is draped

@@ -9,32 +9,37 @@
 namespace toile {
 namespace {
 
-constexpr double rest_s = 0.5;  // after a garment has settled, before it may be said to be still
+constexpr double open_drape_s = 2;  // of a garment with open seams: enough to see how it hangs; it does not move
+constexpr double rest_s = 0.5;      // after a garment has settled, before it may be said to be still
 
 }  // namespace
 
 void Run::live() {
   const bool resumed = resumes();
-  OutfitRun run(scene_, outfit_, body(), step_, settling_, options_.stop);
+  OutfitRun run(scene_, outfit_, body(), step_, settling_, stop());
   run.set_events(events_of(outfit_, cloth_));
   begin_recording(run);
   watch_falling();
   // What hangs now is the run's: a second and a third copy of a fine mesh are large.
   cloth_.clear();
   outfit_.mesh = {};
+  const std::string put_on_ended = failure_.empty() ? "" : report_.ended;
   report_.ended = "time";
   end_startup();
   if (!resumed) {
     place_ = {RunPhase::drape, scene_.cloth.size() - 1, 0};
     keep(run);
   }
-  if (resumed && place_.phase == RunPhase::motion) {
+  if (stopped_short_) {
+    // The frame that is written is all there is.
+  } else if (resumed && place_.phase == RunPhase::motion) {
     animate(run);
   } else {
     if (resumed) restore(run);
     drape(run);
   }
-  if (report_.ended == "time") judge_end(run);
+  if (report_.ended == "time" && failure_.empty()) judge_end(run);
+  if (!put_on_ended.empty() && report_.ended != reason::interrupted) report_.ended = put_on_ended;
   close(run);
 }
 
@@ -57,9 +62,10 @@ void Run::begin_recording(OutfitRun& run) {
 }
 
 void Run::drape(OutfitRun& run) {
-  const bool moving = motion_.has_value();
-  const int frames =
-      moving ? (scene_.drape_seconds > 0 ? frames_in(scene_.drape_seconds) : 1) : frames_in(scene_.seconds);
+  const bool moving = motion_.has_value() && all_closed();
+  const int frames = !all_closed() ? frames_in(std::min(scene_.seconds, open_drape_s))
+                     : moving      ? (scene_.drape_seconds > 0 ? frames_in(scene_.drape_seconds) : 1)
+                                   : frames_in(scene_.seconds);
   const std::int64_t first = place_.frame;
   const Stopwatch watch;
   const auto at_rest = [&] {
@@ -121,7 +127,7 @@ bool Run::frame(OutfitRun& run, PhaseReport& phase, std::string_view what, std::
     frame = run.frame();
   }
   if (frame.interrupted) {
-    end(reason::interrupted, "while " + std::string(what) + ", after frame " + std::to_string(k - 1));
+    cut_off("while " + std::string(what) + ", after frame " + std::to_string(k - 1));
     return false;
   }
   add_frame(phase, frame);

@@ -1,11 +1,15 @@
 // sim/run_put_on.cpp: from flat panels to a garment that is on; what was worn before comes first.
 #include "core/error.hpp"
 #include "garment/placement.hpp"
+#include "garment/sleeves.hpp"
 #include "sim/run.hpp"
 #include "sim/start_run.hpp"
 #include "sim/start_state.hpp"
 
+#include <fmt/printf.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -16,6 +20,7 @@ constexpr double sewing_film_fps = 30;
 constexpr double inner_rest_mm_per_s = 10;  // of a garment that others go over,
 constexpr double inner_rest_s = 0.5;        // for so long
 constexpr double most_waiting_s = 1;
+constexpr std::array<double, 4> arm_lifts{0, 0.25, 0.5, 1};  // 1: level
 
 }  // namespace
 
@@ -39,10 +44,8 @@ bool Run::free_start(bool sewn_now) {
       untangle_start(outfit_, body_triangles_, body_x_, held_now(sewn_now), [&] { return stopped(); });
   if (!untangled.moved_far.empty()) qualify(reason::moved_by_untangling, untangled.moved_far);
   const int weightless = sewn_now ? come_apart() : 0;
-  if (stopped()) {  // how far it came is by chance: it begins again when the run goes on
-    end(reason::interrupted, "while untangling");
-    return false;
-  }
+  // How far it came is by chance: it begins again when the run goes on.
+  if (stopped() && !cut_off("while untangling")) return false;
   const StartCrossings left = start_crossings(outfit_, body_triangles_, body_x_);
   StartReport& start = report_.start;  // of the last garment when several are sewn; trials of all of them
   start = {found.cloth_cloth,
@@ -76,7 +79,7 @@ int Run::come_apart() {
   const int most = frames_in(most_waiting_s);
   int frames = 0;
   while (frames < most && start_crossings(outfit_, {}, {}).all() > 0) {
-    if (!run) run.emplace(scene_, outfit_, body(), step_, waiting, options_.stop);
+    if (!run) run.emplace(scene_, outfit_, body(), step_, waiting, stop());
     const FrameReport frame = run->frame();
     if (frame.interrupted || !frame.ok) break;  // as the drape will say
     ++frames;
@@ -85,12 +88,48 @@ int Run::come_apart() {
   return frames;
 }
 
+// With the arms lifted no farther than leaves the fewest seams behind the thin body.  A wide bodice is drawn flat across the arms: they
+// have to be out of the way of its sides.
+Placement Run::place_around_arms(GarmentMesh& garment) {
+  const GarmentMesh drawn = garment;
+  Placement best;
+  double best_lift = 0;
+  for (const double lift : arm_lifts) {
+    dressing_body_->lift_arms(lift);
+    dressing_body_->lifted(body_x_);
+    stand();
+    GarmentMesh placed = drawn;
+    const auto hang = [&] {
+      if (!dressing_body_->has_arms()) return;
+      const auto axes = dressing_body_->arm_axes();
+      hang_sleeves(placed, {ArmLine{axes[0].root, axes[0].direction}, ArmLine{axes[1].root, axes[1].direction}},
+                   dressing_body_->height_m());
+    };
+    hang();
+    Placement placement = place_garment(placed, *body_, person_vertices_);
+    hang();  // the shift was the whole garment's
+    dressing_body_->at(0, body_x_);
+    stand();
+    find_blocked(placed, *body_, placement);
+    if (lift != arm_lifts.front() && placement.blocked >= best.blocked) continue;
+    best = placement;
+    best_lift = lift;
+    garment = std::move(placed);
+    if (best.blocked == 0 || !dressing_body_->has_arms()) break;
+  }
+  dressing_body_->lift_arms(best_lift);
+  dressing_body_->at(0, body_x_);
+  stand();
+  return best;
+}
+
 // `tell`: what is wrong with the place.
 void Run::place(GarmentMesh& garment, bool tell) {
   if (!body_) return;
   const Timed timed(startup(&StartupReport::placement));
   say("placing", 0);
-  const Placement placement = place_garment(garment, *body_, person_vertices_);
+  const Placement placement =
+      dressing_body_ ? place_around_arms(garment) : place_garment(garment, *body_, person_vertices_);
   if (!tell) return;
   report_.shift_m = placement.shift_m;
   if (placement.panel_crossings > 0)
@@ -102,7 +141,7 @@ void Run::place(GarmentMesh& garment, bool tell) {
 }
 
 std::vector<LabelHeight> Run::heights_of(std::size_t cloth, std::vector<std::string>& warnings) {
-  return label_heights_of(scene_.cloth[cloth], cloth_[cloth].garment, std::span(body_x_).first(person_vertices_),
+  return label_heights_of(scene_.cloth[cloth], cloth_[cloth].garment, std::span(standing_x_).first(person_vertices_),
                           std::span(body_triangles_).first(person_triangles_), warnings);
 }
 
@@ -115,9 +154,13 @@ bool Run::put_on() {
     return free_start(false);
   }
   for (std::size_t k = place_.cloth; k < cloth_.size(); ++k) {
-    const bool is_on = resumes() && place_.phase == RunPhase::inner_drape;
-    if (!is_on && !sew(k)) return false;
-    if (k + 1 < cloth_.size() && !drape_inner(k)) return false;
+    const bool is_sewn = resumes() && place_.phase != RunPhase::sewing;
+    const bool is_on = is_sewn && place_.phase != RunPhase::growth;
+    if (k == 0 && !is_on) make_thin();
+    if (!is_sewn && !sew(k)) return false;
+    if (k == 0 && !is_on && !stopped_short_ && !grow(k)) return false;
+    if (stopped_short_) return true;
+    if (k + 1 < cloth_.size() && !drape_inner(k)) return stopped_short_;
   }
   return true;
 }
@@ -132,11 +175,32 @@ void Run::wear_again() {
   }
   const std::size_t worn = static_cast<std::size_t>(place_.cloth) + (place_.phase == RunPhase::sewing ? 0 : 1);
   std::vector<std::string> told_before;
-  for (std::size_t k = 0; k < worn; ++k) {
-    const LoadedCloth& cloth = cloth_[k];
+  for (std::size_t j = 0; j < worn; ++j) {
+    LoadedCloth& cloth = cloth_[j];
     const Index before = outfit_.mesh.particle_count;
-    LabelSprings labels = wear(outfit_, cloth.garment, cloth.fabrics, cloth.rest_stretch, heights_of(k, told_before));
+    if (j < open_pairs_.size()) cloth_[j].garment.leave_open(open_pairs_[j]);
+    LabelSprings labels = wear(outfit_, cloth.garment, cloth.fabrics, cloth.rest_stretch, heights_of(j, told_before));
     settling_ = {true, before, std::move(labels), awaits_rest()};
+  }
+}
+
+// What would not close stays open: the garment is put on as far as it goes, for everybody to see.
+void Run::leave_open(std::size_t k, Dressing& dressing) {
+  const GarmentMesh& panels = dressing.panels();
+  const std::vector<SeamGap> gaps = dressing.sewing().gaps();
+  const std::vector<SeamPair> pairs = panels.pairs;
+  open_pairs_[k] = dressing.leave_open();
+  cloth_[k].garment.leave_open(open_pairs_[k]);
+  const std::vector<Index> particle_of = dressing.particle_of();
+  for (const SeamGap& gap : gaps) {
+    OpenSeam open{panels.seams[static_cast<std::size_t>(gap.seam)].name, gap.gap_m, gap.where, {}};
+    for (const Index pair : open_pairs_[k]) {
+      const SeamPair& ends = pairs[static_cast<std::size_t>(pair)];
+      if (ends.seam == gap.seam)
+        open.vertices.push_back(
+            {particle_of[static_cast<std::size_t>(ends.a)], particle_of[static_cast<std::size_t>(ends.b)]});
+    }
+    if (!open.vertices.empty()) report_.open_seams.push_back(std::move(open));
   }
 }
 
@@ -153,7 +217,7 @@ bool Run::sew(std::size_t k) {
   sewing_options.damping_jacobian = scene_.damping_jacobian;
   std::vector<std::string> told_before;
   sewing_options.label_heights = heights_of(k, resumed ? told_before : report_.warnings);
-  sewing_options.stop = options_.stop;
+  sewing_options.stop = stop();
   Dressing dressing(outfit_, garment, cloth.fabrics, cloth.rest_stretch, body(), step_, sewing_options);
   Sewing& sewing = dressing.sewing();
   const bool filmed = k == 0;  // the panels of the others come with what is worn: another mesh
@@ -175,7 +239,7 @@ bool Run::sew(std::size_t k) {
     case SewingStatus::closed:
       break;
     case SewingStatus::sewing:
-      end(reason::interrupted, which + "while sewing, after " + std::to_string(place_.frame) + " frames");
+      cut_off(which + "while sewing, after " + std::to_string(place_.frame) + " frames");
       break;
     case SewingStatus::blocked:
       end(reason::seam_blocked, which + dressing.explain() + (frame.ok ? "" : "; then " + frame.diagnosis));
@@ -184,13 +248,74 @@ bool Run::sew(std::size_t k) {
       collapse(which + "while sewing (" + dressing.explain() + ")", frame, sewing.model().mesh, sewing.state().x);
       break;
   }
-  if (sewing.status() != SewingStatus::closed) {
+  if (sewing.status() == SewingStatus::sewing && !stopped_short_) {
     outfit_.state = sewing.state();  // for the hash
     return false;
   }
+  open_pairs_.resize(k + 1);
+  if (sewing.status() != SewingStatus::closed) leave_open(k, dressing);
   settling_ = {true, outfit_.mesh.particle_count, dressing.labels(), awaits_rest()};
   outfit_ = dressing.worn();
-  return free_start(true);
+  return stopped_short_ || free_start(true);
+}
+
+// A phase ends before its end.  False: the user wants it so, and the run can be resumed.  True: the time that it was given is over, and what
+// there is is written.
+bool Run::cut_off(const std::string& when) {
+  stopped_short_ = !user_stopped_;
+  if (stopped_short_)
+    end(reason::time_limit, fmt::sprintf("%.3g s were over ", options_.time_limit_s) + when);
+  else
+    end(reason::interrupted, when);
+  return stopped_short_;
+}
+
+// The first garment is sewn around a thin body.
+void Run::make_thin() {
+  if (person_vertices_ == 0) return;
+  const Timed timed(startup(&StartupReport::placement));
+  say("placing", 0);
+  dressing_body_.emplace(body_x_, body_triangles_, person_vertices_, person_triangles_);
+}
+
+// The body stands where body_x_ says: twice, as what it has been is a motion too.
+void Run::stand() {
+  for (int k = 0; k < 2; ++k) body_->set_motion(body_x_, body_x_);
+}
+
+// The body becomes what it is, within the garment.  Nothing of it is written.
+bool Run::grow(std::size_t k) {
+  if (!dressing_body_) return true;
+  Settling waiting = settling_;
+  waiting.waits = true;
+  waiting.to_rest = false;
+  OutfitRun run(scene_, outfit_, body(), step_, waiting, stop());
+  run.start_motion([&](double t_s, std::span<Vec3> x) { dressing_body_->at(t_s, x); });
+  if (resumes()) {
+    restore(run);
+  } else {
+    place_ = {RunPhase::growth, k, 0};
+    keep(run);
+  }
+  const int frames = frames_in(DressingBody::growth_s);
+  while (place_.frame < frames) {
+    const FrameReport frame = run.frame();
+    if (frame.interrupted && !cut_off("while the body grew into the garment")) return false;
+    if (!frame.interrupted && !frame.ok) {
+      collapse("while the body grew into the garment", frame, outfit_.mesh, outfit_.state.x);
+      stopped_short_ = true;
+    }
+    if (stopped_short_) break;
+    ++place_.frame;
+    keep_if_due(run);
+    say("fitting", static_cast<double>(place_.frame) / frames);
+  }
+  outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
+  body_x_ = standing_x_;
+  if (stopped_short_) body_x_.assign(body_->next_positions().begin(), body_->next_positions().end());
+  stand();
+  dressing_body_.reset();
+  return true;
 }
 
 // Until the seams are closed or will not close; returns what the last frame was.
@@ -218,7 +343,7 @@ FrameReport Run::sew_frames(Dressing& dressing, bool filmed) {
 
 // A garment that another one goes over comes to rest first; nothing of it is written.
 bool Run::drape_inner(std::size_t k) {
-  OutfitRun run(scene_, outfit_, body(), step_, settling_, options_.stop);
+  OutfitRun run(scene_, outfit_, body(), step_, settling_, stop());
   if (resumes()) {
     restore(run);
   } else {
@@ -232,10 +357,12 @@ bool Run::drape_inner(std::size_t k) {
     const FrameReport frame = run.frame();
     if (frame.interrupted || !frame.ok) {
       const std::string when = "while " + printable(cloth_[k].garment.name) + " was draped";
-      if (frame.ok)
-        end(reason::interrupted, when);
-      else
+      if (frame.interrupted) {
+        cut_off(when);
+      } else {
         collapse(when, frame, outfit_.mesh, outfit_.state.x);
+        stopped_short_ = true;
+      }
       return false;
     }
     ++place_.frame;

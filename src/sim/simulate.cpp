@@ -72,7 +72,7 @@ void Run::load(Hash& inputs) {
   motion_ = std::move(loaded.movement);
   report_.warnings.insert(report_.warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
   SolidMesh& solid = loaded.solid;
-  body_x_ = solid.positions;
+  body_x_ = standing_x_ = solid.positions;
   body_triangles_ = solid.triangles;
   if (!body_triangles_.empty()) body_.emplace(std::move(solid.positions), std::move(solid.triangles));
   double edge_m = 0;

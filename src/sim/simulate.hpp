@@ -39,6 +39,7 @@ struct RunOptions {
   bool built_in = false;                          // what the scene names is not on the disk: only `read` knows it
   std::function<void(const Progress&)> progress;  // may be empty
   std::function<bool()> stop;                     // asked between frames; may be empty
+  double time_limit_s = 0;                        // wall time that dressing may take, up to the motion; 0: any
   BudgetLimits limits;                            // what the run may take: refused beyond, before anything is made
 };
 
@@ -46,6 +47,7 @@ namespace reason {
 inline constexpr std::string_view seam_blocked = "seam_blocked";
 inline constexpr std::string_view step_collapsed = "step_collapsed";
 inline constexpr std::string_view interrupted = "interrupted";
+inline constexpr std::string_view time_limit = "time_limit";
 inline constexpr std::string_view not_settled = "not_settled";
 inline constexpr std::string_view never_touched = "never_touched";
 inline constexpr std::string_view fell_off = "fell_off";

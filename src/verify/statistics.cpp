@@ -33,6 +33,8 @@ StretchStatistics measure_stretch(const ClothMesh& mesh, std::span<const Vec3> x
 
   StretchStatistics result;
   std::vector<double> all(count), judged, shear(count);
+  std::vector<char> elastic(count, 0);
+  std::vector<Vec3> ring_normal(count);  // of the plane of the more stretched thread and the cloth's normal
   judged.reserve(count);
   for (std::size_t t = 0; t < count; ++t) {
     const auto& uv = mesh.uv[t];
@@ -59,13 +61,30 @@ StretchStatistics measure_stretch(const ClothMesh& mesh, std::span<const Vec3> x
 
     const auto index = static_cast<Index>(t);
     if (result.worst_triangle < 0 || all[t] > result.max) result.max = all[t], result.worst_triangle = index;
+    const Vec3& thread = w_u.norm() / rest.x() > w_v.norm() / rest.y() ? w_u : w_v;
+    ring_normal[t] = thread.cross(w_u.cross(w_v)).normalized();
     if (rest != Vec2(1, 1)) {
       ++result.elastic_triangles;
+      elastic[t] = 1;
       continue;
     }
     judged.push_back(all[t]);
     if (result.judged_worst_triangle < 0 || all[t] > result.judged_max)
       result.judged_max = all[t], result.judged_worst_triangle = index;
+  }
+  std::vector<double> gauge = gauge_stretch(mesh, all, elastic), judged_gauge;
+  judged_gauge.reserve(judged.size());
+  for (std::size_t t = 0; t < count; ++t) {
+    if (elastic[t] != 0) continue;
+    judged_gauge.push_back(gauge[t]);
+    if (result.gauge_worst_triangle < 0 || gauge[t] > result.gauge_max)
+      result.gauge_max = gauge[t], result.gauge_worst_triangle = static_cast<Index>(t);
+  }
+  result.gauge_p99 = nearest_rank(judged_gauge, 99);
+  if (result.gauge_worst_triangle >= 0) {
+    const auto worst = static_cast<std::size_t>(result.gauge_worst_triangle);
+    for (const Index i : mesh.triangles[worst]) result.gauge_worst_m += x[static_cast<std::size_t>(i)] / 3;
+    result.ring = cloth_ring(mesh, x, result.gauge_worst_triangle, ring_normal[worst]);
   }
   result.p50 = nearest_rank(all, 50);
   result.p99 = nearest_rank(all, 99);

@@ -10,6 +10,7 @@
 // crossings are counted with their direction; degenerate hits are exact (predicates.hpp).
 #pragma once
 #include "mesh/cloth_mesh.hpp"
+#include "verify/gauge.hpp"
 
 #include <span>
 #include <vector>
@@ -27,6 +28,11 @@ struct StretchStatistics {
   // What is judged: an elastic panel is meant to be longer than its rest length, and is left out.
   double judged_p99 = 0, judged_max = 0;
   Index judged_worst_triangle = -1;
+  // Likewise, over a gauge (verify/gauge.hpp): what the verdict asks about.
+  double gauge_p99 = 0, gauge_max = 0;
+  Index gauge_worst_triangle = -1;
+  Vec3 gauge_worst_m{0, 0, 0};  // its middle
+  ClothRing ring;               // the cloth along the stretched thread there
   Index elastic_triangles = 0;  // with b other than (1, 1)
 };
 

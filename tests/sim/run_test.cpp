@@ -390,23 +390,49 @@ TEST(Tangles, EveryParticleOfACrossingIsLeftAloneHoweverLongItsEdges) {
   EXPECT_EQ(scale, std::vector<double>(6, 0));
 }
 
-TEST(Run, ASeamThatCannotCloseIsReportedByName) {
+// A solid does not get thin.  What will not close around it is welded as far as it goes.
+TEST(Run, ASeamThatCannotCloseIsReportedByNameAndLeavesAMesh) {
   const Scratch scratch;
-  Scene scene = tube(scratch, 0.2);  // a quarter more round than the tube, which is of a cloth that does not give
-  scene.cloth.front().fabric = fabric_preset("denim", "", "");
+  scratch.put("tube.json", test::tube_pattern_text);
+  const Scene scene = parse_scene(
+      R"({"cloth": [{"pattern": "tube.json", "resolution_cm": 4, "fabric": "denim"}],
+          "solids": [{"box": {"size_m": [0.36, 1, 0.36]}, "placement": {"translation_m": [0, 0.1, 0]}}],
+          "time": {"seconds": 0.8, "until_still": false}})",
+      scratch / "s.json");
   const Report report = run(scratch, scene);
   EXPECT_EQ(exit_code(report), ExitCode::simulation_failed);
+  EXPECT_EQ(report.ended, "seam_blocked");
   ASSERT_FALSE(report.verdict.reasons.empty());
   EXPECT_EQ(report.verdict.reasons.front().code, "seam_blocked");
   EXPECT_NE(report.verdict.reasons.front().detail.find("seam front."), std::string::npos)
       << report.verdict.reasons.front().detail;
-  EXPECT_NE(report.verdict.reasons.front().detail.find("too small"), std::string::npos)
-      << report.verdict.reasons.front().detail;
-  EXPECT_TRUE(std::filesystem::exists(scratch / "out/sewing.pc2"));
-  EXPECT_FALSE(std::filesystem::exists(scratch / "out/cloth.pc2"));
+  ASSERT_FALSE(report.open_seams.empty());
+  EXPECT_GT(report.open_seams.front().gap_m, 0.01);
+  const ObjMesh cloth = load_obj(scratch / "out/cloth.obj");
+  for (const OpenSeam& seam : report.open_seams)
+    for (const auto& [a, b] : seam.vertices) {
+      EXPECT_NE(a, b);
+      EXPECT_LT(static_cast<std::size_t>(std::max(a, b)), cloth.positions.size());
+    }
   const Json json = Json::load(scratch / "out/report.json");
   EXPECT_EQ(json.at("verdict").string(), "fail");
-  EXPECT_EQ(json.at("frames").integer(), 0);
+  EXPECT_EQ(json.at("open_seams").array().size(), report.open_seams.size());
+  EXPECT_GT(json.at("frames").integer(), 1);
+}
+
+// Dressing ends when its time is over, and what there is is written.
+TEST(Run, DressingEndsAtItsTimeLimitWithWhatThereIs) {
+  const Scratch scratch;
+  RunOptions options;
+  options.directory = scratch / "out";
+  options.time_limit_s = 1e-9;
+  const Report report = simulate(tube(scratch, 0.1), options);
+  EXPECT_EQ(exit_code(report), ExitCode::simulation_failed);
+  EXPECT_EQ(report.ended, "time_limit");
+  EXPECT_EQ(report.frames, 1);
+  EXPECT_FALSE(report.open_seams.empty());
+  EXPECT_TRUE(std::filesystem::exists(scratch / "out/cloth.obj"));
+  EXPECT_EQ(verify_directory(scratch / "out").frames, 1);
 }
 
 }  // namespace

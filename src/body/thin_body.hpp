@@ -1,0 +1,31 @@
+// body/thin_body.hpp: a body drawn in towards its own middle, and how it grows back.                 docs/theory/sewing.md
+//
+//   conformalised mean curvature flow   (M_k + dt L_0) x_{k+1} = M_k x_k        [Kazhdan, Solomon & Ben-Chen 2012]
+//
+// with L_0 the cotangents of the full body and M_k the vertex areas of the present shape.  Keeping L_0 is what makes the flow stable: limbs
+// become tubes of two centimetres round their own axes, hands and feet draw in along them, and nothing is pinched off.  Every vertex keeps
+// its place on the surface, so the way back is a motion of the same mesh.
+//
+// The time of the flow is an area: thinning goes with the square of the height.
+#pragma once
+#include "core/types.hpp"
+
+#include <span>
+#include <vector>
+
+namespace toile {
+
+class ThinBody {
+ public:
+  // A closed mesh, or several.  Vertices in no triangle stay where they are.
+  ThinBody(std::span<const Vec3> full, std::span<const Triangle> triangles);
+
+  // share 0: as thin as it gets; 1: the full body, to the bit.  Between them every vertex goes from shape to shape of the flow.
+  void at(double share, std::span<Vec3> x) const;
+
+ private:
+  std::vector<Vec3s> shapes_;   // from thin to full
+  std::vector<double> shares_;  // when each is reached: by the root mean square way of the vertices
+};
+
+}  // namespace toile

@@ -1,0 +1,29 @@
+// garment/sleeves.hpp: sleeves are hung around the arms before they are sewn.                        docs/theory/sewing.md#placement
+//
+// A sleeve is drawn beside its armhole, where its maker found room: ten centimetres above the arm, or at another angle than this body's.
+// Sewn there it closes beside the arm.  So every sleeve, with its cuff, is turned and moved in the frontal plane until the line from the
+// middle of its armhole to the middle of its hem lies on the arm; along the arm it stays where it was drawn.
+#pragma once
+#include "garment/garment_mesh.hpp"
+
+#include <array>
+#include <span>
+
+namespace toile {
+
+struct ArmLine {
+  Vec3 root{0, 0, 0};       // middle of the arm at the armpit
+  Vec3 direction{0, 0, 0};  // unit, towards the hand
+};
+
+struct SleeveMove {
+  int panels = 0;
+  double turn_rad = 0;  // in the frontal plane, seen from the front, about the armhole
+  double shift_m = 0;   // of its middle, across the arm
+};
+
+// Left arm (at larger x) and right one.  Sleeves are the panels labelled "arm"; of a pattern without labels, those that hang beyond the root of
+// an arm, not far from its height.
+std::array<SleeveMove, 2> hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m);
+
+}  // namespace toile
