@@ -6,7 +6,7 @@
 namespace toile {
 namespace {
 
-constexpr double pull_N_per_m = 100, give_m = 0.02, damping_s = 0.02;
+constexpr double pull_N_per_m = 20, give_m = 0.02, damping_s = 0.02;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 

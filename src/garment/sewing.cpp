@@ -149,11 +149,7 @@ void Sewing::judge_progress() {
   }
   const bool reached = options_.closing_speed_m_per_s * time_s_ >= longest_m_;
   const bool stopped = reached && time_s_ - best_time_s_ >= options_.patience_s;
-  const bool given_up = stopped && (escalations_ == most_escalations || gaps().front().stretch > options_.too_small);
-  const double weldable_m = given_up  ? std::min(0.5 * mean_edge_m_, options_.last_gap_m)
-                            : stopped ? options_.weld_share * mean_edge_m_
-                                      : 0;
-  const bool near = gap < std::max(options_.weld_gap_m, weldable_m);
+  const bool near = gap < options_.weld_gap_m || (stopped && gap < options_.weld_share * mean_edge_m_);
   weld_obstacle_.reset();
   if (near || escalations_ >= lets_through) {
     Vec3s closed = state_.x;
@@ -168,7 +164,7 @@ void Sewing::judge_progress() {
   }
   if (escalations_ > 0) thin_layers();
   if (!stopped) return;
-  if (given_up) {
+  if (escalations_ == most_escalations || gaps().front().stretch > options_.too_small) {
     status_ = SewingStatus::blocked;
     return;
   }

@@ -35,7 +35,6 @@ struct SewingOptions {
   double weld_gap_m = 1.5e-3;
   double weld_share =
       0.25;  // of the mean edge: a gap this small is welded where a seam stops closing (a fitted shoulder under tension)
-  double last_gap_m = 5e-3;      // and half an edge: welded rather than left open, when all else has been tried
   double patience_s = 0.2;       // without progress, before layers are thinned, and before each doubling of the pull
   double too_small = 0.2;        // stretch beside an open seam at which pulling harder is given up
   double taut = 0.05;            // likewise, from which on the size is said to be why the seam is open

@@ -32,8 +32,7 @@ std::vector<Vec3> panel_middles(const GarmentMesh& garment, std::span<const Inde
 
 }  // namespace
 
-std::array<SleeveMove, 2> hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m) {
-  std::array<SleeveMove, 2> moves;
+void hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m) {
   const std::vector<Index> panel_of = garment.panel_of_particle();
   const std::vector<Vec3> middle = panel_middles(garment, panel_of);
   const bool labelled = std::any_of(garment.panel_labels.begin(), garment.panel_labels.end(),
@@ -79,12 +78,7 @@ std::array<SleeveMove, 2> hang_sleeves(GarmentMesh& garment, const std::array<Ar
       garment.x[i].x() = p.x();
       garment.x[i].y() = p.y();
     }
-    SleeveMove& move = moves[static_cast<std::size_t>(s)];
-    move.panels = static_cast<int>(std::count(side.begin(), side.end(), s));
-    move.turn_rad = turn;
-    move.shift_m = across.norm();
   }
-  return moves;
 }
 
 }  // namespace toile

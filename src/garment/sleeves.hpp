@@ -16,14 +16,8 @@ struct ArmLine {
   Vec3 direction{0, 0, 0};  // unit, towards the hand
 };
 
-struct SleeveMove {
-  int panels = 0;
-  double turn_rad = 0;  // in the frontal plane, seen from the front, about the armhole
-  double shift_m = 0;   // of its middle, across the arm
-};
-
 // Left arm (at larger x) and right one.  Sleeves are the panels labelled "arm"; of a pattern without labels, those that hang beyond the root of
 // an arm, not far from its height.
-std::array<SleeveMove, 2> hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m);
+void hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m);
 
 }  // namespace toile

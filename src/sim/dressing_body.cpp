@@ -3,6 +3,7 @@
 #include "core/elementary.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace toile {
 namespace {
@@ -32,16 +33,16 @@ double height_of(std::span<const Vec3> x) {
 }  // namespace
 
 DressingBody::DressingBody(std::span<const Vec3> standing, std::span<const Triangle> triangles,
-                           std::size_t person_vertices, std::size_t person_triangles)
+                           std::size_t person_vertices, std::size_t person_triangles, std::array<Arm, 2> arms)
     : thin_(standing.first(person_vertices), triangles.first(person_triangles)),
-      arms_(find_arms(standing.first(person_vertices), triangles.first(person_triangles))),
+      arms_(std::move(arms)),
       person_vertices_(person_vertices),
       height_m_(height_of(standing.first(person_vertices))),
       standing_(standing.begin(), standing.end()) {}
 
 void DressingBody::lift_arms(double share) {
-  for (std::size_t k = 0; arms_ && k < 2; ++k) {
-    const Vec3& d = (*arms_)[k].direction;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Vec3& d = arms_[k].direction;
     const double outwards = k == 0 ? 1 : -1;
     lift_rad_[k] = -share * outwards * ieee_atan2(d.y(), outwards * d.x());
   }
@@ -49,15 +50,14 @@ void DressingBody::lift_arms(double share) {
 
 std::array<DressingBody::ArmAxis, 2> DressingBody::arm_axes() const {
   std::array<ArmAxis, 2> axes;
-  for (std::size_t k = 0; arms_ && k < 2; ++k)
-    axes[k] = {(*arms_)[k].root, turned((*arms_)[k].direction, Vec3::Zero(), lift_rad_[k])};
+  for (std::size_t k = 0; k < 2; ++k) axes[k] = {arms_[k].root, turned(arms_[k].direction, Vec3::Zero(), lift_rad_[k])};
   return axes;
 }
 
 void DressingBody::lift(double share, std::span<Vec3> x) const {
-  if (!arms_ || share == 0) return;
+  if (share == 0) return;
   for (std::size_t k = 0; k < 2; ++k) {
-    const Arm& arm = (*arms_)[k];
+    const Arm& arm = arms_[k];
     for (std::size_t i = 0; i < person_vertices_; ++i) {
       const double turns = smooth((arm.past[i] / height_m_ - turns_from) / (turns_fully - turns_from));
       if (turns > 0) x[i] = turned(x[i], arm.root, turns * share * lift_rad_[k]);

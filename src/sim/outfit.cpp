@@ -22,6 +22,7 @@ GarmentMesh over(const Outfit& outfit, const GarmentMesh& garment) {
   for (const Index panel : garment.mesh.panel) both.mesh.panel.push_back(panel + panels);
   both.mesh.panel_names.insert(both.mesh.panel_names.end(), garment.mesh.panel_names.begin(),
                                garment.mesh.panel_names.end());
+  both.panel_labels.insert(both.panel_labels.begin(), static_cast<std::size_t>(panels), std::string());
   both.mesh.panel_cloth.resize(static_cast<std::size_t>(panels));  // a grid has none
   both.mesh.panel_cloth.insert(both.mesh.panel_cloth.end(), garment.mesh.panel_cloth.begin(),
                                garment.mesh.panel_cloth.end());

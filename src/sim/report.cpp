@@ -171,6 +171,13 @@ void add_measurements(JsonText& text, const Report& report) {
   add_jitter(text, report.audit.jitter);
 }
 
+void add_point(JsonText& text, std::string_view key, const Vec3& p) {
+  text.key(key);
+  text.begin_array();
+  for (const double d : p) text.value(d);
+  text.end_array();
+}
+
 void add_open_seams(JsonText& text, const Report& report) {
   text.key("open_seams");
   text.begin_array();
@@ -178,10 +185,7 @@ void add_open_seams(JsonText& text, const Report& report) {
     text.begin_object();
     text.member("name", seam.name);
     text.member("gap_mm", 1e3 * seam.gap_m);
-    text.key("where_m");
-    text.begin_array();
-    for (const double d : seam.where) text.value(d);
-    text.end_array();
+    add_point(text, "where_m", seam.where);
     text.key("vertices");
     text.begin_array();
     for (const auto& pair : seam.vertices) {
@@ -344,10 +348,7 @@ std::string to_json(const Report& report, int indent) {
     add_steps(text, report.sewing);
     add_seconds_per_frame(text, report.sewing);
     add_cg(text, report.sewing);
-    text.key("shift_m");
-    text.begin_array();
-    for (const double d : report.shift_m) text.value(d);
-    text.end_array();
+    add_point(text, "shift_m", report.shift_m);
     text.end_object();
   }
   add_open_seams(text, report);

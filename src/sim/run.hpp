@@ -75,7 +75,7 @@ class Run {
   bool awaits_rest() const { return scene_.until_still || motion_.has_value(); }
   double frame_s() const { return 1 / scene_.fps; }
   int frames_in(double seconds) const;
-  bool all_closed() const {
+  bool seams_closed() const {
     return std::all_of(open_pairs_.begin(), open_pairs_.end(), [](const auto& open) { return open.empty(); });
   }
   void end(std::string_view how, std::string detail);
@@ -92,8 +92,8 @@ class Run {
       written_ = writer_->frames();
       report_.seconds_total = earlier_s_ + total_.seconds();
     }
-    archive(place_, written_, report_, failure_, qualifications_, open_pairs_, before_inner_, slow_inner_,
-            seconds_before_motion_, touches_);
+    archive(place_, written_, report_, failure_, qualifications_, arm_lift_, open_pairs_, stopped_short_, before_inner_,
+            slow_inner_, seconds_before_motion_, touches_);
   }
   void take_up(std::uint64_t input_hash);
   // Until restore() has been called.
@@ -122,6 +122,7 @@ class Run {
   bool sew(std::size_t cloth);
   void leave_open(std::size_t cloth, Dressing& dressing);
   FrameReport sew_frames(Dressing& dressing, bool filmed);
+  void find_person();
   void make_thin();
   void stand();
   bool grow(std::size_t cloth);
@@ -166,6 +167,7 @@ class Run {
   TouchMemory touches_;
   std::optional<FallWatch> fall_watch_;
 
+  double arm_lift_ = 0;  // of dressing_body_, while the first garment is sewn
   std::vector<std::vector<Index>>
       open_pairs_;              // [garment that is on] what its weld left open: places in GarmentMesh::pairs
   bool stopped_short_ = false;  // put on as far as it went: that one frame is written, and nothing moves

@@ -23,7 +23,7 @@ void Run::live() {
   // What hangs now is the run's: a second and a third copy of a fine mesh are large.
   cloth_.clear();
   outfit_.mesh = {};
-  const std::string put_on_ended = failure_.empty() ? "" : report_.ended;
+  const std::string put_on_ended = failure_.empty() ? "" : failure_.front().code;
   report_.ended = "time";
   end_startup();
   if (!resumed) {
@@ -62,10 +62,10 @@ void Run::begin_recording(OutfitRun& run) {
 }
 
 void Run::drape(OutfitRun& run) {
-  const bool moving = motion_.has_value() && all_closed();
-  const int frames = !all_closed() ? frames_in(std::min(scene_.seconds, open_drape_s))
-                     : moving      ? (scene_.drape_seconds > 0 ? frames_in(scene_.drape_seconds) : 1)
-                                   : frames_in(scene_.seconds);
+  const bool moving = motion_.has_value() && seams_closed();
+  const int frames = !seams_closed() ? frames_in(std::min(scene_.seconds, open_drape_s))
+                     : moving        ? (scene_.drape_seconds > 0 ? frames_in(scene_.drape_seconds) : 1)
+                                     : frames_in(scene_.seconds);
   const std::int64_t first = place_.frame;
   const Stopwatch watch;
   const auto at_rest = [&] {

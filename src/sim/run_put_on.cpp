@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace toile {
 namespace {
@@ -93,15 +94,12 @@ int Run::come_apart() {
 Placement Run::place_around_arms(GarmentMesh& garment) {
   const GarmentMesh drawn = garment;
   Placement best;
-  double best_lift = 0;
   for (const double lift : arm_lifts) {
     dressing_body_->lift_arms(lift);
     dressing_body_->lifted(body_x_);
     stand();
     GarmentMesh placed = drawn;
-    const auto hang = [&] {
-      if (!dressing_body_->has_arms()) return;
-      const auto axes = dressing_body_->arm_axes();
+    const auto hang = [&, axes = dressing_body_->arm_axes()] {
       hang_sleeves(placed, {ArmLine{axes[0].root, axes[0].direction}, ArmLine{axes[1].root, axes[1].direction}},
                    dressing_body_->height_m());
     };
@@ -113,13 +111,11 @@ Placement Run::place_around_arms(GarmentMesh& garment) {
     find_blocked(placed, *body_, placement);
     if (lift != arm_lifts.front() && placement.blocked >= best.blocked) continue;
     best = placement;
-    best_lift = lift;
+    arm_lift_ = lift;
     garment = std::move(placed);
-    if (best.blocked == 0 || !dressing_body_->has_arms()) break;
+    if (best.blocked == 0) break;
   }
-  dressing_body_->lift_arms(best_lift);
-  dressing_body_->at(0, body_x_);
-  stand();
+  make_thin();
   return best;
 }
 
@@ -156,7 +152,7 @@ bool Run::put_on() {
   for (std::size_t k = place_.cloth; k < cloth_.size(); ++k) {
     const bool is_sewn = resumes() && place_.phase != RunPhase::sewing;
     const bool is_on = is_sewn && place_.phase != RunPhase::growth;
-    if (k == 0 && !is_on) make_thin();
+    if (k == 0 && !is_on) find_person();
     if (!is_sewn && !sew(k)) return false;
     if (k == 0 && !is_on && !stopped_short_ && !grow(k)) return false;
     if (stopped_short_) return true;
@@ -270,12 +266,20 @@ bool Run::cut_off(const std::string& when) {
   return stopped_short_;
 }
 
-// The first garment is sewn around a thin body.
-void Run::make_thin() {
-  if (person_vertices_ == 0) return;
+// Around whom the first garment is sewn, if it is a person.
+void Run::find_person() {
   const Timed timed(startup(&StartupReport::placement));
-  say("placing", 0);
-  dressing_body_.emplace(body_x_, body_triangles_, person_vertices_, person_triangles_);
+  Arms arms =
+      find_arms(std::span(standing_x_).first(person_vertices_), std::span(body_triangles_).first(person_triangles_));
+  if (!arms) return;
+  dressing_body_.emplace(standing_x_, body_triangles_, person_vertices_, person_triangles_, std::move(*arms));
+  make_thin();
+}
+
+void Run::make_thin() {
+  dressing_body_->lift_arms(arm_lift_);
+  dressing_body_->at(0, body_x_);
+  stand();
 }
 
 // The body stands where body_x_ says: twice, as what it has been is a motion too.

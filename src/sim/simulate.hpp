@@ -1,6 +1,6 @@
 // sim/simulate.hpp: runs a scene from its files to its report.                                       docs/theory/sewing.md
 //
-//   pattern   mesh -> place -> sew (gravity off) -> weld -> 0.2 s weightless -> 0.3 s ramp of gravity -> drape
+//   pattern   mesh -> place -> sew (gravity off, a person is thin) -> weld -> the person grows -> 0.2 s weightless -> 0.3 s ramp of gravity -> drape
 //   grid      place -> run
 //
 // A garment is draped until still (p99 speed <= 2 mm/s over 0.5 s, and <= 5 mm/s over the last second, which is what
@@ -21,7 +21,7 @@
 namespace toile {
 
 struct Progress {
-  std::string_view phase;    // "meshing", "placing", "sewing", "draping", "picturing"
+  std::string_view phase;    // "meshing", "placing", "sewing", "untangling", "fitting", "draping" ...
   double share = 0;          // of the phase, 0 ... 1
   double seconds_left = -1;  // of the phase; -1: unknown
 };

@@ -28,7 +28,7 @@ struct StretchStatistics {
   // What is judged: an elastic panel is meant to be longer than its rest length, and is left out.
   double judged_p99 = 0, judged_max = 0;
   Index judged_worst_triangle = -1;
-  // Likewise, over a gauge (verify/gauge.hpp): what the verdict asks about.
+  // Likewise, over a gauge (verify/gauge.hpp): beside what is judged.
   double gauge_p99 = 0, gauge_max = 0;
   Index gauge_worst_triangle = -1;
   Vec3 gauge_worst_m{0, 0, 0};  // its middle

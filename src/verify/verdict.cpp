@@ -32,17 +32,18 @@ std::string first_of(const std::vector<std::string>& all) {
 // Written so that NaN is an excess.
 bool within(double value, double limit) { return value <= limit; }
 
+// What is too long, and where over a gauge: how long the cloth is there as cut and as worn.
 std::string misfit(const StretchStatistics& s, const Limits& limits) {
-  std::string text = fmt::sprintf("over %.3g mm of cloth: p99 ", 1e3 * gauge_m) + percent(s.gauge_p99) + ", limit " +
-                     percent(limits.stretch_p99) + "; max " + percent(s.gauge_max) + " at triangle " +
-                     std::to_string(s.gauge_worst_triangle) + " near (" + number(s.gauge_worst_m.x()) + ", " +
-                     number(s.gauge_worst_m.y()) + ", " + number(s.gauge_worst_m.z()) + ") m, limit " +
+  std::string text = "p99 " + percent(s.judged_p99) + ", limit " + percent(limits.stretch_p99) + "; max " +
+                     percent(s.judged_max) + " at triangle " + std::to_string(s.judged_worst_triangle) + ", limit " +
                      percent(limits.stretch_max);
-  if (s.ring.cut_m > 0)
-    text += fmt::sprintf(s.ring.closed ? "; the garment is %.1f cm round there and worn at %.1f cm"
-                                       : "; from hem to hem the cloth is %.1f cm long there and worn at %.1f cm",
-                         100 * s.ring.cut_m, 100 * s.ring.worn_m);
-  return text;
+  if (!(s.ring.cut_m > 0)) return text;
+  text += fmt::sprintf("; over %.3g mm of cloth p99 ", 1e3 * gauge_m) + percent(s.gauge_p99) + ", max " +
+          percent(s.gauge_max) + " near (" + number(s.gauge_worst_m.x()) + ", " + number(s.gauge_worst_m.y()) + ", " +
+          number(s.gauge_worst_m.z()) + ") m";
+  return text + fmt::sprintf(s.ring.closed ? ", where the garment is %.1f cm round and worn at %.1f cm"
+                                           : ", where the cloth is %.1f cm long from hem to hem and worn at %.1f cm",
+                             100 * s.ring.cut_m, 100 * s.ring.worn_m);
 }
 
 }  // namespace
@@ -84,8 +85,9 @@ Verdict judge(const VerifyReport& report, const Limits& limits) {
     if (report.cloth_cloth_edges.last > limits.cloth_cloth_edges)
       add(reason::cloth_self_intersection,
           edges(report.cloth_cloth_edges.last, limits.cloth_cloth_edges, report.last_cloth_crossings, "the cloth"));
-    if (!within(report.stretch.gauge_p99, limits.stretch_p99) || !within(report.stretch.gauge_max, limits.stretch_max))
-      add(reason::stretch, misfit(report.stretch, limits));
+    const StretchStatistics& s = report.stretch;
+    if (!within(s.judged_p99, limits.stretch_p99) || !within(s.judged_max, limits.stretch_max))
+      add(reason::stretch, misfit(s, limits));
     if (limits.must_be_still && report.frames < 2)
       add(reason::static_equilibrium, "one frame does not show whether the cloth moves");
     else if (limits.must_be_still && !within(report.still_mm_per_s_p99, limits.still_mm_per_s))

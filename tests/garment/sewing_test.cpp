@@ -245,7 +245,7 @@ TEST(Sewing, ALabelledEdgeIsDrawnToItsHeightOnceTheSeamsAreClosed) {
       force += row.force_N * row.direction.y();
       EXPECT_LE(row.stiffness_N_per_m * std::fabs(above), std::fabs(row.force_N) + 1e-12) << "a step cannot overshoot";
     }
-    const double limit = 0.5 * 100 * 0.24;  // two edges of 12 cm
+    const double limit = 0.5 * 20 * 0.24;  // two edges of 12 cm
     EXPECT_NEAR(force, std::clamp(-above / 0.02, -1.0, 1.0) * limit, 1e-9) << above;
   }
 }

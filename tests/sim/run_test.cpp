@@ -390,15 +390,10 @@ TEST(Tangles, EveryParticleOfACrossingIsLeftAloneHoweverLongItsEdges) {
   EXPECT_EQ(scale, std::vector<double>(6, 0));
 }
 
-// A solid does not get thin.  What will not close around it is welded as far as it goes.
 TEST(Run, ASeamThatCannotCloseIsReportedByNameAndLeavesAMesh) {
   const Scratch scratch;
-  scratch.put("tube.json", test::tube_pattern_text);
-  const Scene scene = parse_scene(
-      R"({"cloth": [{"pattern": "tube.json", "resolution_cm": 4, "fabric": "denim"}],
-          "solids": [{"box": {"size_m": [0.36, 1, 0.36]}, "placement": {"translation_m": [0, 0.1, 0]}}],
-          "time": {"seconds": 0.8, "until_still": false}})",
-      scratch / "s.json");
+  Scene scene = tube(scratch, 0.2);  // a quarter more round than the tube, which is of a cloth that does not give
+  scene.cloth.front().fabric = fabric_preset("denim", "", "");
   const Report report = run(scratch, scene);
   EXPECT_EQ(exit_code(report), ExitCode::simulation_failed);
   EXPECT_EQ(report.ended, "seam_blocked");
@@ -406,6 +401,9 @@ TEST(Run, ASeamThatCannotCloseIsReportedByNameAndLeavesAMesh) {
   EXPECT_EQ(report.verdict.reasons.front().code, "seam_blocked");
   EXPECT_NE(report.verdict.reasons.front().detail.find("seam front."), std::string::npos)
       << report.verdict.reasons.front().detail;
+  EXPECT_NE(report.verdict.reasons.front().detail.find("too small"), std::string::npos)
+      << report.verdict.reasons.front().detail;
+  EXPECT_TRUE(std::filesystem::exists(scratch / "out/sewing.pc2"));
   ASSERT_FALSE(report.open_seams.empty());
   EXPECT_GT(report.open_seams.front().gap_m, 0.01);
   const ObjMesh cloth = load_obj(scratch / "out/cloth.obj");
