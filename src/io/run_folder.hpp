@@ -23,9 +23,10 @@
 namespace toile {
 
 // Every name that Toile may use in the folder of a run.
-inline constexpr std::array<std::string_view, 14> run_file_names = {
-    "report.json",   "cloth.obj",   "cloth.pc2",   "body.obj",   "body.pc2",      "sewing.obj",     "sewing.pc2",
-    "offenders.obj", "preview.png", "preview.mp4", "frames.png", "crossings.png", "checkpoint.bin", "unfinished.json"};
+inline constexpr std::array<std::string_view, 15> run_file_names = {
+    "report.json", "cloth.obj",  "cloth.pc2",       "body.obj",       "body.pc2",
+    "sewing.obj",  "sewing.pc2", "sewing_body.obj", "offenders.obj",  "preview.png",
+    "preview.mp4", "frames.png", "crossings.png",   "checkpoint.bin", "unfinished.json"};
 // Of these the ones that are drawn of a finished run.
 inline constexpr std::array<std::string_view, 4> picture_file_names = {"preview.png", "preview.mp4", "frames.png",
                                                                        "crossings.png"};

@@ -7,6 +7,7 @@
 #include "garment/pattern_check.hpp"
 #include "garment/sewing.hpp"
 #include "io/pc2.hpp"
+#include "sim/dressing_body.hpp"
 #include "sim/outfit_run.hpp"
 
 #include <fmt/printf.h>
@@ -271,11 +272,13 @@ class Estimate {
     if (moves) budget_.frames += scene_->drape_seconds > 0 ? frames_in(scene_->drape_seconds) : 1;
     const double inner = patterned_ && scene_->start.empty() ? static_cast<double>(scene_->cloth.size() - 1) : 0;
     const double inner_frames = inner * frames_in(scene_->drape_seconds);
-    budget_.unwritten_frames = sewing_frames_ + inner_frames;
+    const bool grows = patterned_ && scene_->start.empty() && body_triangles_ > 0;  // if it is a person
+    const double growth_frames = grows ? frames_in(DressingBody::growth_s) : 0;
+    budget_.unwritten_frames = sewing_frames_ + growth_frames + inner_frames;
 
     const double longest_s = scene_->step_max_s.value_or(patterned_ ? 1.0 / 60 : 1 / scene_->fps);
-    const double steps =
-        sewing_frames_ + (budget_.frames + inner_frames) * std::ceil(1 / (scene_->fps * longest_s) - 1e-9);
+    const double steps = sewing_frames_ + (budget_.frames + growth_frames + inner_frames) *
+                                              std::ceil(1 / (scene_->fps * longest_s) - 1e-9);
     // Iterations and refused steps grow with the number of particles, measured by its power 0.35: 3/8 is made of square roots.
     const double more = std::max(1.0, budget_.particles / small_particles), fourth_root = std::sqrt(std::sqrt(more));
     const double slower = fourth_root * std::sqrt(fourth_root);

@@ -222,7 +222,10 @@ bool Run::sew(std::size_t k) {
   } else {
     if (dressing.tangled()) bad_start(garment.name, "placed panels pass through each other");
     checkpoints_->wait();
-    if (filmed) writer_->begin_sewing(garment.mesh, garment.name, garment.x);
+    if (filmed) {
+      const std::span<const Triangle> thin = dressing_body_ ? body_triangles_ : std::span<const Triangle>{};
+      writer_->begin_sewing(garment.mesh, garment.name, garment.x, thin, body_x_);
+    }
     end_startup();
     keep(sewing);
   }

@@ -38,6 +38,15 @@ ObjMesh cloth_obj(const ClothMesh& mesh, std::span<const Index> garment_of_panel
   return obj;
 }
 
+ObjMesh body_obj(std::span<const Triangle> triangles, std::span<const Vec3> x) {
+  ObjMesh obj;
+  obj.positions.assign(x.begin(), x.end());
+  obj.triangles.assign(triangles.begin(), triangles.end());
+  obj.object.assign(triangles.size(), 0);
+  obj.object_names = {"body"};
+  return obj;
+}
+
 }  // namespace
 
 ClothMesh drawn_mesh(const ClothMesh& mesh) {
@@ -69,7 +78,9 @@ void RunWriter::synchronize() const {
     if (*writer) (*writer)->synchronize();
 }
 
-void RunWriter::begin_sewing(const ClothMesh& mesh, std::string_view garment, std::span<const Vec3> x) {
+void RunWriter::begin_sewing(const ClothMesh& mesh, std::string_view garment, std::span<const Vec3> x,
+                             std::span<const Triangle> body, std::span<const Vec3> body_x) {
+  if (!body.empty()) write_obj(path("sewing_body.obj"), body_obj(body, body_x));
   const std::vector<Index> one(mesh.panel_names.size(), 0);
   const std::string name(garment);
   write_obj(path("sewing.obj"), cloth_obj(mesh, one, {&name, 1}, x));
@@ -83,12 +94,7 @@ void RunWriter::begin_cloth(const ClothMesh& mesh, std::span<const Index> garmen
                             std::span<const std::string> garments, std::span<const Vec3> x,
                             std::span<const Triangle> body, std::span<const Vec3> body_x) {
   if (!body.empty()) {  // before the cloth: where there is a cloth.pc2, the body is there
-    ObjMesh obj;
-    obj.positions.assign(body_x.begin(), body_x.end());
-    obj.triangles.assign(body.begin(), body.end());
-    obj.object.assign(body.size(), 0);
-    obj.object_names = {"body"};
-    write_obj(path("body.obj"), obj);
+    write_obj(path("body.obj"), body_obj(body, body_x));
     body_ = std::make_unique<Pc2Writer>(path("body.pc2"), static_cast<Index>(body_x.size()), 0, 1);
   }
   write_obj(path("cloth.obj"), cloth_obj(mesh, garment_of_panel, garments, x));
@@ -119,6 +125,7 @@ void RunWriter::finish(const std::function<std::string(const std::vector<Written
     for (const std::uint64_t frame : writer->frame_checksums()) file.frames.push_back(hex_of(frame));
     files.push_back(std::move(file));
   };
+  add_obj("sewing_body.obj");
   add_obj("sewing.obj");
   add_cache("sewing.pc2", sewing_);
   add_obj("cloth.obj");

@@ -40,7 +40,9 @@ class RunWriter {
   // Clears the folder of an earlier run.  The folder must outlive the writer.
   explicit RunWriter(RunFolder& folder);
 
-  void begin_sewing(const ClothMesh& mesh, std::string_view garment, std::span<const Vec3> x);
+  // `body` is around whom it is sewn, where that is not the body of begin_cloth; empty: it is.
+  void begin_sewing(const ClothMesh& mesh, std::string_view garment, std::span<const Vec3> x,
+                    std::span<const Triangle> body, std::span<const Vec3> body_x);
   void sewing_frame(std::span<const Vec3> x);
   // `x` and `body_x` are frame 0, and written as such.  Without a body its spans are empty and it gets no files.
   // `garment_of_panel` says to which of `garments` a panel belongs; each becomes an object of cloth.obj.

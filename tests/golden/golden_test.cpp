@@ -65,6 +65,12 @@ TEST(Golden, ATubeIsSewnOnACylinder) {
       "62499ea0ece7dd2b");
 }
 
+TEST(Golden, APersonGrowsIntoASkirt) {
+  expect_hash(R"({"cloth": [{"pattern": ")" TOILE_SOURCE_DIR R"(/patterns/short_skirt.json", "resolution_cm": 6}],
+    "body": {"mannequin": "woman"}, "time": {"fps": 30, "seconds": 0.2, "until_still": false}})",
+              "cdaae5345b1e22da");
+}
+
 TEST(Golden, AMannequinTwistsUnderAKerchief) {
   expect_hash(R"({"cloth": [{"grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.03},
        "placement": {"translation_m": [0, 1.72, 0], "rotation_deg": [-90, 0, 0]}}],

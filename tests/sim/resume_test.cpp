@@ -135,6 +135,22 @@ TEST(Resume, OfAnOutfitThatMoves) {
       {37});
 }
 
+// A wide tube, drawn across the arms from the hips to the neck: arms are lifted, the body grows, and a seam may stay open.
+TEST(Resume, OfAPersonThatGrowsWithItsArmsLifted) {
+  const Scratch scratch;
+  scratch.put("wide.json", R"({"pattern": {"panels": {
+    "front": {"translation": [0, 85, 25], "rotation": [0, 0, 0], "vertices": [[-30,0],[30,0],[30,60],[-30,60]],
+      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]},
+    "back": {"translation": [0, 85, -25], "rotation": [0, 0, 0], "vertices": [[-30,0],[-30,60],[30,60],[30,0]],
+      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
+    "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
+    "properties": {"units_in_meter": 100}})");
+  compare(parse_scene(R"({"cloth": [{"pattern": "wide.json", "resolution_cm": 4}], "body": {"mannequin": "woman"},
+      "time": {"seconds": 0.4, "until_still": false}})",
+                      scratch / "s.json"),
+          {90});
+}
+
 TEST(Resume, RefusesOtherInputsAndADamagedState) {
   const Scratch scratch;
   const auto scene = [](const char* gravity) {
