@@ -21,7 +21,6 @@
 #include "sim/setup.hpp"
 #include "sim/simulate.hpp"
 
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -75,9 +74,6 @@ class Run {
   bool awaits_rest() const { return scene_.until_still || motion_.has_value(); }
   double frame_s() const { return 1 / scene_.fps; }
   int frames_in(double seconds) const;
-  bool seams_closed() const {
-    return std::all_of(open_pairs_.begin(), open_pairs_.end(), [](const auto& open) { return open.empty(); });
-  }
   void end(std::string_view how, std::string detail);
   void qualify(std::string_view code, const std::string& detail);
   void collapse(const std::string& when, const FrameReport& frame, const ClothMesh& mesh, std::span<const Vec3> x);

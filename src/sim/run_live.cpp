@@ -9,8 +9,7 @@
 namespace toile {
 namespace {
 
-constexpr double open_drape_s = 2;  // of a garment with open seams: enough to see how it hangs; it does not move
-constexpr double rest_s = 0.5;      // after a garment has settled, before it may be said to be still
+constexpr double rest_s = 0.5;  // after a garment has settled, before it may be said to be still
 
 }  // namespace
 
@@ -62,10 +61,9 @@ void Run::begin_recording(OutfitRun& run) {
 }
 
 void Run::drape(OutfitRun& run) {
-  const bool moving = motion_.has_value() && seams_closed();
-  const int frames = !seams_closed() ? frames_in(std::min(scene_.seconds, open_drape_s))
-                     : moving        ? (scene_.drape_seconds > 0 ? frames_in(scene_.drape_seconds) : 1)
-                                     : frames_in(scene_.seconds);
+  const bool moving = motion_.has_value();
+  const int frames =
+      moving ? (scene_.drape_seconds > 0 ? frames_in(scene_.drape_seconds) : 1) : frames_in(scene_.seconds);
   const std::int64_t first = place_.frame;
   const Stopwatch watch;
   const auto at_rest = [&] {

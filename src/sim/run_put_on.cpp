@@ -155,6 +155,7 @@ bool Run::put_on() {
     if (k == 0 && !is_on) find_person();
     if (!is_sewn && !sew(k)) return false;
     if (k == 0 && !is_on && !stopped_short_ && !grow(k)) return false;
+    stopped_short_ = stopped_short_ || (k < open_pairs_.size() && !open_pairs_[k].empty());
     if (stopped_short_) return true;
     if (k + 1 < cloth_.size() && !drape_inner(k)) return stopped_short_;
   }
@@ -180,7 +181,8 @@ void Run::wear_again() {
   }
 }
 
-// What would not close stays open: the garment is put on as far as it goes, for everybody to see.
+// What would not close stays open: the garment is welded as far as it goes, and written as it is then.  With weight, what hangs by nothing
+// would fall out of the picture.
 void Run::leave_open(std::size_t k, Dressing& dressing) {
   const GarmentMesh& panels = dressing.panels();
   const std::vector<SeamGap> gaps = dressing.sewing().gaps();

@@ -167,7 +167,7 @@ Report Run::finish() {
   report_.frames = writer_->cloth_frames();
   Limits limits;
   const bool fell = report_.ended == reason::never_touched || report_.ended == reason::fell_off;
-  limits.must_be_still = scene_.until_still && !motion_ && !fell;  // of what falls rest is not asked
+  limits.must_be_still = scene_.until_still && !motion_ && !fell && !stopped_short_;  // of what falls rest is not asked
   report_.verdict.limits = limits;
   if (recorder_) {
     report_.audit = recorder_->report();
