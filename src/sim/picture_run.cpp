@@ -160,10 +160,13 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   Vec3s x, body_x = dressed ? body.obj.positions : Vec3s{};
   scene.body_triangles = body.obj.triangles;
   scene.body_positions = body_x;
-  // Around whom the garment was sewn: the same triangles, where it was not the body as it stands.
+  // Around whom the garment was sewn: the first vertices of the body, where the person was not as she stands.
   const std::filesystem::path thin = folder / "sewing_body.obj";
-  const Vec3s sewn_around = std::filesystem::exists(thin) ? load_obj(thin.string()).positions : Vec3s{};
-  const bool thin_known = dressed && sewn_around.size() == body_x.size();
+  Vec3s sewn_around = body_x;
+  if (dressed && std::filesystem::exists(thin)) {
+    const Vec3s person = load_obj(thin.string()).positions;
+    if (person.size() <= sewn_around.size()) std::copy(person.begin(), person.end(), sewn_around.begin());
+  }
   const auto show = [&](const Shot& shot) {
     shot.take->frames->read(shot.frame, x);
     if (dressed && shot.take == &cloth) body.frames->read(std::min(shot.frame, body.frames->samples() - 1), body_x);
@@ -171,7 +174,7 @@ void picture_run(const std::string& directory, const PictureOptions& options,
     scene.cloths.resize(pieces.size());
     for (std::size_t k = 0; k < pieces.size(); ++k)
       scene.cloths[k] = {pieces[k].triangles, pieces[k].uv, x, garment_colours[k % garment_colours.size()]};
-    scene.body_positions = thin_known && shot.take == &sewing ? sewn_around : body_x;
+    scene.body_positions = shot.take == &sewing ? sewn_around : body_x;
   };
   std::array<Vec3, 2> box{Vec3::Constant(1e30), Vec3::Constant(-1e30)};
   for (const Take* take : {&sewing, &cloth}) {

@@ -225,8 +225,8 @@ bool Run::sew(std::size_t k) {
     if (dressing.tangled()) bad_start(garment.name, "placed panels pass through each other");
     checkpoints_->wait();
     if (filmed) {
-      const std::span<const Triangle> thin = dressing_body_ ? body_triangles_ : std::span<const Triangle>{};
-      writer_->begin_sewing(garment.mesh, garment.name, garment.x, thin, body_x_);
+      const std::span thin = std::span<const Triangle>(body_triangles_).first(dressing_body_ ? person_triangles_ : 0);
+      writer_->begin_sewing(garment.mesh, garment.name, garment.x, thin, std::span(body_x_).first(person_vertices_));
     }
     end_startup();
     keep(sewing);

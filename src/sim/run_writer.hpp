@@ -40,7 +40,7 @@ class RunWriter {
   // Clears the folder of an earlier run.  The folder must outlive the writer.
   explicit RunWriter(RunFolder& folder);
 
-  // `body` is around whom it is sewn, where that is not the body of begin_cloth; empty: it is.
+  // `body` is the person around whom it is sewn, where she is not as in begin_cloth; empty: she is.
   void begin_sewing(const ClothMesh& mesh, std::string_view garment, std::span<const Vec3> x,
                     std::span<const Triangle> body, std::span<const Vec3> body_x);
   void sewing_frame(std::span<const Vec3> x);
