@@ -105,8 +105,8 @@ void add_quality(BenchRow& row, const Report& report) {
   const VerifyReport& audit = report.audit;
   row.add("stretch_p99_percent", "p99 %", 100 * audit.stretch.p99, 2);
   row.add("stretch_max_percent", "max %", 100 * audit.stretch.max, 2);
-  row.add("stretch_judged_p99_percent", "judged p99", 100 * audit.stretch.judged_p99, 2);
-  row.add("stretch_judged_max_percent", "judged max", 100 * audit.stretch.judged_max, 2);
+  row.add("stretch_judged_p99_percent", "judged p99", 100 * audit.stretch.gauge_p99, 2);
+  row.add("stretch_judged_max_percent", "judged max", 100 * audit.stretch.gauge_max, 2);
   row.add("cloth_body_edges_max", "c-b max", static_cast<long>(audit.cloth_body_edges.max));
   row.add("cloth_body_edges_last", "c-b last", static_cast<long>(audit.cloth_body_edges.last));
   row.add("cloth_cloth_edges_max", "c-c max", static_cast<long>(audit.cloth_cloth_edges.max));

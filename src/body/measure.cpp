@@ -95,23 +95,39 @@ double girth_at_m(std::span<const Vec3> positions, std::span<const Triangle> tri
   return girth;
 }
 
-double waist_height_m(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
-  if (positions.empty()) return 0;
+namespace {
+
+// Of the sections at whole percents of the height from `first` to `last`: that of the least girth, or of the greatest.
+Level extreme_girth(std::span<const Vec3> positions, std::span<const Triangle> triangles, int first, int last,
+                    bool least) {
+  if (positions.empty()) return {};
   Vec3 low = positions[0], high = positions[0];
   for (const Vec3& p : positions) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
   Vec3 origin = 0.5 * (low + high);
-  double least = 0, height = 0;
-  for (int percent = 55; percent <= 70; ++percent) {
+  Level found;
+  for (int percent = first; percent <= last; ++percent) {
     origin.y() = low.y() + 0.01 * percent * (high.y() - low.y());
     const double girth = girth_at_m(positions, triangles, origin, Vec3::UnitY());
-    if (girth <= 0 || (least > 0 && girth >= least)) continue;
-    least = girth;
-    height = origin.y();
+    if (girth <= 0) continue;
+    if (found.girth_m > 0 && (least ? girth >= found.girth_m : girth <= found.girth_m)) continue;
+    found = {origin.y(), girth};
   }
-  return height;
+  return found;
+}
+
+constexpr int hips_from = 45, waist_from = 55, waist_to = 70;  // percent of the height
+
+}  // namespace
+
+double waist_height_m(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+  return extreme_girth(positions, triangles, waist_from, waist_to, true).height_m;
+}
+
+Level hips(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+  return extreme_girth(positions, triangles, hips_from, waist_from, false);
 }
 
 }  // namespace toile

@@ -25,4 +25,11 @@ double girth_at_m(std::span<const Vec3> positions, std::span<const Triangle> tri
 // height, looked for in steps of 1 %; 0 when no such section exists.
 double waist_height_m(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
+struct Level {
+  double height_m = 0, girth_m = 0;
+};
+// Hips of an upright body: the horizontal section with the greatest girth between 45 % and 55 % of the height; zeros when no
+// such section exists.
+Level hips(std::span<const Vec3> positions, std::span<const Triangle> triangles);
+
 }  // namespace toile

@@ -12,6 +12,8 @@ namespace {
 constexpr double near_height =
     0.2;  // of the body's height: how far from an arm's root a sleeve without a label may hang
 
+constexpr double shoulder_from = 0.6, shoulder_to = 1;  // of the way from the body's middle to an arm's root
+
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Vec2 frontal(const Vec3& p) { return {p.x(), p.y()}; }
@@ -32,7 +34,7 @@ std::vector<Vec3> panel_middles(const GarmentMesh& garment, std::span<const Inde
 
 }  // namespace
 
-void hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m) {
+std::array<double, 2> hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m) {
   const std::vector<Index> panel_of = garment.panel_of_particle();
   const std::vector<Vec3> middle = panel_middles(garment, panel_of);
   const bool labelled = std::any_of(garment.panel_labels.begin(), garment.panel_labels.end(),
@@ -48,6 +50,7 @@ void hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, doub
                         std::abs(middle[p].y() - arm.root.y()) < near_height * body_height_m;
     if (labelled ? garment.panel_labels[p] == "arm" : beyond) side[p] = s;
   }
+  std::array<double, 2> ends_m{0, 0};
   for (int s = 0; s < 2; ++s) {
     const ArmLine& arm = arms[static_cast<std::size_t>(s)];
     const auto in_sleeve = [&](Index i) { return panel_of[at(i)] >= 0 && side[at(panel_of[at(i)])] == s; };
@@ -77,8 +80,23 @@ void hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, doub
       const Vec2 p = armhole + Vec2(c * r.x() - sine * r.y(), sine * r.x() + c * r.y()) + across;
       garment.x[i].x() = p.x();
       garment.x[i].y() = p.y();
+      double& end_m = ends_m[static_cast<std::size_t>(s)];
+      end_m = std::max(end_m, (p - frontal(arm.root)).dot(d));
     }
   }
+  return ends_m;
+}
+
+std::array<bool, 2> covers_shoulders(const GarmentMesh& garment, const std::array<ArmLine, 2>& arms) {
+  const double between_m = 0.5 * (arms[0].root.x() + arms[1].root.x());
+  std::array<bool, 2> covers{false, false};
+  for (const Vec3& p : garment.x)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Vec3& root = arms[k].root;
+      const double out = (p.x() - between_m) / (root.x() - between_m);
+      if (out > shoulder_from && out < shoulder_to && p.y() > root.y()) covers[k] = true;
+    }
+  return covers;
 }
 
 }  // namespace toile

@@ -17,7 +17,11 @@ struct ArmLine {
 };
 
 // Left arm (at larger x) and right one.  Sleeves are the panels labelled "arm"; of a pattern without labels, those that hang beyond the root of
-// an arm, not far from its height.
-void hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m);
+// an arm, not far from its height.  Returns how far along each arm, from its root, they end (m; 0: there are none).
+std::array<double, 2> hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m);
+
+// Whether cloth lies above the root of the left arm and of the right one, over the shoulder: the arm has to go through the garment.  Skirts, trousers
+// and strapless tops end below it.
+std::array<bool, 2> covers_shoulders(const GarmentMesh& garment, const std::array<ArmLine, 2>& arms);
 
 }  // namespace toile

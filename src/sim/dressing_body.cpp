@@ -8,7 +8,9 @@
 namespace toile {
 namespace {
 
-constexpr double waits_s = 0.3, grows_s = 1, lowers_s = 0.7;  // the arms are down before the body is full
+// From the weld: it waits; arms come out; they are lowered, and are down before the body is full.
+constexpr double waits_s = 0.3, out_s = 0.4, lowers_s = 0.4, grows_at_s = 0.6, grows_s = 1;
+constexpr double beyond_sleeve_m = 0.08;  // a drawn-in arm: past the hem of its sleeve, or past its root
 // The shoulder turns with the arm, of the height: fully from beyond the armpit, less and less towards the neck.
 constexpr double turns_from = -0.05, turns_fully = 0.02;
 
@@ -40,40 +42,56 @@ DressingBody::DressingBody(std::span<const Vec3> standing, std::span<const Trian
       height_m_(height_of(standing.first(person_vertices))),
       standing_(standing.begin(), standing.end()) {}
 
-void DressingBody::lift_arms(double share) {
+DressingBody::Pose DressingBody::pose_within(double lift, const std::array<bool, 2>& covered,
+                                             const std::array<double, 2>& sleeve_m) const {
+  Pose pose;
   for (std::size_t k = 0; k < 2; ++k) {
-    const Vec3& d = arms_[k].direction;
-    const double outwards = k == 0 ? 1 : -1;
-    lift_rad_[k] = -share * outwards * ieee_atan2(d.y(), outwards * d.x());
+    const double drawn_in = std::min(1.0, (sleeve_m[k] + beyond_sleeve_m) / arms_[k].length_m);
+    pose.lift[k] = covered[k] ? lift : 1;
+    pose.reach[k] = covered[k] && sleeve_m[k] == 0 ? 1 : drawn_in;
   }
+  return pose;
+}
+
+// In the frontal plane, about the arm's root.
+double DressingBody::lift_rad(std::size_t arm, double share) const {
+  const Vec3& d = arms_[arm].direction;
+  const double outwards = arm == 0 ? 1 : -1;
+  return -share * outwards * ieee_atan2(d.y(), outwards * d.x());
 }
 
 std::array<DressingBody::ArmAxis, 2> DressingBody::arm_axes() const {
   std::array<ArmAxis, 2> axes;
-  for (std::size_t k = 0; k < 2; ++k) axes[k] = {arms_[k].root, turned(arms_[k].direction, Vec3::Zero(), lift_rad_[k])};
+  for (std::size_t k = 0; k < 2; ++k)
+    axes[k] = {arms_[k].root, turned(arms_[k].direction, Vec3::Zero(), lift_rad(k, pose_.lift[k]))};
   return axes;
 }
 
-void DressingBody::lift(double share, std::span<Vec3> x) const {
-  if (share == 0) return;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Arm& arm = arms_[k];
-    for (std::size_t i = 0; i < person_vertices_; ++i) {
-      const double turns = smooth((arm.past[i] / height_m_ - turns_from) / (turns_fully - turns_from));
-      if (turns > 0) x[i] = turned(x[i], arm.root, turns * share * lift_rad_[k]);
-    }
+void DressingBody::pose_arm(std::size_t k, double lift, double reach, std::span<Vec3> x) const {
+  if (lift == 0 && reach == 1) return;
+  const Arm& arm = arms_[k];
+  const double angle_rad = lift_rad(k, lift);
+  for (std::size_t i = 0; i < person_vertices_; ++i) {
+    const double share = smooth((arm.past[i] / height_m_ - turns_from) / (turns_fully - turns_from));
+    if (share == 0) continue;
+    const double along_m = std::max(0.0, (x[i] - arm.root).dot(arm.direction));
+    x[i] = turned(x[i] - share * (1 - reach) * along_m * arm.direction, arm.root, share * angle_rad);
   }
 }
 
 void DressingBody::lifted(std::span<Vec3> x) const {
   std::copy(standing_.begin(), standing_.end(), x.begin());
-  lift(1, x);
+  for (std::size_t k = 0; k < 2; ++k) pose_arm(k, pose_.lift[k], pose_.reach[k], x);
 }
 
 void DressingBody::at(double t_s, std::span<Vec3> x) const {
   std::copy(standing_.begin(), standing_.end(), x.begin());
-  thin_.at(std::clamp((t_s - waits_s) / grows_s, 0.0, 1.0), x.first(person_vertices_));
-  lift(1 - smooth((t_s - waits_s) / lowers_s), x);
+  thin_.at(std::clamp((t_s - grows_at_s) / grows_s, 0.0, 1.0), x.first(person_vertices_));
+  const double out = smooth((t_s - waits_s) / out_s), down = smooth((t_s - waits_s - out_s) / lowers_s);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double reach = pose_.reach[k] + out * (1 - pose_.reach[k]);
+    pose_arm(k, (1 - down) * pose_.lift[k], reach, x);
+  }
 }
 
 }  // namespace toile

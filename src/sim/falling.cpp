@@ -1,10 +1,13 @@
 #include "sim/falling.hpp"
 
+#include "body/measure.hpp"
+
 #include <fmt/printf.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace toile {
@@ -119,6 +122,27 @@ std::optional<LostGarment> FallWatch::find(std::span<const OutfitPart> parts, co
       static_cast<Index>(p),
       fmt::sprintf("it is %.2f to %.2f m high, the body from %.2f to %.2f m and %.2f m beside it", cloth.low.z(),
                    cloth.high.z(), solids.low.z(), solids.high.z(), beside.head<2>().norm())};
+}
+
+std::optional<LostGarment> slid_off_hips(std::span<const OutfitPart> parts, std::span<const double> waists_m,
+                                         std::span<const Vec3> cloth, std::span<const Vec3> person,
+                                         std::span<const Triangle> triangles) {
+  const Level widest = hips(person, triangles);
+  if (!(widest.girth_m > 0)) return std::nullopt;
+  std::size_t first = 0;
+  for (std::size_t p = 0; p < parts.size() && p < waists_m.size(); ++p) {
+    const std::span<const Vec3> mine = cloth.subspan(first, static_cast<std::size_t>(parts[p].particles));
+    first += mine.size();
+    double top_m = -std::numeric_limits<double>::infinity();
+    for (const Vec3& x : mine) top_m = std::max(top_m, x.y());
+    if (waists_m[p] == 0 || top_m >= widest.height_m) continue;
+    return LostGarment{
+        static_cast<Index>(p),
+        fmt::sprintf("all of it is below %.2f m, the hips are %.2f m high and %.1f cm round; its waist is "
+                     "%.1f cm round as cut",
+                     top_m, widest.height_m, 100 * widest.girth_m, 100 * waists_m[p])};
+  }
+  return std::nullopt;
 }
 
 }  // namespace toile

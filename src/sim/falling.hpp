@@ -73,4 +73,9 @@ class FallWatch {
   std::optional<Box> swept_;  // all places of solids that move; made when it is first asked for
 };
 
+// The first garment with a waist, all of which is below a person's hips.  `waists_m`: [part] how long what belongs at the waist is as cut; 0: nothing does.
+std::optional<LostGarment> slid_off_hips(std::span<const OutfitPart> parts, std::span<const double> waists_m,
+                                         std::span<const Vec3> cloth, std::span<const Vec3> person,
+                                         std::span<const Triangle> triangles);
+
 }  // namespace toile

@@ -112,8 +112,8 @@ void add_measurements(JsonText& text, const Report& report) {
   text.member("p50", s.p50);
   text.member("p99", s.p99);
   text.member("max", s.max);
-  text.member("judged_p99", s.judged_p99);
-  text.member("judged_max", s.judged_max);
+  text.member("judged_p99", s.triangle_p99);
+  text.member("judged_max", s.triangle_max);
   text.member("gauge_p99", s.gauge_p99);
   text.member("gauge_max", s.gauge_max);
   text.end_object();

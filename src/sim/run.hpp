@@ -88,7 +88,7 @@ class Run {
       written_ = writer_->frames();
       report_.seconds_total = earlier_s_ + total_.seconds();
     }
-    archive(place_, written_, report_, failure_, qualifications_, arm_lift_, open_pairs_, stopped_short_, before_inner_,
+    archive(place_, written_, report_, failure_, qualifications_, pose_, open_pairs_, stopped_short_, before_inner_,
             slow_inner_, seconds_before_motion_, touches_);
   }
   void take_up(std::uint64_t input_hash);
@@ -137,6 +137,7 @@ class Run {
   bool lost();
   bool goes_on(const OutfitRun& run);
   void judge_end(const OutfitRun& run);
+  void find_below_hips();
 
   const Scene& scene_;
   const RunOptions& options_;
@@ -163,10 +164,11 @@ class Run {
   TouchMemory touches_;
   std::optional<FallWatch> fall_watch_;
 
-  double arm_lift_ = 0;  // of dressing_body_, while the first garment is sewn
+  DressingBody::Pose pose_;  // of dressing_body_, while the first garment is sewn
   std::vector<std::vector<Index>>
-      open_pairs_;              // [garment that is on] what its weld left open: places in GarmentMesh::pairs
-  bool stopped_short_ = false;  // put on as far as it went: that one frame is written, and nothing moves
+      open_pairs_;                // [garment that is on] what its weld left open: places in GarmentMesh::pairs
+  std::vector<double> waists_m_;  // [garment] how long its edges are that belong at the waist, as cut; 0: it has none
+  bool stopped_short_ = false;    // put on as far as it went: that one frame is written, and nothing moves
 
   mutable bool user_stopped_ = false;  // options_.stop has said so
 

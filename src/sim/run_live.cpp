@@ -1,4 +1,5 @@
 // sim/run_live.cpp: from the first written frame to the last: the drape, then the motion.
+#include "body/arms.hpp"
 #include "sim/run.hpp"
 
 #include <fmt/printf.h>
@@ -20,6 +21,7 @@ void Run::live() {
   begin_recording(run);
   watch_falling();
   // What hangs now is the run's: a second and a third copy of a fine mesh are large.
+  for (const LoadedCloth& cloth : cloth_) waists_m_.push_back(waist_girth_m(cloth.garment));
   cloth_.clear();
   outfit_.mesh = {};
   const std::string put_on_ended = failure_.empty() ? "" : failure_.front().code;
@@ -38,6 +40,7 @@ void Run::live() {
     drape(run);
   }
   if (report_.ended == "time" && failure_.empty()) judge_end(run);
+  if (failure_.empty()) find_below_hips();
   if (!put_on_ended.empty() && report_.ended != reason::interrupted) report_.ended = put_on_ended;
   close(run);
 }
@@ -179,6 +182,19 @@ void Run::judge_end(const OutfitRun& run) {
                                      run.time_s(), OutfitRun::settling_s)});
   else if (fall_watch_ && in_wind())
     lost();
+}
+
+// A skirt or trousers that lie about the feet are not worn.
+void Run::find_below_hips() {
+  const auto waisted = [](double girth_m) { return girth_m > 0; };
+  if (!body_ || std::none_of(waists_m_.begin(), waists_m_.end(), waisted)) return;
+  const std::span person = std::span<const Triangle>(body_triangles_).first(person_triangles_);
+  if (!find_arms(std::span(standing_x_).first(person_vertices_), person)) return;  // a torso has no hips to be found
+  const std::optional<LostGarment> lost =
+      slid_off_hips(outfit_.parts, waists_m_, outfit_.state.x, std::span(body_x_).first(person_vertices_), person);
+  if (lost)
+    end(reason::fell_off,
+        printable(outfit_.parts[static_cast<std::size_t>(lost->part)].name) + " slid off the hips: " + lost->where);
 }
 
 void Run::close(OutfitRun& run) {

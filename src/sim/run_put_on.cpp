@@ -95,23 +95,26 @@ Placement Run::place_around_arms(GarmentMesh& garment) {
   const GarmentMesh drawn = garment;
   Placement best;
   for (const double lift : arm_lifts) {
-    dressing_body_->lift_arms(lift);
+    dressing_body_->set_pose({{lift, lift}, {1, 1}});
+    GarmentMesh placed = drawn;
+    const std::array<DressingBody::ArmAxis, 2> axes = dressing_body_->arm_axes();
+    const std::array<ArmLine, 2> arms{ArmLine{axes[0].root, axes[0].direction},
+                                      ArmLine{axes[1].root, axes[1].direction}};
+    hang_sleeves(placed, arms, dressing_body_->height_m());
     dressing_body_->lifted(body_x_);
     stand();
-    GarmentMesh placed = drawn;
-    const auto hang = [&, axes = dressing_body_->arm_axes()] {
-      hang_sleeves(placed, {ArmLine{axes[0].root, axes[0].direction}, ArmLine{axes[1].root, axes[1].direction}},
-                   dressing_body_->height_m());
-    };
-    hang();
     Placement placement = place_garment(placed, *body_, person_vertices_);
-    hang();  // the shift was the whole garment's
+    const std::array<double, 2> sleeves_m =
+        hang_sleeves(placed, arms, dressing_body_->height_m());  // the shift was the whole garment's
+    const DressingBody::Pose pose = dressing_body_->pose_within(lift, covers_shoulders(placed, arms), sleeves_m);
+    dressing_body_->set_pose(pose);
     dressing_body_->at(0, body_x_);
     stand();
     find_blocked(placed, *body_, placement);
+
     if (lift != arm_lifts.front() && placement.blocked >= best.blocked) continue;
     best = placement;
-    arm_lift_ = lift;
+    pose_ = pose;
     garment = std::move(placed);
     if (best.blocked == 0) break;
   }
@@ -282,7 +285,7 @@ void Run::find_person() {
 }
 
 void Run::make_thin() {
-  dressing_body_->lift_arms(arm_lift_);
+  dressing_body_->set_pose(pose_);
   dressing_body_->at(0, body_x_);
   stand();
 }

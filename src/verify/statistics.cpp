@@ -69,8 +69,8 @@ StretchStatistics measure_stretch(const ClothMesh& mesh, std::span<const Vec3> x
       continue;
     }
     judged.push_back(all[t]);
-    if (result.judged_worst_triangle < 0 || all[t] > result.judged_max)
-      result.judged_max = all[t], result.judged_worst_triangle = index;
+    if (result.triangle_worst < 0 || all[t] > result.triangle_max)
+      result.triangle_max = all[t], result.triangle_worst = index;
   }
   std::vector<double> gauge = gauge_stretch(mesh, all, elastic), judged_gauge;
   judged_gauge.reserve(judged.size());
@@ -88,7 +88,7 @@ StretchStatistics measure_stretch(const ClothMesh& mesh, std::span<const Vec3> x
   }
   result.p50 = nearest_rank(all, 50);
   result.p99 = nearest_rank(all, 99);
-  result.judged_p99 = nearest_rank(judged, 99);
+  result.triangle_p99 = nearest_rank(judged, 99);
   result.shear_p50_deg = nearest_rank(shear, 50);
   result.shear_p99_deg = nearest_rank(shear, 99);
   result.shear_max_deg = nearest_rank(shear, 100);

@@ -25,10 +25,10 @@ struct StretchStatistics {
   double p50 = 0, p99 = 0, max = 0;  // over all triangles
   double shear_p50_deg = 0, shear_p99_deg = 0, shear_max_deg = 0;
   Index worst_triangle = -1;  // of max
-  // What is judged: an elastic panel is meant to be longer than its rest length, and is left out.
-  double judged_p99 = 0, judged_max = 0;
-  Index judged_worst_triangle = -1;
-  // Likewise, over a gauge (verify/gauge.hpp): beside what is judged.
+  // By triangle, without elastic panels, which are meant to be longer than their rest length.
+  double triangle_p99 = 0, triangle_max = 0;
+  Index triangle_worst = -1;
+  // Likewise, over a gauge (verify/gauge.hpp): what is judged.
   double gauge_p99 = 0, gauge_max = 0;
   Index gauge_worst_triangle = -1;
   Vec3 gauge_worst_m{0, 0, 0};  // its middle

@@ -16,7 +16,7 @@ namespace toile {
 
 struct Limits {
   int cloth_body_edges = 0, cloth_cloth_edges = 0;  // of the last frame
-  double stretch_p99 = 0.05, stretch_max = 0.10;    // of the last frame, outside elastic
+  double stretch_p99 = 0.08, stretch_max = 0.25;    // over a gauge, of the last frame, outside elastic
   bool must_be_still = false;                       // `dress` without motion
   double still_mm_per_s = 5;
 };

@@ -179,6 +179,12 @@ TEST(TapeMeasure, TheWaistIsTheNarrowestPartOfTheTrunk) {
   }
   EXPECT_NEAR(waist_height_m(x, triangles), 0.62, 1e-9);
   EXPECT_EQ(waist_height_m({}, {}), 0);
+  const Level widest = hips(x, triangles);
+  EXPECT_GE(widest.height_m, 0.45 - 1e-9);
+  EXPECT_LE(widest.height_m, 0.55 + 1e-9);
+  for (int percent = 45; percent <= 55; ++percent)
+    EXPECT_LE(girth_at_m(x, triangles, Vec3(0, 0.01 * percent, 0), Vec3::UnitY()), widest.girth_m + 1e-9) << percent;
+  EXPECT_EQ(hips({}, {}).girth_m, 0);
 }
 
 TEST(TapeMeasure, GirthOfABallIsItsCircumference) {

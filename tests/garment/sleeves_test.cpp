@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 namespace toile {
 namespace {
@@ -88,6 +90,17 @@ TEST(Sleeves, OfAGarmentWithLabelsAreThePanelsThatSaySo) {
   const Vec3s drawn = garment.x;
   hang_sleeves(garment, {ArmLine{{0.2, 1.33, 0}, {1, 0, 0}}, ArmLine{{-0.2, 1.33, 0}, {-1, 0, 0}}}, 1.72);
   EXPECT_EQ(garment.x, drawn);
+}
+
+TEST(Sleeves, AShirtCoversTheShouldersAndASkirtDoesNot) {
+  const Vec3 root(0.2, 1.33, -0.02);
+  const std::array<ArmLine, 2> arms{ArmLine{root, Vec3::UnitX()},
+                                    ArmLine{Vec3(-root.x(), root.y(), root.z()), -Vec3::UnitX()}};
+  const auto covers = [&](const char* file) {
+    return covers_shoulders(mesh_garment(load_pattern(std::string(TOILE_SOURCE_DIR "/patterns/") + file), 0.03), arms);
+  };
+  EXPECT_EQ(covers("tshirt.json"), (std::array<bool, 2>{true, true}));
+  EXPECT_EQ(covers("short_skirt.json"), (std::array<bool, 2>{false, false}));
 }
 
 }  // namespace

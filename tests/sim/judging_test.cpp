@@ -1,4 +1,6 @@
 // What a run may be said to have come to: no pass before gravity, no rest in free fall, no silent move of a start.
+#include "body/mannequin.hpp"
+#include "body/measure.hpp"
 #include "garment/garments.hpp"
 #include "io/json.hpp"
 #include "io/pc2.hpp"
@@ -290,6 +292,23 @@ TEST(Weld, PutsWhatIsWornBeforeWhatIsNew) {
   const Index held = outfit.mesh.particle_count;
   ASSERT_GT(together.mesh.particle_count, held);
   for (Index i = 0; i < held; ++i) ASSERT_LT(together.particle_of[test::at(i)], held) << i;
+}
+
+TEST(Judging, AGarmentWithAWaistThatLiesBelowTheHipsIsNotWorn) {
+  const Mannequin woman = make_mannequin();
+  const std::vector<OutfitPart> parts{{"shirt", 0, 1, 2}, {"skirt", 1, 1, 2}};
+  const auto found = [&](double skirt_top_m, std::vector<double> waists_m) {
+    const Vec3s cloth{{0, 1.4, 0}, {0, 0.3, 0}, {0, skirt_top_m, 0}, {0, 0.2, 0}};
+    return slid_off_hips(parts, waists_m, cloth, woman.positions, woman.triangles);
+  };
+  const double hips_m = hips(woman.positions, woman.triangles).height_m;
+  ASSERT_GT(hips_m, 0.7);
+  ASSERT_TRUE(found(hips_m - 0.01, {0, 1.26}));
+  EXPECT_EQ(found(hips_m - 0.01, {0, 1.26})->part, 1);
+  EXPECT_NE(found(hips_m - 0.01, {0, 1.26})->where.find("126.0 cm"), std::string::npos);
+  EXPECT_FALSE(found(hips_m + 0.01, {0, 1.26}));
+  EXPECT_FALSE(found(0.3, {0, 0})) << "nothing of it belongs at the waist: stockings";
+  EXPECT_FALSE(found(0.9, {1.26, 0}));
 }
 
 }  // namespace

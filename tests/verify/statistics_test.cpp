@@ -58,7 +58,7 @@ TEST(Stretch, IsThatOfTheMoreStretchedThread) {
   EXPECT_NEAR(s.p50, 0, 1e-12);
   EXPECT_NEAR(s.shear_max_deg, 0, 1e-9);
   EXPECT_EQ(s.elastic_triangles, 0);
-  EXPECT_EQ(s.judged_max, s.max);
+  EXPECT_EQ(s.triangle_max, s.max);
 }
 
 TEST(Stretch, OfElasticIsRelativeToItsOwnRestLengthAndNotJudged) {
@@ -72,9 +72,9 @@ TEST(Stretch, OfElasticIsRelativeToItsOwnRestLengthAndNotJudged) {
   EXPECT_NEAR(s.max, 0.5, 1e-12);
   EXPECT_EQ(s.worst_triangle, 1);
   EXPECT_EQ(s.elastic_triangles, 1);
-  EXPECT_NEAR(s.judged_max, 0.04, 1e-12);
-  EXPECT_NEAR(s.judged_p99, 0.04, 1e-12);
-  EXPECT_EQ(s.judged_worst_triangle, 2);
+  EXPECT_NEAR(s.triangle_max, 0.04, 1e-12);
+  EXPECT_NEAR(s.triangle_p99, 0.04, 1e-12);
+  EXPECT_EQ(s.triangle_worst, 2);
 }
 
 TEST(Stretch, OfAUniformlyShortenedSheetIsNegative) {

@@ -11,8 +11,8 @@ namespace {
 VerifyReport good() {
   VerifyReport report;
   report.frames = 31;
-  report.stretch.judged_p99 = 0.05;
-  report.stretch.judged_max = 0.10;
+  report.stretch.gauge_p99 = 0.08;
+  report.stretch.gauge_max = 0.25;
   report.still_mm_per_s_p99 = 5;
   return report;
 }
@@ -43,12 +43,12 @@ TEST(Verdict, GivesOneCodeForEachExcess) {
   report.cloth_cloth_edges.last = 1;
   EXPECT_EQ(codes(report), Codes{"cloth_self_intersection"});
   report = good();
-  report.stretch.judged_p99 = 0.0501;
+  report.stretch.gauge_p99 = 0.0801;
   EXPECT_EQ(codes(report), Codes{"stretch"});
   report = good();
-  report.stretch.judged_max = 0.1001;
+  report.stretch.gauge_max = 0.2501;
   EXPECT_EQ(codes(report), Codes{"stretch"});
-  report.stretch.judged_p99 = 0.06;
+  report.stretch.gauge_p99 = 0.06;
   EXPECT_EQ(codes(report), Codes{"stretch"});
   report = good();
   report.finite = false;
@@ -90,7 +90,7 @@ TEST(Verdict, DoesNotAcquitOfWhatTheRunConfessed) {
 
 TEST(Verdict, TakesNaNForAnExcess) {
   VerifyReport report = good();
-  report.stretch.judged_max = std::numeric_limits<double>::quiet_NaN();
+  report.stretch.gauge_max = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(codes(report), Codes{"stretch"});
 }
 

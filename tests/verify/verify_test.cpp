@@ -323,7 +323,7 @@ TEST(VerifyDirectory, ReadsWhatTheRunWasMeantToBe) {
             (std::vector<std::string>{"simulation_timeout"}));  // stretch is measured, not believed
   EXPECT_EQ(report.stretch.elastic_triangles, rows * columns);
   EXPECT_NEAR(report.stretch.max, 0.25, 1e-4);
-  EXPECT_NEAR(report.stretch.judged_max, 0, 1e-4);
+  EXPECT_NEAR(report.stretch.triangle_max, 0, 1e-4);
   const Verdict verdict = judge(report);
   ASSERT_EQ(verdict.reasons.size(), 2u);
   EXPECT_EQ(verdict.reasons[0].code, "unfinished");
