@@ -57,10 +57,10 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
 Outfit outfit_of_shapes(std::span<const LoadedCloth> cloth);
 // What happens to the cloth in time, on the particles and panels of `outfit`, whose parts are the cloths in their order.
 Events events_of(const Outfit& outfit, std::span<const LoadedCloth> cloth);
-// Where labelled edges are held: as the cloth says, and the waist ("lower_interface") where the body is narrowest if it says nothing.
-// Labels that stay without a height are named in a warning.  Throws InputError for a height of a label that no edge carries.
 // How long the edges are that the pattern wants at the waist, as cut; 0: there are none.
 double waist_girth_m(const GarmentMesh& garment);
+// Where labelled edges are held: as the cloth says, and the waist ("lower_interface") where the body is narrowest if it says nothing.
+// Labels that stay without a height are named in a warning.  Throws InputError for a height of a label that no edge carries.
 std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment,
                                           std::span<const Vec3> body_x, std::span<const Triangle> body_triangles,
                                           std::vector<std::string>& warnings);
