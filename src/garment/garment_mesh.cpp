@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "garment/panel_mesh.hpp"
 #include "garment/pattern_check.hpp"
+#include "garment/seam_fit.hpp"
 
 #include <Eigen/Geometry>
 
@@ -16,9 +17,6 @@
 
 namespace toile {
 namespace {
-
-// A seam counts as twisted when sewing it the other way round would bring the placed edges this much nearer.
-constexpr double twist_ratio = 2;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -77,17 +75,11 @@ void add_seam(GarmentMesh& garment, const Pattern& pattern, const Stitch& stitch
   Seam seam{side_name(pattern, stitch.a) + " - " + side_name(pattern, stitch.b),
             edge_length_m(panel_a, panel_a.edges[at(stitch.a.edge)]),
             edge_length_m(panel_b, panel_b.edges[at(stitch.b.edge)])};
-  const bool dart = a.front() == b.front() || a.back() == b.back();
-  if (!dart) {
-    const Vec3 &a0 = garment.x[at(a.front())], &a1 = garment.x[at(a.back())], &b0 = garment.x[at(b.front())],
-               &b1 = garment.x[at(b.back())];
-    const double as_sewn = (a0 - b0).norm() + (a1 - b1).norm(), other_way = (a0 - b1).norm() + (a1 - b0).norm();
-    // Two edges of the same panel edge-on to each other say nothing; only a clear difference does.
-    if (as_sewn > twist_ratio * other_way) {
-      throw InputError(
-          "", "seam " + seam.name, "matching ends near each other where the panels are placed",
-          "a twisted seam: its ends lie nearer to the opposite ends (check \"right_wrong\" and the panels' loops)");
-    }
+  const std::optional<SeamEnds> ends = seam_ends(pattern, stitch);
+  if (ends && ends->twisted()) {
+    throw InputError(
+        "", "seam " + seam.name, "matching ends near each other where the panels are placed",
+        "a twisted seam: its ends lie nearer to the opposite ends (check \"right_wrong\" and the panels' loops)");
   }
   const auto index = static_cast<Index>(garment.seams.size());
   const double length = 0.5 * (seam.length_a_m + seam.length_b_m), piece = length / static_cast<double>(a.size() - 1);
@@ -117,30 +109,13 @@ void turn_over(GarmentMesh& garment, Index panel, const MeshedPanel& meshed) {
 
 // Panels joined right to wrong must be turned over for the surface to have one right side.
 void orient_panels(GarmentMesh& garment, const Pattern& pattern, const std::vector<MeshedPanel>& meshed) {
-  std::vector<int> side(pattern.panels.size(), 0);  // 0: not reached, 1: as drawn, -1: turned over
-  for (std::size_t start = 0; start < side.size(); ++start) {
-    if (side[start] != 0) continue;
-    side[start] = 1;
-    bool changed = true;
-    while (changed) {
-      changed = false;
-      for (std::size_t s = 0; s < pattern.stitches.size(); ++s) {
-        const Stitch& stitch = pattern.stitches[s];
-        int &a = side[at(stitch.a.panel)], &b = side[at(stitch.b.panel)];
-        const int same = stitch.right_wrong ? -1 : 1;
-        if (a == 0 && b == 0) continue;
-        if (a == 0 || b == 0) {
-          (a == 0 ? a : b) = same * (a == 0 ? b : a);
-          changed = true;
-        } else if (a != same * b) {
-          throw InputError("", "seam " + garment.seams[s].name, "seams that give the garment one right side",
-                           "a twisted seam: following the other seams, its two panels face opposite ways");
-        }
-      }
-    }
+  const PanelSides sides = panel_sides(pattern);
+  if (sides.conflict >= 0) {
+    throw InputError("", "seam " + garment.seams[at(sides.conflict)].name, "seams that give the garment one right side",
+                     "a twisted seam: following the other seams, its two panels face opposite ways");
   }
-  for (std::size_t p = 0; p < side.size(); ++p) {
-    if (side[p] < 0) turn_over(garment, static_cast<Index>(p), meshed[p]);
+  for (std::size_t p = 0; p < sides.side.size(); ++p) {
+    if (sides.side[p] < 0) turn_over(garment, static_cast<Index>(p), meshed[p]);
   }
 }
 
