@@ -73,17 +73,17 @@ def commands_of(path, root):
 
 def reason_to_skip(command, work):
     """Why the command cannot be run here; empty when it can."""
-    out = None
+    made_here = set()
     for previous, word in zip(command.words, command.words[1:]):
-        if previous == "--out":
-            out = word
+        if previous in {"--out", "--svg", "--repair"}:
+            made_here.add(word)
             continue
         if word.startswith("-"):
             continue
         if re.fullmatch(r"[A-Z][A-Z_.]*", word):
             return f"{word} is for the reader to fill in"
         looks_like_a_file = "/" in word or word.endswith(file_suffixes)
-        if looks_like_a_file and word != out and not (work / word).exists():
+        if looks_like_a_file and word not in made_here and not (work / word).exists():
             made = word.startswith("out/")
             return f"{word} " + ("is made by a command that was not run" if made else "is not in the repository")
     return ""

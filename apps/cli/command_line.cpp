@@ -149,6 +149,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   check->add_option("FILE", line.inputs, "Scene or pattern (.json), mesh (.obj)")->required();
   check->add_option("--resolution", line.resolution_cm, "Edge length at which patterns are meshed, cm (default: 1)")
       ->check(CLI::Range(0.1, 20.0));
+  check->add_option("--body", line.body, "Of a pattern: who is to wear it; OBJ, or a mannequin: woman, dancer, man");
+  check->add_option("--svg", line.svg, "Of one pattern: draw its panels here, with the places that were found");
+  check->add_option("--repair", line.repair, "Of one pattern: write a copy here with what can be mended");
   check->add_option("--body-unit", line.body_unit, "Unit of meshes that are bodies")
       ->check(CLI::IsMember({"m", "dm", "cm"}));
 

@@ -21,6 +21,7 @@ struct CommandLine {
   bool no_preview = false, quiet = false, json = false, picture = false;
 
   std::string body, body_unit, motion, quality, start;
+  std::string svg, repair;  // of check: files to write; empty: none
   std::vector<int> frames;  // of preview
   std::optional<std::string> fabric;
   std::optional<double> resolution_cm, fps, seconds;

@@ -9,6 +9,7 @@
 #include "garment/pattern_check.hpp"
 
 #include "core/error.hpp"
+#include "garment/lint_codes.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -50,6 +51,12 @@ void add_fault(std::vector<PatternFault>& faults, PatternFault fault) {
   if (faults.size() < PatternLimits::max_faults) faults.push_back(std::move(fault));
 }
 
+PatternFault with_other(PatternFault fault, Index other, const Vec2& place_m = Vec2::Zero()) {
+  fault.other = other;
+  fault.place_m = place_m;
+  return fault;
+}
+
 // ---- gate 1: indices and loop ---------------------------------------------------------------------------------------
 
 class PanelCheck {
@@ -66,25 +73,27 @@ class PanelCheck {
   }
 
  private:
-  void fault(Part part, Index index, std::string expected, std::string got) {
+  void fault(std::string_view code, Part part, Index index, std::string expected, std::string got, Index other = -1,
+             const Vec2& place_m = Vec2::Zero()) {
     sound_ = false;
-    add_fault(faults_, {part, index_, index, -1, std::move(expected), std::move(got)});
+    add_fault(faults_,
+              with_other({code, part, index_, index, -1, std::move(expected), std::move(got)}, other, place_m));
   }
 
   void check_numbers() {
     const std::string limit = number_text(PatternLimits::max_coordinate_m);
     for (std::size_t c = 0; c < panel_.corners.size(); ++c) {
       if (bounded(panel_.corners[c])) continue;
-      fault(Part::corner, static_cast<Index>(c), "coordinates within " + limit + " m of the origin",
-            point_text(panel_.corners[c]));
+      fault(reason::beyond_limits, Part::corner, static_cast<Index>(c),
+            "coordinates within " + limit + " m of the origin", point_text(panel_.corners[c]));
     }
     for (int axis = 0; axis < 3; ++axis) {
       if (!bounded(panel_.translation_m[axis])) {
-        fault(Part::panel, -1, "a translation within " + limit + " m of the origin",
+        fault(reason::beyond_limits, Part::panel, -1, "a translation within " + limit + " m of the origin",
               number_text(panel_.translation_m[axis]) + " m");
       }
       if (!std::isfinite(panel_.rotation_deg[axis])) {
-        fault(Part::panel, -1, "a finite rotation", number_text(panel_.rotation_deg[axis]));
+        fault(reason::beyond_limits, Part::panel, -1, "a finite rotation", number_text(panel_.rotation_deg[axis]));
       }
     }
     for (std::size_t e = 0; e < panel_.edges.size(); ++e) {
@@ -93,12 +102,13 @@ class PanelCheck {
       const bool bezier = edge.kind == CurveKind::quadratic || edge.kind == CurveKind::cubic;
       const std::string expected = "control points within " + limit + " m of the origin";
       if (bezier && !bounded(edge.control[0])) {
-        fault(Part::edge, k, expected, point_text(edge.control[0]));
+        fault(reason::beyond_limits, Part::edge, k, expected, point_text(edge.control[0]));
       } else if (edge.kind == CurveKind::cubic && !bounded(edge.control[1])) {
-        fault(Part::edge, k, expected, point_text(edge.control[1]));
+        fault(reason::beyond_limits, Part::edge, k, expected, point_text(edge.control[1]));
       } else if (edge.kind == CurveKind::circle &&
                  !(edge.radius_m > 0 && edge.radius_m <= PatternLimits::max_radius_m)) {
-        fault(Part::edge, k, "a radius above 0 and at most " + number_text(PatternLimits::max_radius_m) + " m",
+        fault(reason::beyond_limits, Part::edge, k,
+              "a radius above 0 and at most " + number_text(PatternLimits::max_radius_m) + " m",
               number_text(edge.radius_m) + " m");
       }
     }
@@ -107,14 +117,14 @@ class PanelCheck {
   void check_loop() {
     const std::size_t count = panel_.edges.size();
     if (count > PatternLimits::max_panel_edges) {
-      fault(Part::panel, -1, "at most " + std::to_string(PatternLimits::max_panel_edges) + " edges",
-            std::to_string(count));
+      fault(reason::beyond_limits, Part::panel, -1,
+            "at most " + std::to_string(PatternLimits::max_panel_edges) + " edges", std::to_string(count));
       return;
     }
     const bool curved = std::any_of(panel_.edges.begin(), panel_.edges.end(),
                                     [](const PanelEdge& e) { return e.kind != CurveKind::line; });
     if (count < (curved ? 2U : 3U)) {
-      fault(Part::panel, -1, "at least 3 edges, or 2 of which one is curved", std::to_string(count));
+      fault(reason::loop_open, Part::panel, -1, "at least 3 edges, or 2 of which one is curved", std::to_string(count));
       return;
     }
     std::vector<Index> leaving(panel_.corners.size(), -1);  // the edge that starts at a corner
@@ -122,23 +132,26 @@ class PanelCheck {
       const PanelEdge& edge = panel_.edges[e];
       const auto k = static_cast<Index>(e);
       if (!within(edge.start, panel_.corners.size()) || !within(edge.end, panel_.corners.size())) {
-        fault(Part::edge, k, "corners 0 to " + std::to_string(static_cast<long long>(panel_.corners.size()) - 1),
+        fault(reason::edge_ends, Part::edge, k,
+              "corners 0 to " + std::to_string(static_cast<long long>(panel_.corners.size()) - 1),
               std::to_string(edge.start) + " and " + std::to_string(edge.end));
         return;
       }
       if (edge.start == edge.end) {
-        fault(Part::edge, k, "two different corners", "corner " + std::to_string(edge.start) + " twice");
+        fault(reason::edge_ends, Part::edge, k, "two different corners",
+              "corner " + std::to_string(edge.start) + " twice");
         return;
       }
       const PanelEdge& next = panel_.edges[(e + 1) % count];
       if (edge.end != next.start) {
-        fault(Part::edge, k, "an edge that ends where the next begins, at corner " + std::to_string(next.start),
+        fault(reason::loop_open, Part::edge, k,
+              "an edge that ends where the next begins, at corner " + std::to_string(next.start),
               "corner " + std::to_string(edge.end));
         return;
       }
       Index& first = leaving[at(edge.start)];
       if (first >= 0) {
-        fault(Part::edge, k, "a loop that passes each corner once",
+        fault(reason::loop_several, Part::edge, k, "a loop that passes each corner once",
               "corner " + std::to_string(edge.start) + " again, after " + edge_text(panel_, first));
         return;
       }
@@ -146,7 +159,8 @@ class PanelCheck {
     }
     for (std::size_t c = 0; c < leaving.size(); ++c) {
       if (leaving[c] < 0) {
-        fault(Part::corner, static_cast<Index>(c), "a corner that an edge uses", "none that does");
+        fault(reason::corner_unused, Part::corner, static_cast<Index>(c), "a corner that an edge uses",
+              "none that does");
       }
     }
   }
@@ -160,7 +174,7 @@ class PanelCheck {
       const double chord = (panel_.corners[at(edge.end)] - panel_.corners[at(edge.start)]).norm();
       // The margin forgives the rounding of a half circle; SVG would silently enlarge any radius.
       if (edge.kind == CurveKind::circle && edge.radius_m < 0.5 * chord * (1 - 1e-6)) {
-        fault(Part::edge, static_cast<Index>(e),
+        fault(reason::curve_impossible, Part::edge, static_cast<Index>(e),
               "a radius of at least half the distance of the corners, " + number_text(0.5 * chord) + " m",
               number_text(edge.radius_m) + " m");
       }
@@ -193,7 +207,8 @@ class PanelCheck {
       got += ": " + edge_text(panel_, static_cast<Index>(e)) + " has no length";
       break;
     }
-    fault(Part::corner, found->first, "corners at least " + number_text(PatternLimits::min_edge_m) + " m apart", got);
+    fault(reason::corner_twice, Part::corner, found->first,
+          "corners at least " + number_text(PatternLimits::min_edge_m) + " m apart", got, found->second);
   }
 
   // ---- gate 3: outline ----------------------------------------------------------------------------------------------
@@ -224,7 +239,7 @@ class PanelCheck {
     }
     const Vec2 size = high - low;
     if (size.maxCoeff() > PatternLimits::max_panel_m || size.maxCoeff() < PatternLimits::min_panel_m) {
-      fault(Part::panel, -1,
+      fault(reason::unit_doubtful, Part::panel, -1,
             "a panel between " + number_text(1000 * PatternLimits::min_panel_m) + " mm and " +
                 number_text(PatternLimits::max_panel_m) + " m large",
             number_text(size.x()) + " m x " + number_text(size.y()) + " m: is units_in_meter right?");
@@ -245,18 +260,21 @@ class PanelCheck {
       outline.pop_back();
     }
     if (outline.size() < 3) {
-      fault(Part::panel, -1, "an outline that encloses an area", "none");
+      fault(reason::outline_crosses, Part::panel, -1, "an outline that encloses an area", "none");
       return;
     }
     const auto crossing = find_crossing(outline, size.x() >= size.y());
     if (!crossing) return;
     const auto [first, second] = *crossing;
     const Index a = outline[first].edge, b = outline[second].edge;
-    const Vec2 near = low + Vec2{static_cast<double>(outline[first].x), static_cast<double>(outline[first].y)} / grid;
-    fault(Part::edge, a, "an outline that does not cross or touch itself",
+    const Vec2 near = (low + meeting(outline, first, second) / grid).unaryExpr([](double v) {
+      return std::round(1e6 * v) / 1e6;  // the grid's
+    });
+    fault(reason::outline_crosses, Part::edge, a, "an outline that does not cross or touch itself",
           (a == b ? edge_text(panel_, a) + " crosses itself"
                   : edge_text(panel_, a) + " crosses or touches " + edge_text(panel_, b)) +
-              " near " + point_text(near));
+              " near " + point_text(near),
+          b, near);
   }
 
   static int orientation(const OutlinePoint& a, const OutlinePoint& b, const OutlinePoint& c) {
@@ -316,6 +334,18 @@ class PanelCheck {
     return orientation(a, b, c) * orientation(a, b, d) <= 0 && orientation(c, d, a) * orientation(c, d, b) <= 0;
   }
 
+  // Where the lines of two pieces meet; of parallel ones, where the later begins.
+  static Vec2 meeting(const std::vector<OutlinePoint>& ring, std::size_t first, std::size_t second) {
+    const auto point = [&](std::size_t k) {
+      const OutlinePoint& p = ring[k % ring.size()];
+      return Vec2{static_cast<double>(p.x), static_cast<double>(p.y)};
+    };
+    const Vec2 a = point(first), b = point(first + 1), c = point(second), d = point(second + 1);
+    const auto cross = [](const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); };
+    const double across = cross(b - a, d - c);
+    return across == 0 ? c : a + cross(c - a, d - c) / across * (b - a);
+  }
+
   const Panel& panel_;
   Index index_;
   std::vector<PatternFault>& faults_;
@@ -328,8 +358,10 @@ void check_stitches(const Pattern& pattern, const std::vector<char>& sound, std:
   std::map<std::pair<Index, Index>, Index> sewn;  // (panel, edge) -> stitch
   for (std::size_t s = 0; s < pattern.stitches.size(); ++s) {
     const Stitch& stitch = pattern.stitches[s];
-    const auto fault = [&](int side, std::string expected, std::string got) {
-      add_fault(faults, {Part::stitch, -1, static_cast<Index>(s), side, std::move(expected), std::move(got)});
+    const auto fault = [&](std::string_view code, int side, std::string expected, std::string got, Index other = -1) {
+      add_fault(faults,
+                with_other({code, Part::stitch, -1, static_cast<Index>(s), side, std::move(expected), std::move(got)},
+                           other));
     };
     bool valid = true;
     for (int side = 0; side < 2; ++side) {
@@ -338,21 +370,22 @@ void check_stitches(const Pattern& pattern, const std::vector<char>& sound, std:
           within(at_side.edge, pattern.panels[at(at_side.panel)].edges.size())) {
         continue;
       }
-      fault(side, "a panel and an edge of the pattern",
+      fault(reason::seam_missing, side, "a panel and an edge of the pattern",
             "panel " + std::to_string(at_side.panel) + ", edge " + std::to_string(at_side.edge));
       valid = false;
     }
     if (!valid) continue;
     if (stitch.a.panel == stitch.b.panel && stitch.a.edge == stitch.b.edge) {
-      fault(-1, "two different edges", side_text(pattern, stitch.a) + " with itself");
+      fault(reason::seam_to_itself, -1, "two different edges", side_text(pattern, stitch.a) + " with itself");
       continue;
     }
     for (int side = 0; side < 2; ++side) {
       const StitchSide& at_side = side == 0 ? stitch.a : stitch.b;
       const auto [entry, inserted] = sewn.try_emplace({at_side.panel, at_side.edge}, static_cast<Index>(s));
       if (inserted) continue;
-      fault(side, "an edge that no other stitch sews",
-            side_text(pattern, at_side) + ", sewn by stitch " + std::to_string(entry->second) + " already");
+      fault(reason::seam_twice, side, "an edge that no other stitch sews",
+            side_text(pattern, at_side) + ", sewn by stitch " + std::to_string(entry->second) + " already",
+            entry->second);
       valid = false;
     }
     if (!valid || !sound[at(stitch.a.panel)] || !sound[at(stitch.b.panel)]) continue;
@@ -360,12 +393,13 @@ void check_stitches(const Pattern& pattern, const std::vector<char>& sound, std:
     const Panel &panel_a = pattern.panels[at(stitch.a.panel)], &panel_b = pattern.panels[at(stitch.b.panel)];
     const PanelEdge &edge_a = panel_a.edges[at(stitch.a.edge)], &edge_b = panel_b.edges[at(stitch.b.edge)];
     if (stitch.right_wrong && is_dart(pattern, stitch)) {
-      fault(-1, "a dart that pairs its tip with itself",
+      fault(reason::seam_twisted, -1, "a dart that pairs its tip with itself",
             "\"right_wrong\", which pairs the tip with an end of its mouth");
     }
     const double length_a = edge_length_m(panel_a, edge_a), length_b = edge_length_m(panel_b, edge_b);
     if (std::max(length_a, length_b) > PatternLimits::max_seam_ratio * std::min(length_a, length_b)) {
-      fault(-1, "edges whose lengths differ by at most a factor of " + number_text(PatternLimits::max_seam_ratio),
+      fault(reason::seam_unequal, -1,
+            "edges whose lengths differ by at most a factor of " + number_text(PatternLimits::max_seam_ratio),
             number_text(length_a) + " m (" + side_text(pattern, stitch.a) + ") and " + number_text(length_b) + " m (" +
                 side_text(pattern, stitch.b) + ")");
     }
@@ -378,10 +412,11 @@ std::vector<PatternFault> find_faults(const Pattern& pattern) {
   std::vector<PatternFault> faults;
   std::size_t edges = 0;
   for (const Panel& panel : pattern.panels) edges += panel.edges.size();
-  if (pattern.panels.empty()) faults.push_back({Part::pattern, -1, -1, -1, "at least one panel", "none"});
+  if (pattern.panels.empty())
+    faults.push_back({reason::beyond_limits, Part::pattern, -1, -1, -1, "at least one panel", "none"});
   if (edges > PatternLimits::max_edges) {
-    faults.push_back({Part::pattern, -1, -1, -1, "at most " + std::to_string(PatternLimits::max_edges) + " edges",
-                      std::to_string(edges)});
+    faults.push_back({reason::beyond_limits, Part::pattern, -1, -1, -1,
+                      "at most " + std::to_string(PatternLimits::max_edges) + " edges", std::to_string(edges)});
     return faults;
   }
   std::vector<char> sound(pattern.panels.size());

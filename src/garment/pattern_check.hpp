@@ -9,6 +9,7 @@
 #include "garment/pattern.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace toile {
@@ -29,11 +30,14 @@ struct PatternLimits {
 
 struct PatternFault {
   enum class Part { pattern, panel, corner, edge, stitch };
+  std::string_view code;  // garment/lint_codes.hpp
   Part part = Part::pattern;
   Index panel = -1;  // panel, corner, edge
   Index index = -1;  // the corner, the edge (place in Panel::edges) or the stitch
   int side = -1;     // stitch: 0 or 1 when one side is meant
   std::string expected, got;
+  Index other = -1;    // the edge that is crossed, the corner that is repeated, the stitch that sews the edge already
+  Vec2 place_m{0, 0};  // where an outline crosses itself, in the panel's plane
 };
 
 // The faults, at most max_faults of them, in a fixed order: panel by panel (indices before geometry), then stitches.

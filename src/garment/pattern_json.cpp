@@ -5,8 +5,12 @@
 //
 // What is easily got wrong: stitches name edges by their number in the file.  When a loop is given out of order, its edges
 // move and the numbers do not, so both are kept.
-#include "garment/pattern.hpp"
+//
+// One reader serves two: who wants a garment gets the first thing that is wrong as an exception; the linter gets what there is, and says
+// more of it (garment/pattern_reading.hpp).
 #include "garment/pattern_check.hpp"
+#include "garment/pattern_reading.hpp"
+#include "garment/pattern_values.hpp"
 #include "io/json.hpp"
 #include "material/fabric.hpp"
 
@@ -20,67 +24,7 @@
 namespace toile {
 namespace {
 
-constexpr double largest_fold_deg = 170;  // at 180 a hinge cannot tell one side from the other
-
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-// "..., did you mean X?"; a hostile name is cut before its distance to every candidate is taken.
-std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
-  const std::vector<std::string_view> views(candidates.begin(), candidates.end());
-  const std::string_view nearest = nearest_name(name.substr(0, 100), views.data(), views.size());
-  return nearest.empty() ? "" : "; did you mean \"" + printable(nearest) + "\"?";
-}
-
-std::string list_text(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if (k > 0) text += k + 1 == names.size() ? " or " : ", ";
-    text += "\"" + names[k] + "\"";
-  }
-  return text;
-}
-
-// One of a few words; returns its number.
-std::size_t read_word(const Json& json, const std::vector<std::string>& words) {
-  if (!json.is_string()) json.fail(list_text(words), json.describe());
-  const auto found = std::find(words.begin(), words.end(), json.string());
-  if (found == words.end()) json.fail(list_text(words), json.describe() + suggestion(json.string(), words));
-  return static_cast<std::size_t>(found - words.begin());
-}
-
-template <int size>
-Eigen::Matrix<double, size, 1> read_numbers(const Json& json) {
-  if (!json.is_array() || json.array().size() != size) {
-    json.fail("an array of " + std::to_string(size) + " numbers", json.describe());
-  }
-  Eigen::Matrix<double, size, 1> v;
-  for (int k = 0; k < size; ++k) v[k] = json.array()[static_cast<std::size_t>(k)].number();
-  return v;
-}
-
-double read_angle(const Json& json) {
-  if (!(std::abs(json.number()) <= largest_fold_deg))
-    json.fail("an angle between -170 and 170 degrees", json.describe());
-  return json.number() * std::numbers::pi / 180;
-}
-
-bool read_flag(const Json& json) {  // 0 or 1; JSON's own booleans as well
-  if (json.type() == Json::Type::boolean) return json.boolean();
-  if (!json.is_number() || (json.number() != 0 && json.number() != 1)) json.fail("0 or 1", json.describe());
-  return json.number() == 1;
-}
-
-// An index below `count`.
-Index read_index(const Json& json, std::size_t count, const char* what) {
-  const std::string range = count == 0 ? std::string("none, as there is no ") + what
-                                       : std::string("the number of ") + what + ", 0 to " + std::to_string(count - 1);
-  if (!json.is_number()) json.fail(range, json.describe());
-  const double value = json.number();
-  if (!(value >= 0 && value < static_cast<double>(count) && value == std::floor(value))) {
-    json.fail(range, json.describe());
-  }
-  return static_cast<Index>(value);
-}
 
 // The file's name without folder and ending; a file called plainly "specification" has its name from the folder.
 std::string pattern_name(std::string_view path) {
@@ -101,9 +45,10 @@ std::string pattern_name(std::string_view path) {
 
 class PatternReader {
  public:
-  explicit PatternReader(const Json& root) : root_(root) {}
+  PatternReader(const Json& root, bool leniently) : root_(root), leniently_(leniently) {}
 
-  Pattern read(std::string_view file) {
+  // Leniently, `pattern` may be unsound: find_faults is not asked.
+  PatternReading read(std::string_view file) {
     if (!root_.is_object()) root_.fail("an object with the key \"pattern\"", root_.describe());
     pattern_.name = pattern_name(file);
     read_properties();
@@ -124,18 +69,12 @@ class PatternReader {
     if (const Json* extension = root_.find("toile")) {
       if (const Json* stitches = extension->find("stitches")) read_pressed(*stitches);
     }
-    report_faults(pattern);
+    if (!leniently_) report_faults(pattern);
     pattern_.legacy_frame = is_legacy_frame();
-    return std::move(pattern_);
+    return {std::move(pattern_), std::move(sources_), stitches_, absolute_, centre_panels_};
   }
 
  private:
-  // Where the parts of a panel stand in the file.
-  struct PanelSource {
-    const Json* panel = nullptr;
-    std::vector<Index> place_of_edge;  // number in the file -> place in Panel::edges
-  };
-
   void read_properties() {
     const Json* properties = root_.find("properties");
     const Json* units = properties != nullptr ? properties->find("units_in_meter") : nullptr;
@@ -213,7 +152,7 @@ class PatternReader {
       panel.edges.push_back(read_edge(panel, edge));
       panel.edges.back().file_number = static_cast<Index>(panel.edges.size() - 1);
     }
-    sources_.push_back({&json, order_loop(panel, edges)});
+    sources_.push_back(put_in_order(panel, json, edges));
     read_extension(panel);
     if (centre_panels_) centre(panel);
     pattern_.panels.push_back(std::move(panel));
@@ -230,9 +169,11 @@ class PatternReader {
     const Json& ends = json.at("endpoints");
     if (!ends.is_array() || ends.array().size() != 2) ends.fail("two corners: [start, end]", ends.describe());
     PanelEdge edge;
-    edge.start = read_index(ends.array()[0], panel.corners.size(), "a corner");
-    edge.end = read_index(ends.array()[1], panel.corners.size(), "a corner");
-    if (edge.start == edge.end) ends.fail("two different corners", "corner " + std::to_string(edge.start) + " twice");
+    edge.start = read_index_or_none(ends.array()[0], panel.corners.size(), "a corner");
+    edge.end = read_index_or_none(ends.array()[1], panel.corners.size(), "a corner");
+    if (edge.start == edge.end && !leniently_)
+      ends.fail("two different corners", "corner " + std::to_string(edge.start) + " twice");
+    if (edge.start < 0 || edge.end < 0 || edge.start == edge.end) return edge;  // leniently
     edge.label = json.string_or("label", "");
     const Json* curvature = json.find("curvature");
     if (curvature == nullptr) return edge;
@@ -273,6 +214,30 @@ class PatternReader {
       for (std::size_t k = 0; k < count; ++k) edge.control[k] = control(params.array()[k]);
     }
     return edge;
+  }
+
+  Index read_index_or_none(const Json& json, std::size_t count, const char* what) const {
+    try {
+      return read_index(json, count, what);
+    } catch (const InputError&) {
+      if (!leniently_) throw;
+      return -1;
+    }
+  }
+
+  PanelSource put_in_order(Panel& panel, const Json& json, const Json& edges) const {
+    PanelSource source{&json, {}, true};
+    try {
+      if (std::any_of(panel.edges.begin(), panel.edges.end(),
+                      [](const PanelEdge& e) { return e.start < 0 || e.end < 0 || e.start == e.end; }))
+        edges.fail("", "");
+      source.place_of_edge = order_loop(panel, edges);
+    } catch (const InputError&) {
+      if (!leniently_) throw;
+      source.is_loop = false;
+      for (std::size_t e = 0; e < panel.edges.size(); ++e) source.place_of_edge.push_back(static_cast<Index>(e));
+    }
+    return source;
   }
 
   // Puts the edges into the order in which they follow each other, the file's first edge first.  Returns the new place
@@ -400,11 +365,17 @@ class PatternReader {
   StitchSide read_side(const Json& json) const {
     if (!json.is_object()) json.fail("one side of a stitch: {\"panel\": ..., \"edge\": ...}", json.describe());
     json.allow_only({"panel", "edge"});
-    StitchSide side;
-    side.panel = find_panel(json.at("panel"));
+    StitchSide side{-1, -1};  // what stays of it, leniently
+    try {
+      side.panel = find_panel(json.at("panel"));
+    } catch (const InputError&) {
+      if (!leniently_ || !json.at("panel").is_string()) throw;
+      return side;
+    }
     const std::vector<Index>& place = sources_[at(side.panel)].place_of_edge;
     const std::string what = "an edge of panel \"" + printable(pattern_.panels[at(side.panel)].name) + "\"";
-    side.edge = place[at(read_index(json.at("edge"), place.size(), what.c_str()))];
+    const Index edge = read_index_or_none(json.at("edge"), place.size(), what.c_str());
+    if (edge >= 0) side.edge = place[at(edge)];
     return side;
   }
 
@@ -414,18 +385,7 @@ class PatternReader {
     const std::vector<PatternFault> faults = find_faults(pattern_);
     if (faults.empty()) return;
     const PatternFault& fault = faults.front();
-    const Json* json = &pattern;
-    if (fault.part == PatternFault::Part::stitch) {
-      json = &stitches_->array()[at(fault.index)];
-      if (fault.side >= 0) json = &json->array()[static_cast<std::size_t>(fault.side)];
-    } else if (fault.part != PatternFault::Part::pattern) {
-      json = sources_[at(fault.panel)].panel;
-      if (fault.part == PatternFault::Part::corner) json = &json->at("vertices").array()[at(fault.index)];
-      if (fault.part == PatternFault::Part::edge) {
-        json = &json->at("edges").array()[at(pattern_.panels[at(fault.panel)].file_number(fault.index))];
-      }
-    }
-    json->fail(fault.expected, fault.got);
+    json_of_fault(fault, pattern, pattern_, sources_, *stitches_).fail(fault.expected, fault.got);
   }
 
   // The templates of 2021 put the origin near the pelvis; GarmentCode puts it on the floor.  No key says which, so:
@@ -449,6 +409,7 @@ class PatternReader {
   }
 
   const Json& root_;
+  const bool leniently_;
   Pattern pattern_;
   bool absolute_ = false, centre_panels_ = false;
   std::vector<std::string> panel_names_;         // in the order of the file
@@ -460,14 +421,33 @@ class PatternReader {
 
 }  // namespace
 
+const Json& json_of_fault(const PatternFault& fault, const Json& root, const Pattern& pattern,
+                          std::span<const PanelSource> panels, const Json& stitches) {
+  const Json* json = &root;
+  if (fault.part == PatternFault::Part::stitch) {
+    json = &stitches.array()[at(fault.index)];
+    if (fault.side >= 0) json = &json->array()[static_cast<std::size_t>(fault.side)];
+  } else if (fault.part != PatternFault::Part::pattern) {
+    json = panels[at(fault.panel)].panel;
+    if (fault.part == PatternFault::Part::corner) json = &json->at("vertices").array()[at(fault.index)];
+    if (fault.part == PatternFault::Part::edge)
+      json = &json->at("edges").array()[at(pattern.panels[at(fault.panel)].file_number(fault.index))];
+  }
+  return *json;
+}
+
+PatternReading read_pattern_leniently(const Json& root, std::string_view file) {
+  return PatternReader(root, true).read(file);
+}
+
 Pattern parse_pattern(std::string_view text, std::string_view file) {
   const Json root = Json::parse(text, file);
-  return PatternReader(root).read(file);
+  return PatternReader(root, false).read(file).pattern;
 }
 
 Pattern load_pattern(const std::string& path) {
   const Json root = Json::load(path);
-  return PatternReader(root).read(path);
+  return PatternReader(root, false).read(path).pattern;
 }
 
 }  // namespace toile
