@@ -1,0 +1,102 @@
+#include "garment/layering.hpp"
+
+#include "contact/triangle_tree.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace toile {
+namespace {
+
+constexpr double parallel = 0.98;  // cosine between normals of panels that can cover each other: 11 degrees
+constexpr double beside_m = 1e-3;  // panels that share less than this, edge along edge, do not cover each other
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+struct Sheet {
+  std::vector<Triangle> triangles;
+  std::vector<Index> particles;
+  Vec3 outward{0, 0, 0};            // its normal
+  double drawn_m = 0, along_m = 0;  // of its plane, outwards: as drawn, and now
+  double lowest_m = std::numeric_limits<double>::infinity();
+};
+
+std::vector<Sheet> sheets_of(const GarmentMesh& garment, const Vec3& middle) {
+  std::vector<Sheet> panels(garment.mesh.panel_names.size());
+  for (std::size_t t = 0; t < garment.mesh.triangles.size(); ++t)
+    panels[at(garment.mesh.panel[t])].triangles.push_back(garment.mesh.triangles[t]);
+  const std::vector<Index> panel_of = garment.panel_of_particle();
+  for (std::size_t i = 0; i < garment.x.size(); ++i) {
+    if (panel_of[i] < 0) continue;
+    Sheet& panel = panels[at(panel_of[i])];
+    panel.particles.push_back(static_cast<Index>(i));
+    panel.lowest_m = std::min(panel.lowest_m, garment.x[i].y());
+  }
+  for (Sheet& panel : panels) {
+    for (const Triangle& t : panel.triangles)
+      panel.outward += (garment.x[at(t[1])] - garment.x[at(t[0])]).cross(garment.x[at(t[2])] - garment.x[at(t[0])]);
+    if (panel.particles.empty() || panel.outward.norm() == 0) continue;
+    panel.outward.normalize();
+    const Vec3& on = garment.x[at(panel.particles.front())];
+    if (panel.outward.dot(on - middle) < 0) panel.outward = -panel.outward;
+    panel.drawn_m = panel.along_m = panel.outward.dot(on);
+  }
+  return panels;
+}
+
+// Whether a particle of `one`, seen along the normal, lies on `other`, not only beside it.
+bool lies_on(const GarmentMesh& garment, const Sheet& one, const Sheet& other) {
+  const TriangleTree tree(garment.x, other.triangles);
+  const Vec3& n = other.outward;
+  std::vector<Index> near;
+  for (const Index i : one.particles) {
+    const Vec3 p = garment.x[at(i)] + (other.along_m - n.dot(garment.x[at(i)])) * n;
+    tree.overlapping({p, p}, near);
+    for (const Index t : near) {
+      const Triangle& corners = other.triangles[at(t)];
+      double inside_m = std::numeric_limits<double>::infinity();
+      Vec3 area = (garment.x[at(corners[1])] - garment.x[at(corners[0])])
+                      .cross(garment.x[at(corners[2])] - garment.x[at(corners[0])]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 &a = garment.x[at(corners[k])], &b = garment.x[at(corners[(k + 1) % 3])];
+        inside_m = std::min(inside_m, area.normalized().dot((b - a).normalized().cross(p - a)));
+      }
+      if (inside_m > beside_m) return true;
+    }
+  }
+  return false;
+}
+
+bool cover(const GarmentMesh& garment, const Sheet& a, const Sheet& b) {
+  return lies_on(garment, a, b) || lies_on(garment, b, a);
+}
+
+}  // namespace
+
+void separate_layers(GarmentMesh& garment, const Vec3& middle) {
+  std::vector<Sheet> sheets = sheets_of(garment, middle);
+  std::vector<std::size_t> order(sheets.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return sheets[a].lowest_m > sheets[b].lowest_m; });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    Sheet& panel = sheets[order[k]];
+    double out_m = 0;
+    for (std::size_t j = 0; j < k; ++j) {
+      const Sheet& under = sheets[order[j]];
+      const double short_m = layer_gap_m - (panel.along_m - under.along_m);
+      const bool drawn_inside = panel.drawn_m - under.drawn_m <= -layer_gap_m;
+      if (panel.outward.dot(under.outward) < parallel || drawn_inside || short_m <= out_m) continue;
+      if (cover(garment, panel, under)) out_m = short_m;
+    }
+    if (out_m == 0) continue;
+    panel.along_m += out_m;
+    for (const Index i : panel.particles) garment.x[at(i)] += out_m * panel.outward;
+  }
+}
+
+}  // namespace toile
