@@ -2,7 +2,7 @@
 //
 //   F = min( k |y_wanted - y|, f_max ) up or down,      f_max = 20 N per metre of edge,  k = f_max / 2 cm
 //
-// Gently, and only once the seams are closed: held from the start, a waist pushes the armholes above the arms.
+// Gently.  Of what hangs from the shoulders only once the seams are closed: held from the start, a waist pushes the armholes above the arms.
 #pragma once
 #include "garment/garment_mesh.hpp"
 #include "step/implicit_euler.hpp"

@@ -83,7 +83,7 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
 
 void Sewing::append_springs(const ClothState& state, double end_s, std::vector<LinearSpring>& springs) const {
   const double open = std::max(0.0, 1 - options_.closing_speed_m_per_s * end_s / longest_m_);
-  if (open == 0) labels_.append(state, 1, springs);
+  if (open == 0 || options_.labels_hold_panels) labels_.append(state, 1, springs);
   for (std::size_t k = 0; k < garment_->pairs.size(); ++k) {
     const SeamPair& pair = garment_->pairs[k];
     const double wanted = open * start_distance_m_[k];

@@ -47,7 +47,8 @@ struct SewingOptions {
   bool paper_scaling = false;  // assembly/cloth_model.hpp
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   Index held_particles = 0;                // the first so many stand still: what is worn already under the garment
-  std::vector<LabelHeight> label_heights;  // where labelled edges belong, once the seams are closed
+  std::vector<LabelHeight> label_heights;  // where labelled edges belong; held once the seams are closed
+  bool labels_hold_panels = false;         // from the start: heavy panels would pull a waist down to where they hang
   std::function<bool()> stop;              // asked before every step
 };
 

@@ -10,7 +10,9 @@ namespace {
 
 // From the weld: it waits; arms come out; they are lowered, and are down before the body is full.
 constexpr double waits_s = 0.3, out_s = 0.4, lowers_s = 0.4, grows_at_s = 0.6, grows_s = 1;
-constexpr double beyond_sleeve_m = 0.08;  // a drawn-in arm: past the hem of its sleeve, or past its root
+// A drawn-in arm ends so far before the hem of its sleeve that a cuff closes in front of the hand, not around it; but past its root.  With 4 and 15 cm the
+// same sleeves close, with 8 cm past the hem one pair of three that are narrower than the hand does not.
+constexpr double before_hem_m = 0.04, past_root_m = 0.08;
 // The shoulder turns with the arm, of the height: fully from beyond the armpit, less and less towards the neck.
 constexpr double turns_from = -0.05, turns_fully = 0.02;
 
@@ -46,7 +48,8 @@ DressingBody::Pose DressingBody::pose_within(double lift, const std::array<bool,
                                              const std::array<double, 2>& sleeve_m) const {
   Pose pose;
   for (std::size_t k = 0; k < 2; ++k) {
-    const double drawn_in = std::min(1.0, (sleeve_m[k] + beyond_sleeve_m) / arms_[k].length_m);
+    const double reach_m = std::max(past_root_m, sleeve_m[k] - before_hem_m);
+    const double drawn_in = std::min(1.0, reach_m / arms_[k].length_m);
     pose.lift[k] = covered[k] ? lift : 1;
     pose.reach[k] = covered[k] && sleeve_m[k] == 0 ? 1 : drawn_in;
   }

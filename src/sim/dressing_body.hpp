@@ -33,8 +33,8 @@ class DressingBody {
     }
   };
   void set_pose(const Pose& pose) { pose_ = pose; }
-  // Arms that go through the garment are lifted so, and reach beyond their sleeves (how far along the arm they end, m; 0: no sleeve); the others
-  // are level, and drawn in.
+  // Arms that go through the garment are lifted so, and reach nearly to the hems of their sleeves (how far along the arm they end, m; 0: no sleeve); the
+  // others are level, and drawn in.
   Pose pose_within(double lift, const std::array<bool, 2>& covered, const std::array<double, 2>& sleeve_m) const;
   struct ArmAxis {
     Vec3 root{0, 0, 0}, direction{0, 0, 0};

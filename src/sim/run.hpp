@@ -88,8 +88,8 @@ class Run {
       written_ = writer_->frames();
       report_.seconds_total = earlier_s_ + total_.seconds();
     }
-    archive(place_, written_, report_, failure_, qualifications_, pose_, open_pairs_, stopped_short_, before_inner_,
-            slow_inner_, seconds_before_motion_, touches_);
+    archive(place_, written_, report_, failure_, qualifications_, pose_, on_shoulders_, open_pairs_, stopped_short_,
+            before_inner_, slow_inner_, seconds_before_motion_, touches_);
   }
   void take_up(std::uint64_t input_hash);
   // Until restore() has been called.
@@ -164,7 +164,8 @@ class Run {
   TouchMemory touches_;
   std::optional<FallWatch> fall_watch_;
 
-  DressingBody::Pose pose_;  // of dressing_body_, while the first garment is sewn
+  DressingBody::Pose pose_;    // of dressing_body_, while the first garment is sewn
+  bool on_shoulders_ = false;  // it hangs from there, not from its waist
   std::vector<std::vector<Index>>
       open_pairs_;                // [garment that is on] what its weld left open: places in GarmentMesh::pairs
   std::vector<double> waists_m_;  // [garment] how long its edges are that belong at the waist, as cut; 0: it has none

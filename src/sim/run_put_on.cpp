@@ -1,5 +1,6 @@
 // sim/run_put_on.cpp: from flat panels to a garment that is on; what was worn before comes first.
 #include "core/error.hpp"
+#include "garment/layering.hpp"
 #include "garment/placement.hpp"
 #include "garment/sleeves.hpp"
 #include "sim/run.hpp"
@@ -101,12 +102,14 @@ Placement Run::place_around_arms(GarmentMesh& garment) {
     const std::array<ArmLine, 2> arms{ArmLine{axes[0].root, axes[0].direction},
                                       ArmLine{axes[1].root, axes[1].direction}};
     hang_sleeves(placed, arms, dressing_body_->height_m());
+    separate_layers(placed, 0.5 * (arms[0].root + arms[1].root));
     dressing_body_->lifted(body_x_);
     stand();
     Placement placement = place_garment(placed, *body_, person_vertices_);
     const std::array<double, 2> sleeves_m =
         hang_sleeves(placed, arms, dressing_body_->height_m());  // the shift was the whole garment's
-    const DressingBody::Pose pose = dressing_body_->pose_within(lift, covers_shoulders(placed, arms), sleeves_m);
+    const std::array<bool, 2> covered = covers_shoulders(placed, arms);
+    const DressingBody::Pose pose = dressing_body_->pose_within(lift, covered, sleeves_m);
     dressing_body_->set_pose(pose);
     dressing_body_->at(0, body_x_);
     stand();
@@ -115,6 +118,7 @@ Placement Run::place_around_arms(GarmentMesh& garment) {
     if (lift != arm_lifts.front() && placement.blocked >= best.blocked) continue;
     best = placement;
     pose_ = pose;
+    on_shoulders_ = covered[0] || covered[1];
     garment = std::move(placed);
     if (best.blocked == 0) break;
   }
@@ -140,7 +144,8 @@ void Run::place(GarmentMesh& garment, bool tell) {
 }
 
 std::vector<LabelHeight> Run::heights_of(std::size_t cloth, std::vector<std::string>& warnings) {
-  return label_heights_of(scene_.cloth[cloth], cloth_[cloth].garment, std::span(standing_x_).first(person_vertices_),
+  return label_heights_of(scene_.cloth[cloth], cloth_[cloth].garment, cloth == 0 && on_shoulders_,
+                          std::span(standing_x_).first(person_vertices_),
                           std::span(body_triangles_).first(person_triangles_), warnings);
 }
 
@@ -218,6 +223,7 @@ bool Run::sew(std::size_t k) {
   sewing_options.damping_jacobian = scene_.damping_jacobian;
   std::vector<std::string> told_before;
   sewing_options.label_heights = heights_of(k, resumed ? told_before : report_.warnings);
+  sewing_options.labels_hold_panels = k == 0 && dressing_body_ && !on_shoulders_;
   sewing_options.stop = stop();
   Dressing dressing(outfit_, garment, cloth.fabrics, cloth.rest_stretch, body(), step_, sewing_options);
   Sewing& sewing = dressing.sewing();

@@ -224,7 +224,7 @@ Events events_of(const Outfit& outfit, std::span<const LoadedCloth> cloth) {
   return events;
 }
 
-std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment,
+std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment, bool on_shoulders,
                                           std::span<const Vec3> body_x, std::span<const Triangle> body_triangles,
                                           std::vector<std::string>& warnings) {
   check_labels(cloth, garment);
@@ -233,6 +233,7 @@ std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const Garment
   for (const LabelledEdge& edge : garment.labels) {
     const auto named = [&](const LabelHeight& height) { return height.label == edge.label; };
     if (std::any_of(heights.begin(), heights.end(), named)) continue;
+    if (on_shoulders && edge.label == waist_label) continue;
     const double waist = edge.label == waist_label && !body_x.empty() ? waist_height_m(body_x, body_triangles) : 0;
     if (waist > 0) {
       heights.push_back({edge.label, waist});

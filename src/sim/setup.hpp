@@ -59,9 +59,10 @@ Outfit outfit_of_shapes(std::span<const LoadedCloth> cloth);
 Events events_of(const Outfit& outfit, std::span<const LoadedCloth> cloth);
 // How long the edges are that the pattern wants at the waist, as cut; 0: there are none.
 double waist_girth_m(const GarmentMesh& garment);
-// Where labelled edges are held: as the cloth says, and the waist ("lower_interface") where the body is narrowest if it says nothing.
+// Where labelled edges are held: as the cloth says; if it says nothing, the waist ("lower_interface") where the body is narrowest, unless the garment
+// hangs from the shoulders: its waist is as low as it is cut, and held higher it would bunch.
 // Labels that stay without a height are named in a warning.  Throws InputError for a height of a label that no edge carries.
-std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment,
+std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment, bool on_shoulders,
                                           std::span<const Vec3> body_x, std::span<const Triangle> body_triangles,
                                           std::vector<std::string>& warnings);
 // How far above the body cloth of this edge length rests when nobody says: edges cut corners of the body, by e^2 / 8R.

@@ -96,6 +96,38 @@ TEST(Sewing, ATubeInTheAirCloses) {
   EXPECT_LT(mean.norm(), 2e-3) << "no gravity, no outer force";
 }
 
+// A narrow band above wide panels: sewn together they meet where the middle of their mass is, unless the band is held.
+TEST(Sewing, ABandThatIsHeldDrawsHeavierPanelsUpToItself) {
+  Pattern pattern = test::tube_pattern(0.2, 0.04, 0.1, Vec3(0, 0.2, 0));
+  const Pattern below = test::tube_pattern(0.2, 0.3, 0.1, Vec3(0, -0.1, 0));
+  pattern.panels.insert(pattern.panels.end(), below.panels.begin(), below.panels.end());
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) pattern.panels[p].name += std::to_string(p);
+  pattern.stitches.insert(pattern.stitches.end(), {test::stitch(2, 1, 3, 3), test::stitch(2, 3, 3, 1),
+                                                   test::stitch(0, 0, 2, 2), test::stitch(1, 0, 3, 2)});
+  for (const std::size_t panel : {0, 1}) pattern.panels[panel].edges[0].label = "lower_interface";
+  const double waist_m = 0.18;
+  std::array<double, 2> fallen_m{};
+  for (const bool held : {false, true}) {
+    SewingOptions options;
+    options.label_heights = {{"lower_interface", waist_m}};
+    options.labels_hold_panels = held;
+    SewingRun run(pattern, 0.02, nullptr, options);
+    run.run(12);
+    ASSERT_EQ(run.sewing->status(), SewingStatus::sewing);
+    double height_m = 0, count = 0;
+    for (const LabelledEdge& edge : run.garment.labels)
+      for (const Index i : edge.particles) {
+        height_m += run.sewing->state().x[at(i)].y();
+        ++count;
+      }
+    fallen_m[held ? 1 : 0] = waist_m - height_m / count;
+    run.run(200);
+    expect_closed_without_crossings(run);
+  }
+  EXPECT_GT(fallen_m[0], 0.05);
+  EXPECT_LT(fallen_m[1], 0.02);
+}
+
 TEST(Sewing, ATubeAroundACapsuleCloses) {
   BodySurface body = capsule(0.025, 0.1);
   ASSERT_NO_THROW(check_closed("capsule", body.positions(), body.triangles()));

@@ -301,7 +301,7 @@ TEST(Setup, LabelHeightsComeFromTheSceneAndTheWaistFromTheBody) {
   const SolidMesh solid = rounded_cylinder(0.2, 1.8, Vec3(0, 1.8, 0));
   SceneCloth cloth;
   std::vector<std::string> warnings;
-  auto heights = label_heights_of(cloth, garment, solid.positions, solid.triangles, warnings);
+  auto heights = label_heights_of(cloth, garment, false, solid.positions, solid.triangles, warnings);
   ASSERT_EQ(heights.size(), 1U);
   EXPECT_GT(heights[0].height_m, 0.9);
   EXPECT_LT(heights[0].height_m, 1.3);
@@ -309,11 +309,25 @@ TEST(Setup, LabelHeightsComeFromTheSceneAndTheWaistFromTheBody) {
   EXPECT_NE(warnings[0].find("right_collar"), std::string::npos);
   warnings.clear();
   cloth.label_heights = {{"lower_interface", 1.1}, {"right_collar", 1.5}};
-  heights = label_heights_of(cloth, garment, solid.positions, solid.triangles, warnings);
+  heights = label_heights_of(cloth, garment, false, solid.positions, solid.triangles, warnings);
   EXPECT_EQ(heights.size(), 2U);
   EXPECT_TRUE(warnings.empty());
   cloth.label_heights = {{"waist", 1.1}};
-  EXPECT_THROW(label_heights_of(cloth, garment, solid.positions, solid.triangles, warnings), InputError);
+  EXPECT_THROW(label_heights_of(cloth, garment, false, solid.positions, solid.triangles, warnings), InputError);
+}
+
+TEST(Setup, TheWaistOfWhatHangsFromTheShouldersIsHeldOnlyWhereTheSceneSays) {
+  GarmentMesh garment;
+  garment.labels = {{"lower_interface", {0}}};
+  const SolidMesh solid = rounded_cylinder(0.2, 1.8, Vec3(0, 1.8, 0));
+  SceneCloth cloth;
+  std::vector<std::string> warnings;
+  EXPECT_TRUE(label_heights_of(cloth, garment, true, solid.positions, solid.triangles, warnings).empty());
+  EXPECT_TRUE(warnings.empty());
+  cloth.label_heights = {{"lower_interface", 1.1}};
+  const auto heights = label_heights_of(cloth, garment, true, solid.positions, solid.triangles, warnings);
+  ASSERT_EQ(heights.size(), 1U);
+  EXPECT_EQ(heights[0].height_m, 1.1);
 }
 
 TEST(Tangles, AreLeftAloneUntilTheyAreGone) {
