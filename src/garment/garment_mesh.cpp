@@ -4,6 +4,7 @@
 #include "core/disjoint_sets.hpp"
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "garment/gathers.hpp"
 #include "garment/panel_mesh.hpp"
 #include "garment/pattern_check.hpp"
 
@@ -67,9 +68,22 @@ MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_inde
   return meshed;
 }
 
+// `a`, `b`: particles of both sides, as paired.  They lie as drawn: placed, not moved.
+void add_gather(const Seam& seam, const std::vector<Index>& a, const std::vector<Index>& b, const Vec3s& x,
+                std::vector<Gather>& gathers) {
+  const bool a_is_longer = seam.length_a_m > seam.length_b_m;
+  const double longer = a_is_longer ? seam.length_a_m : seam.length_b_m;
+  const double shorter = a_is_longer ? seam.length_b_m : seam.length_a_m;
+  if (!(longer > gathered_ratio * shorter)) return;
+  const std::vector<Index>& to = a_is_longer ? b : a;
+  Gather gather{a_is_longer ? a : b, {}, longer / shorter};
+  for (std::size_t k = 0; k + 1 < to.size(); ++k) gather.piece_m.push_back((x[at(to[k + 1])] - x[at(to[k])]).norm());
+  gathers.push_back(std::move(gather));
+}
+
 // Pairs the samples of a stitch and refuses one that is sewn the wrong way round.
 void add_seam(GarmentMesh& garment, const Pattern& pattern, const Stitch& stitch,
-              const std::vector<MeshedPanel>& meshed) {
+              const std::vector<MeshedPanel>& meshed, std::vector<Gather>& gathers) {
   std::vector<Index> a = meshed[at(stitch.a.panel)].edge_particles[at(stitch.a.edge)];
   std::vector<Index> b = meshed[at(stitch.b.panel)].edge_particles[at(stitch.b.edge)];
   if (!stitch.right_wrong) std::reverse(b.begin(), b.end());
@@ -99,6 +113,7 @@ void add_seam(GarmentMesh& garment, const Pattern& pattern, const Stitch& stitch
   if (stitch.angle_rad != 0) {  // no hinge before the weld
     for (std::size_t k = 0; k + 1 < a.size(); ++k) garment.mesh.folds.push_back({a[k], a[k + 1], stitch.angle_rad});
   }
+  add_gather(seam, a, b, garment.x, gathers);
   garment.seams.push_back(std::move(seam));
 }
 
@@ -162,8 +177,10 @@ GarmentMesh join_panels(const Pattern& pattern, std::span<const PanelMesh> panel
       if (!label.empty()) garment.labels.push_back({label, meshed.back().edge_particles[e]});
     }
   }
-  for (const Stitch& stitch : pattern.stitches) add_seam(garment, pattern, stitch, meshed);
+  std::vector<Gather> gathers;
+  for (const Stitch& stitch : pattern.stitches) add_seam(garment, pattern, stitch, meshed, gathers);
   orient_panels(garment, pattern, meshed);
+  gather(garment.mesh, gathers);
 
   merge_pairs(garment);
   return garment;

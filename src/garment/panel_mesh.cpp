@@ -1,5 +1,7 @@
 #include "garment/panel_mesh.hpp"
 
+#include "garment/gathers.hpp"
+
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -36,14 +38,24 @@ std::vector<std::vector<int>> pieces_of_edges(const Pattern& pattern, double res
     int &a = pieces[at(stitch.a.panel)][at(stitch.a.edge)], &b = pieces[at(stitch.b.panel)][at(stitch.b.edge)];
     a = b = std::max(a, b);
   }
+  for (const GatheredSeam& seam : gathered_seams(pattern)) {
+    int& longer = pieces[at(seam.longer.panel)][at(seam.longer.edge)];
+    longer = std::max(longer, piece_count(seam.length_m, gather_edge_m(resolution_m)));
+    pieces[at(seam.shorter.panel)][at(seam.shorter.edge)] = longer;
+  }
   return pieces;
 }
 
-PanelMesh mesh_panel(const Panel& panel, const std::vector<int>& pieces, double resolution_m) {
+PanelMesh mesh_panel(const Panel& panel, const std::vector<int>& pieces, const std::vector<char>& gathered,
+                     double resolution_m) {
   std::vector<Vec2> outline;
+  std::vector<FinerZone> finer;
   PanelMesh mesh;
   for (std::size_t e = 0; e < panel.edges.size(); ++e) {
     const std::vector<Vec2> points = sample_edge(panel, panel.edges[e], pieces[e]);
+    if (gathered[e])
+      finer.push_back({points, std::max(gather_reach_m, gather_reach_edges * gather_edge_m(resolution_m)),
+                       gather_edge_m(resolution_m)});
     mesh.edge_points.emplace_back();
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
       mesh.edge_points.back().push_back(static_cast<Index>(outline.size()));
@@ -68,7 +80,7 @@ PanelMesh mesh_panel(const Panel& panel, const std::vector<int>& pieces, double 
                      fold.pointer.empty() ? name : fold.pointer + " (" + name + ")"});
   }
   try {
-    mesh.folded = triangulate_folded(outline, lines, resolution_m);
+    mesh.folded = triangulate_folded(outline, lines, resolution_m, finer);
   } catch (const FoldError&) {
     throw;
   } catch (const InputError& error) {
@@ -85,6 +97,9 @@ PanelMesh mesh_panel(const Panel& panel, const std::vector<int>& pieces, double 
 std::span<const PanelMesh> PanelMesher::mesh(double outline_m, std::span<const double> inner_m) {
   const std::size_t panels = pattern_->panels.size();
   const std::vector<std::vector<int>> pieces = pieces_of_edges(*pattern_, outline_m);
+  std::vector<std::vector<char>> gathered(panels);
+  for (std::size_t p = 0; p < panels; ++p) gathered[p].assign(pattern_->panels[p].edges.size(), 0);
+  for (const GatheredSeam& seam : gathered_seams(*pattern_)) gathered[at(seam.longer.panel)][at(seam.longer.edge)] = 1;
   asked_.resize(panels);
   meshes_.resize(panels);
   std::vector<std::exception_ptr> failed(panels);
@@ -92,7 +107,7 @@ std::span<const PanelMesh> PanelMesher::mesh(double outline_m, std::span<const d
     const Asked asked{pieces[p], inner_m[p]};
     if (asked_[p] == asked) return;
     try {
-      meshes_[p] = mesh_panel(pattern_->panels[p], asked.pieces, asked.inner_m);
+      meshes_[p] = mesh_panel(pattern_->panels[p], asked.pieces, gathered[p], asked.inner_m);
       asked_[p] = asked;
     } catch (...) {
       asked_[p] = {};
