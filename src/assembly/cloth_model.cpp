@@ -111,6 +111,7 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
     model.bend.push_back(hinge_rest(model, fabrics, hinge, options.paper_scaling));
   }
   set_folds(model, 1);
+  set_gathers(model, 1);
   set_pair_friction(model, fabrics, options.pair_friction);
   return model;
 }
@@ -134,6 +135,26 @@ void set_folds(ClothModel& model, double share) {
     if (hinge != hinges.end() && edge_of(*hinge) == edge)
       model.bend[static_cast<std::size_t>(hinge - hinges.begin())].theta_0 = share * fold.angle_rad;
   }
+}
+
+std::array<Vec2, 3> ClothModel::rest_uv(std::size_t triangle) const {
+  std::array<Vec2, 3> uv = mesh.uv[triangle];
+  if (mesh.gathered_uv.empty()) return uv;
+  for (std::size_t k = 0; k < 3; ++k) uv[k] += gathered * (mesh.gathered_uv[triangle][k] - uv[k]);
+  return uv;
+}
+
+void set_gathers(ClothModel& model, double share) {
+  const ClothMesh& mesh = model.mesh;
+  if (mesh.gathered_uv.empty()) return;
+  model.gathered = share;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.gathered_uv[t] == mesh.uv[t]) continue;
+    const MaterialFrame frame = material_frame(model.rest_uv(t));
+    model.membrane[t].alpha = frame.alpha;
+    model.membrane[t].beta = frame.beta;
+  }
+  ++model.rest_version;
 }
 
 void set_rest_stretch(ClothModel& model, Index triangle, const Vec2& b) {

@@ -44,22 +44,29 @@ struct ClothModel {
   Vec3 gravity_m_per_s2{0, -9.81, 0};
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   double drag_per_s = 0;
-  int rest_version = 0;  // counts changes of b, so that what depends on rest lengths knows
+  double gathered = 1;   // share of mesh.gathered_uv
+  int rest_version = 0;  // counts changes of b and of gathers, so that what depends on rest lengths knows
 
   Index particle_count() const { return mesh.particle_count; }
   const MembraneStiffness& stiffness_of(std::size_t triangle) const {
     return stiffness[stiffness.size() == 1 ? 0 : static_cast<std::size_t>(mesh.panel[triangle])];
   }
+  std::array<Vec2, 3> rest_uv(std::size_t triangle) const;  // gathered so far; without b
   // Of layers whose fabrics are those of particles i and j, where the pair has one of its own; else `usual`.
   double friction_between(Index i, Index j, double usual) const;
 };
 
 // `fabric_of_panel` has one entry, or one per panel of the mesh.  Hinges on a seam take the mean of both sides.
-// Masses: a third of each triangle's density * area goes to each corner.  Rest angles are those of mesh.folds, zero elsewhere.
+// Masses: a third of each triangle's density * area goes to each corner.  Rest angles are those of mesh.folds, zero elsewhere;
+// rest shapes are gathered.
 ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabric_of_panel, const ModelOptions& options = {});
 
 // Rest angles = share * mesh.folds: panels are sewn flat (0) and then folded.  Folds on a free edge have no hinge and no effect.
 void set_folds(ClothModel& model, double share);
+
+// Rest shapes of triangles = uv + share * (mesh.gathered_uv - uv): panels are sewn as cut (0), and gathered as their seams close (1).  Mass,
+// weight of bend and area are those of the cloth as cut.
+void set_gathers(ClothModel& model, double share);
 
 // Changes the rest stretch (b_u, b_v) of a triangle or of a panel's triangles; 1 is as cut, 0.8 pulls together by a fifth.  Allowed
 // between any two steps: forces, the step control and contact distances follow.  Bend keeps its weight, that of the cloth as cut.

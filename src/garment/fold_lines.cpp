@@ -48,10 +48,11 @@ bool cut(std::vector<Ring>& pieces, const FoldLine& line, const Ring& between, c
 
 }  // namespace
 
-FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<const FoldLine> lines, double edge_m) {
+FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<const FoldLine> lines, double edge_m,
+                                    std::span<const FinerZone> finer) {
   FoldedPlanarMesh folded;
   if (lines.empty()) {
-    folded.mesh = triangulate(outline, edge_m);
+    folded.mesh = triangulate(outline, edge_m, finer);
     return folded;
   }
   std::vector<Vec2>& points = folded.mesh.points;
@@ -82,7 +83,7 @@ FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<con
     for (const Index i : piece) ring.push_back(points[at(i)]);
     PlanarMesh mesh;
     try {
-      mesh = triangulate(ring, edge_m);
+      mesh = triangulate(ring, edge_m, finer);
     } catch (const InputError& error) {
       throw InputError("", "folds", "lines inside the panel that touch neither its outline nor each other",
                        error.what());

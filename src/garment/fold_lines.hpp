@@ -32,8 +32,9 @@ struct FoldedPlanarMesh {
   std::vector<std::vector<std::array<Index, 2>>> line;  // [line] its edges, from `from` to `to`
 };
 
-// Without lines it is triangulate(outline, edge_m), to the bit, and throws as that does.  Throws FoldError for a line that cannot cut the panel
+// Without lines it is triangulate(outline, edge_m, finer), to the bit, and throws as that does.  Throws FoldError for a line that cannot cut the panel
 // in two or leaves it, and InputError for "folds" when a piece between them cannot be meshed.
-FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<const FoldLine> lines, double edge_m);
+FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<const FoldLine> lines, double edge_m,
+                                    std::span<const FinerZone> finer = {});
 
 }  // namespace toile

@@ -4,8 +4,10 @@
 #include "core/disjoint_sets.hpp"
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "garment/gathers.hpp"
 #include "garment/panel_mesh.hpp"
 #include "garment/pattern_check.hpp"
+#include "garment/pleats.hpp"
 #include "garment/seam_fit.hpp"
 
 #include <Eigen/Geometry>
@@ -65,9 +67,22 @@ MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_inde
   return meshed;
 }
 
+// `a`, `b`: particles of both sides, as paired.  They lie as drawn: placed, not moved.
+void add_gather(const Seam& seam, const std::vector<Index>& a, const std::vector<Index>& b, const Vec3s& x,
+                std::vector<Gather>& gathers) {
+  const bool a_is_longer = seam.length_a_m > seam.length_b_m;
+  const double longer = a_is_longer ? seam.length_a_m : seam.length_b_m;
+  const double shorter = a_is_longer ? seam.length_b_m : seam.length_a_m;
+  if (!(longer > gathered_ratio * shorter)) return;
+  const std::vector<Index>& to = a_is_longer ? b : a;
+  Gather gather{a_is_longer ? a : b, {}, longer / shorter};
+  for (std::size_t k = 0; k + 1 < to.size(); ++k) gather.piece_m.push_back((x[at(to[k + 1])] - x[at(to[k])]).norm());
+  gathers.push_back(std::move(gather));
+}
+
 // Pairs the samples of a stitch and refuses one that is sewn the wrong way round.
 void add_seam(GarmentMesh& garment, const Pattern& pattern, const Stitch& stitch,
-              const std::vector<MeshedPanel>& meshed) {
+              const std::vector<MeshedPanel>& meshed, std::vector<Gather>& gathers) {
   std::vector<Index> a = meshed[at(stitch.a.panel)].edge_particles[at(stitch.a.edge)];
   std::vector<Index> b = meshed[at(stitch.b.panel)].edge_particles[at(stitch.b.edge)];
   if (!stitch.right_wrong) std::reverse(b.begin(), b.end());
@@ -91,6 +106,7 @@ void add_seam(GarmentMesh& garment, const Pattern& pattern, const Stitch& stitch
   if (stitch.angle_rad != 0) {  // no hinge before the weld
     for (std::size_t k = 0; k + 1 < a.size(); ++k) garment.mesh.folds.push_back({a[k], a[k + 1], stitch.angle_rad});
   }
+  add_gather(seam, a, b, garment.x, gathers);
   garment.seams.push_back(std::move(seam));
 }
 
@@ -125,11 +141,28 @@ void merge_pairs(GarmentMesh& garment) {
   garment.merged = merged.representatives();
 }
 
-GarmentMesh join_panels(const Pattern& pattern, std::span<const PanelMesh> panels) {
+// Corners that become one particle without a seam between them: they close with the first seam of their panel.
+void add_join(GarmentMesh& garment, const Pattern& pattern, const CornerJoin& join,
+              const std::vector<MeshedPanel>& meshed, double share_m) {
+  const auto particle = [&](Index panel, Index corner) {
+    const std::vector<PanelEdge>& edges = pattern.panels[at(panel)].edges;
+    const auto leaving =
+        std::find_if(edges.begin(), edges.end(), [&](const PanelEdge& edge) { return edge.start == corner; });
+    return meshed[at(panel)].edge_particles[static_cast<std::size_t>(leaving - edges.begin())].front();
+  };
+  const Index a = particle(join.panel_a, join.corner_a), b = particle(join.panel_b, join.corner_b);
+  const auto seam = std::find_if(garment.pairs.begin(), garment.pairs.end(),
+                                 [&](const SeamPair& pair) { return pair.a == a || pair.b == a; });
+  garment.pairs.push_back({a, b, share_m, seam == garment.pairs.end() ? 0 : seam->seam});
+}
+
+GarmentMesh join_panels(const PleatedPattern& pleated, std::span<const PanelMesh> panels, double resolution_m) {
+  const Pattern& pattern = pleated.pattern;
   GarmentMesh garment;
   garment.name = pattern.name;
   garment.legacy_frame = pattern.legacy_frame;
   std::vector<MeshedPanel> meshed;
+  std::vector<char> laid(pattern.panels.size(), 0);  // [panel]
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     meshed.push_back(add_panel(garment, pattern.panels[p], static_cast<Index>(p), panels[p]));
     for (std::size_t e = 0; e < pattern.panels[p].edges.size(); ++e) {
@@ -137,8 +170,15 @@ GarmentMesh join_panels(const Pattern& pattern, std::span<const PanelMesh> panel
       if (!label.empty()) garment.labels.push_back({label, meshed.back().edge_particles[e]});
     }
   }
-  for (const Stitch& stitch : pattern.stitches) add_seam(garment, pattern, stitch, meshed);
+  for (const CornerJoin& join : pleated.joins) {
+    if (std::exchange(laid[at(join.panel_b)], 1) == 0) lay_pleats(garment.mesh, join.panel_b, garment.x);
+  }
+  std::vector<Gather> gathers;
+  for (const Stitch& stitch : pattern.stitches) add_seam(garment, pattern, stitch, meshed, gathers);
+  garment.pleated = !pleated.joins.empty();
+  for (const CornerJoin& join : pleated.joins) add_join(garment, pattern, join, meshed, resolution_m);
   orient_panels(garment, pattern, meshed);
+  gather(garment.mesh, gathers);
 
   merge_pairs(garment);
   return garment;
@@ -165,8 +205,10 @@ std::vector<Index> GarmentMesh::panel_of_particle() const {
 }
 
 GarmentMesh mesh_garment(const Pattern& pattern, double resolution_m) {
-  PanelMesher panels(pattern);
-  return join_panels(pattern, panels.mesh(resolution_m, std::vector<double>(pattern.panels.size(), resolution_m)));
+  const PleatedPattern pleated = resolve_pleats(pattern);
+  PanelMesher panels(pleated.pattern, pleated.edges);
+  return join_panels(pleated, panels.mesh(resolution_m, std::vector<double>(pattern.panels.size(), resolution_m)),
+                     resolution_m);
 }
 
 int welded_count(const GarmentMesh& garment) {
@@ -180,11 +222,12 @@ CountedGarment mesh_garment_to_count(const Pattern& pattern, int particles) {
   constexpr double tolerance = 0.01;
   if (particles < least || particles > most)
     throw InputError("", "vertices", "a number from 20 to 2,000,000", std::to_string(particles));
-  PanelMesher mesher(pattern);
+  const PleatedPattern pleated = resolve_pleats(pattern);
+  PanelMesher mesher(pleated.pattern, pleated.edges);
   CountedGarment best;
   int best_count = 0;
   const auto attempt = [&](double outline_m, std::span<const double> inner_m) {
-    GarmentMesh garment = join_panels(pattern, mesher.mesh(outline_m, inner_m));
+    GarmentMesh garment = join_panels(pleated, mesher.mesh(outline_m, inner_m), outline_m);
     const int count = welded_count(garment);
     if (best_count == 0 || std::abs(count - particles) < std::abs(best_count - particles)) {
       best = {std::move(garment), outline_m};

@@ -45,6 +45,7 @@ struct GarmentMesh {
   std::vector<Index> merged;        // [particle] smallest particle of the class it will be welded into (itself if none)
   std::vector<bool> on_panel_edge;  // [particle]
   bool legacy_frame = false;
+  bool pleated = false;  // panels with pleats begin folded, and stay so while they are sewn
 
   // Takes these of `pairs` away (their places, ascending): the weld leaves them open.
   void leave_open(std::span<const Index> open_pairs);

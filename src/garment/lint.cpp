@@ -5,6 +5,7 @@
 #include "garment/lint.hpp"
 
 #include "garment/lint_context.hpp"
+#include "garment/pleats.hpp"
 #include "io/json_value.hpp"
 
 #include <algorithm>
@@ -132,8 +133,12 @@ LintContext::LintContext(const Json& file_root, std::string_view file, const std
            fault.code == reason::seam_to_itself || fault.code == reason::beyond_limits;
   });
   if (joined && std::all_of(closed.begin(), closed.end(), [](char c) { return c != 0; }))
-    boundary = find_boundary(pattern);
+    boundary = find_boundary(resolve_pleats(pattern).pattern);
+  inner_layer.assign(pattern.stitches.size(), 0);
+  if (boundary)
+    for (const Pleat& pleat : pleats_of(pattern)) inner_layer[pleat.under] = inner_layer[pleat.inner] = 1;
   for (std::size_t s = 0; s < pattern.stitches.size(); ++s) {
+    if (inner_layer[s]) fitted[s] = 0;
     for (const StitchSide& side : {pattern.stitches[s].a, pattern.stitches[s].b}) {
       if (side.edge >= 0) sewn.insert({side.panel, side.edge});
       if (side.edge < 0 || !sound[at(side.panel)]) fitted[s] = 0;

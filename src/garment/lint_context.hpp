@@ -32,7 +32,8 @@ class LintContext {
   std::vector<char> sound;           // [panel] and nothing else is wrong with it
   std::vector<std::vector<double>> length_m;  // [panel][edge]; empty where the panel is not closed
   std::set<std::pair<Index, Index>> sewn;     // (panel, edge) that a stitch names
-  std::vector<char> fitted;  // [stitch] both sides are there, their panels are sound, and no fault was found yet
+  std::vector<char> fitted;       // [stitch] both sides are there, their panels are sound, and no fault was found yet
+  std::vector<char> inner_layer;  // [stitch] of a pleat: sewn to what it is not named with
   std::vector<LintProblem> problems;
   std::optional<Boundary> boundary;  // where all outlines are closed and every seam joins two edges of its own
   bool unit_doubtful = false;        // sizes mean nothing

@@ -277,13 +277,18 @@ class SeamLint {
 
   // ---- twisted ----------------------------------------------------------------------------------------------------------
 
+  bool is_looked_at(std::size_t s) const {
+    const Stitch& one = pattern_.stitches[s];
+    return one.a.edge >= 0 && one.b.edge >= 0 && !context_.inner_layer[s];
+  }
+
   // The pattern with the stitches that can be looked at, `turned` among them the other way.
   PanelSides sides_with(Index turned) const {
     Pattern sewn;
     sewn.panels.resize(pattern_.panels.size());
     for (std::size_t s = 0; s < pattern_.stitches.size(); ++s) {
       const Stitch& one = pattern_.stitches[s];
-      if (one.a.edge < 0 || one.b.edge < 0) continue;
+      if (!is_looked_at(s)) continue;
       sewn.stitches.push_back(one);
       if (static_cast<Index>(s) == turned) sewn.stitches.back().right_wrong = !one.right_wrong;
     }
@@ -296,7 +301,7 @@ class SeamLint {
     if (sides.conflict < 0) return;
     Index conflict = -1;  // its number among all stitches
     for (Index s = 0, k = -1; at(s) < pattern_.stitches.size() && conflict < 0; ++s)
-      if (stitch(s).a.edge >= 0 && stitch(s).b.edge >= 0 && ++k == sides.conflict) conflict = s;
+      if (is_looked_at(at(s)) && ++k == sides.conflict) conflict = s;
     Index best = -1;
     double best_gain = 1, next_gain = 0;  // other way / as sewn
     const std::size_t tried = pattern_.stitches.size() <= most_turned ? pattern_.stitches.size() : 0;

@@ -6,6 +6,7 @@
 #include "garment/pattern.hpp"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace toile {
@@ -19,7 +20,9 @@ struct PanelMesh {
 
 class PanelMesher {
  public:
-  explicit PanelMesher(const Pattern& pattern) : pattern_(&pattern) {}
+  // `halved`: edges that are cut in two at least.
+  explicit PanelMesher(const Pattern& pattern, std::vector<StitchSide> halved = {})
+      : pattern_(&pattern), halved_(std::move(halved)) {}
 
   // [panel] `inner_m` is the edge length inside each; outlines are cut at `outline_m`.  Panels that are asked for as in the last call are
   // not meshed again.  Throws InputError for the first panel that cannot be meshed.
@@ -32,6 +35,7 @@ class PanelMesher {
     bool operator==(const Asked&) const = default;
   };
   const Pattern* pattern_;
+  std::vector<StitchSide> halved_;
   std::vector<Asked> asked_;  // of meshes_; empty of one that failed
   std::vector<PanelMesh> meshes_;
 };

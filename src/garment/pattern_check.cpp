@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "garment/lint_codes.hpp"
+#include "garment/pleats.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -356,6 +357,20 @@ class PanelCheck {
 
 void check_stitches(const Pattern& pattern, const std::vector<char>& sound, std::vector<PatternFault>& faults) {
   std::map<std::pair<Index, Index>, Index> sewn;  // (panel, edge) -> stitch
+  std::map<std::pair<Index, Index>, std::vector<std::size_t>> stitches_of;
+  for (std::size_t s = 0; s < pattern.stitches.size(); ++s)
+    for (const StitchSide& side : {pattern.stitches[s].a, pattern.stitches[s].b})
+      stitches_of[{side.panel, side.edge}].push_back(s);
+  const auto in_pleat = [&](const StitchSide& side) {
+    const std::vector<std::size_t>& stitches = stitches_of[{side.panel, side.edge}];
+    const auto there = [&](const StitchSide& one) {
+      return within(one.panel, pattern.panels.size()) && within(one.edge, pattern.panels[at(one.panel)].edges.size()) &&
+             sound[at(one.panel)];
+    };
+    return std::all_of(stitches.begin(), stitches.end(),
+                       [&](std::size_t k) { return there(pattern.stitches[k].a) && there(pattern.stitches[k].b); }) &&
+           pleat_of(pattern, stitches);
+  };
   for (std::size_t s = 0; s < pattern.stitches.size(); ++s) {
     const Stitch& stitch = pattern.stitches[s];
     const auto fault = [&](std::string_view code, int side, std::string expected, std::string got, Index other = -1) {
@@ -382,8 +397,8 @@ void check_stitches(const Pattern& pattern, const std::vector<char>& sound, std:
     for (int side = 0; side < 2; ++side) {
       const StitchSide& at_side = side == 0 ? stitch.a : stitch.b;
       const auto [entry, inserted] = sewn.try_emplace({at_side.panel, at_side.edge}, static_cast<Index>(s));
-      if (inserted) continue;
-      fault(reason::seam_twice, side, "an edge that no other stitch sews",
+      if (inserted || in_pleat(at_side)) continue;
+      fault(reason::seam_twice, side, "an edge that no other stitch sews, or the three layers of a pleat",
             side_text(pattern, at_side) + ", sewn by stitch " + std::to_string(entry->second) + " already",
             entry->second);
       valid = false;

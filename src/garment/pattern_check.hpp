@@ -16,7 +16,7 @@ namespace toile {
 
 // The limits, all stated in docs/pattern-format.md.
 struct PatternLimits {
-  static constexpr double max_seam_ratio = 4;       // longer edge / shorter edge of a stitch
+  static constexpr double max_seam_ratio = 6;       // longer edge / shorter edge of a stitch: gathers reach 5
   static constexpr double max_panel_m = 10;         // a panel's width and height; above, the unit is doubtful
   static constexpr double min_panel_m = 0.001;      // the larger of both; below, the unit is doubtful
   static constexpr double min_edge_m = 1e-5;        // corners closer than this are one corner given twice

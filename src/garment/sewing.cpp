@@ -32,6 +32,26 @@ std::vector<Vec3> class_means(std::span<const Index> merged, std::span<const dou
   return sum;
 }
 
+// Panels that are gathered have to fold while they are sewn.
+void soften_gathered_panels(ClothModel& model, std::span<const Fabric> fabrics, std::span<const Fabric> stiff,
+                            const ModelOptions& options, double share) {
+  const ClothMesh& mesh = model.mesh;
+  if (mesh.gathered_uv.empty()) return;
+  std::vector<char> gathered(mesh.panel_names.size(), 0);
+  for (std::size_t t = 0; t < mesh.uv.size(); ++t)
+    if (mesh.gathered_uv[t] != mesh.uv[t]) gathered[at(mesh.panel[t])] = 1;
+  std::vector<Fabric> softer(stiff.begin(), stiff.end());
+  for (std::size_t k = 0; k < softer.size(); ++k) {
+    softer[k].bend_u_N_m = std::max(fabrics[k].bend_u_N_m, share * stiff[k].bend_u_N_m);
+    softer[k].bend_v_N_m = std::max(fabrics[k].bend_v_N_m, share * stiff[k].bend_v_N_m);
+  }
+  const std::vector<BendRest> bend = build_model(mesh, softer, options).bend;
+  for (std::size_t h = 0; h < bend.size(); ++h) {
+    const std::array<Index, 2>& sides = model.topology.hinges[h].triangle;
+    if (gathered[at(mesh.panel[at(sides[0])])] || gathered[at(mesh.panel[at(sides[1])])]) model.bend[h] = bend[h];
+  }
+}
+
 }  // namespace
 
 Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, BodySurface* body, const StepOptions& step,
@@ -49,7 +69,9 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
     fabric.strain_limit = 0;  // seams that close pull harder than cloth that is worn
   }
   model_ = build_model(garment.mesh, stiff, weightless);
-  set_folds(model_, 0);
+  soften_gathered_panels(model_, fabrics, stiff, weightless, options.gathered_bend_share);
+  set_folds(model_, garment.pleated ? 1 : 0);
+  set_gathers(model_, 0);
   state_ = {garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
   for (const SeamPair& pair : garment.pairs) {
     start_distance_m_.push_back((garment.x[at(pair.b)] - garment.x[at(pair.a)]).norm());
@@ -127,6 +149,7 @@ FrameReport Sewing::frame() {
   FrameReport report;
   if (status_ != SewingStatus::sewing) return report;
   const double frame_s = 1 / options_.fps;
+  pull_gathers();
   report = stepper_->advance(state_, time_s_, frame_s);
   if (report.interrupted) return report;
   time_s_ += frame_s;
@@ -139,6 +162,12 @@ FrameReport Sewing::frame() {
   }
   judge_progress();
   return report;
+}
+
+// As the seams close, so does the thread.
+void Sewing::pull_gathers() {
+  const double share = longest_m_ > 0 ? std::min(1.0, options_.closing_speed_m_per_s * time_s_ / longest_m_) : 1;
+  if (share != model_.gathered) set_gathers(model_, share);
 }
 
 void Sewing::judge_progress() {

@@ -29,6 +29,8 @@ struct SewingOptions {
   double pull_N_per_m = 300;
   double give_m = 3e-3;    // at this gap beyond l the pull is at its limit
   double bend_N_m = 1e-3;  // bending rigidity until the weld, at least: a hundred times cotton's
+  double gathered_bend_share =
+      0.1;                 // of bend_N_m, in panels that are gathered: at 5:1 and 1 cm the whole of it leaves 6 mm open
   double drag_per_s = 20;  // keeps loose panels from whipping under the pull of their edges
   double damping_s = 0.02;
   double offset_m = 4e-3;  // contact distance from the body while sewing, at least
@@ -102,6 +104,7 @@ class Sewing {
 
  private:
   void append_springs(const ClothState& state, double end_s, std::vector<LinearSpring>& springs) const;
+  void pull_gathers();
   void judge_progress();
   std::vector<Impact> close_seams(Vec3s& end);
   void let_through(std::span<const Impact> caught);

@@ -50,16 +50,56 @@ void fill(Delaunay& mesh, const std::vector<GridPoint>& lattice, double edge) {
   }
 }
 
+double distance2(const Vec2& p, const FinerZone& zone) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k + 1 < zone.line.size(); ++k) {
+    const Vec2 along = zone.line[k + 1] - zone.line[k], d = p - zone.line[k];
+    const double s = std::clamp(d.dot(along) / along.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (d - s * along).squaredNorm());
+  }
+  return least;
+}
+
+// The lattice of the whole inside, but where a zone has a finer one of its own; the two keep half an edge apart.
+std::vector<GridPoint> outside_zones(const GridOutline& grid, std::vector<GridPoint> lattice, double edge_m,
+                                     std::span<const FinerZone> finer) {
+  std::erase_if(lattice, [&](const GridPoint& p) {
+    return std::any_of(finer.begin(), finer.end(), [&](const FinerZone& zone) {
+      const double reach = zone.reach_m + 0.5 * edge_m;
+      return zone.edge_m < edge_m && distance2(grid.to_metres(p), zone) < reach * reach;
+    });
+  });
+  return lattice;
+}
+
+void fill_zones(Delaunay& mesh, const GridOutline& grid, double edge_m, std::span<const FinerZone> finer) {
+  for (std::size_t z = 0; z < finer.size(); ++z) {
+    if (finer[z].edge_m >= edge_m) continue;
+    const double edge = finer[z].edge_m / grid_step_m;
+    std::vector<GridPoint> lattice = lattice_inside(grid.points, edge, margin_ratio * edge);
+    std::erase_if(lattice, [&](const GridPoint& p) {
+      const Vec2 at_m = grid.to_metres(p);
+      if (distance2(at_m, finer[z]) >= finer[z].reach_m * finer[z].reach_m) return true;
+      return std::any_of(finer.begin(), finer.begin() + static_cast<std::ptrdiff_t>(z), [&](const FinerZone& before) {
+        const double reach = before.reach_m + 0.5 * finer[z].edge_m;
+        return before.edge_m < edge_m && distance2(at_m, before) < reach * reach;
+      });
+    });
+    fill(mesh, lattice, edge);
+  }
+}
+
 }  // namespace
 
-PlanarMesh triangulate(std::span<const Vec2> outline, double edge_m) {
+PlanarMesh triangulate(std::span<const Vec2> outline, double edge_m, std::span<const FinerZone> finer) {
   constexpr double shortest_edge_m = 64 * grid_step_m;  // below it the grid itself would spoil the angles
   if (!(edge_m >= shortest_edge_m) || !std::isfinite(edge_m))
     throw InputError("", "edge_m", "an edge length of at least 0.00007 m", shortest_text(edge_m));
   const GridOutline grid = snap_outline(outline);
   const double edge = edge_m / grid_step_m;
   Delaunay mesh(grid.points);
-  fill(mesh, lattice_inside(grid.points, edge, margin_ratio * edge), edge);
+  fill(mesh, outside_zones(grid, lattice_inside(grid.points, edge, margin_ratio * edge), edge_m, finer), edge);
+  fill_zones(mesh, grid, edge_m, finer);
   smooth(mesh, smoothing_sweeps);
   improve(mesh, edge);
 

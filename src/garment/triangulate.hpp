@@ -21,6 +21,12 @@ struct PlanarMesh {
   std::vector<Triangle> triangles;  // counter-clockwise
 };
 
+// Within `reach_m` of a line the triangles inside have edges of `edge_m`, as the outline there must have.
+struct FinerZone {
+  std::vector<Vec2> line;
+  double reach_m = 0, edge_m = 0;
+};
+
 struct PlanarQuality {  // over all angles and over all edges, each edge once; zeros for an empty mesh
   double min_angle_deg = 0, p1_angle_deg = 0;  // p1: one angle in a hundred is smaller
   double mean_edge_m = 0, min_edge_m = 0, max_edge_m = 0;
@@ -32,7 +38,7 @@ struct PlanarQuality {  // over all angles and over all edges, each edge once; z
 // Throws InputError("", "point 12", ...) for points that are not finite, coincide (after snapping) or lie more than
 // 16 m from the middle, and for edges that cross, touch or fold back; InputError("", "outline", ...) for fewer than 3
 // points or an area that is zero; InputError("", "edge_m", ...) below 0.06 mm or for more than 2^24 interior points.
-PlanarMesh triangulate(std::span<const Vec2> outline, double edge_m);
+PlanarMesh triangulate(std::span<const Vec2> outline, double edge_m, std::span<const FinerZone> finer = {});
 
 // A rectangle from (0, 0) to (width_m, height_m) whose sides are cut evenly, as near `edge_m` as whole pieces allow.
 PlanarMesh equilateral_sheet(double width_m, double height_m, double edge_m);

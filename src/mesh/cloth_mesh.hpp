@@ -29,6 +29,8 @@ struct ClothMesh {
   std::vector<std::string> panel_names;
   std::vector<PanelCloth> panel_cloth;  // as panel_names, or empty
   std::vector<FoldedEdge> folds;
+  // [triangle][corner], or empty: the shape at rest where a gathering thread holds the cloth together (garment/gathers.hpp); elsewhere uv.
+  std::vector<std::array<Vec2, 3>> gathered_uv;
 
   Index triangle_count() const { return static_cast<Index>(triangles.size()); }
 };

@@ -18,6 +18,11 @@ GarmentMesh over(const Outfit& outfit, const GarmentMesh& garment) {
   both.mesh.particle_count += garment.mesh.particle_count;
   for (const Triangle& t : garment.mesh.triangles)
     both.mesh.triangles.push_back({t[0] + worn, t[1] + worn, t[2] + worn});
+  if (!both.mesh.gathered_uv.empty() || !garment.mesh.gathered_uv.empty()) {
+    const auto& behind = garment.mesh.gathered_uv.empty() ? garment.mesh.uv : garment.mesh.gathered_uv;
+    if (both.mesh.gathered_uv.empty()) both.mesh.gathered_uv = both.mesh.uv;
+    both.mesh.gathered_uv.insert(both.mesh.gathered_uv.end(), behind.begin(), behind.end());
+  }
   both.mesh.uv.insert(both.mesh.uv.end(), garment.mesh.uv.begin(), garment.mesh.uv.end());
   for (const Index panel : garment.mesh.panel) both.mesh.panel.push_back(panel + panels);
   both.mesh.panel_names.insert(both.mesh.panel_names.end(), garment.mesh.panel_names.begin(),

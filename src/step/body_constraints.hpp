@@ -12,7 +12,7 @@
 //              one particle after the other, a solve for each few
 //   n          the contact's normal in the middle of the step.  With that of its start a round body that turns by theta under cloth that
 //              stays would draw the cloth in by R theta^2/2, with that of its end push it out by as much; midway neither.
-//   y          position alteration: min(r - gap, 0.2 r) n, zero while 0 <= r - gap < 0.02 r; negative lets a predicted contact land exactly
+//   y          position alteration: min(r - gap, 0.2 r min(1, h / 1 ms)) n, zero while 0 <= r - gap < 0.02 r; negative lets a predicted contact land exactly
 //              on the offset.  It moves the particle and tells its neighbours through K y, and is never part of v.  Negative, it is the
 //              rest of the particle's own way, at y / h, and damping sees it: D y / h.  Else a particle that lands 10 mm below would be
 //              braked by neighbours that fall beside it, as if it had stood still, and threads between them stretched by as much as 20 %.
@@ -155,6 +155,7 @@ class BodyConstraints {
   BodyContactOptions options_;
   std::vector<BodyPoint> points_;  // [particle] nearest point of the body; triangle -1: farther than reach_m_
   std::vector<double> reach_m_;    // [particle] how far was looked
+  double altered_share_ = 1;       // of the largest alteration, in the step of apply
   bool body_moves_ = false;        // in the step that detect was told of
   std::vector<Near> near_;         // ascending particles, then those that `update` found
   std::vector<Beside> beside_;

@@ -34,10 +34,19 @@ void LayerDistance::measure(const ClothModel& model, const ClothTopology& topolo
   std::vector<double> shortest(full_m_.size(), std::numeric_limits<double>::infinity());
   std::vector<RestEdge> edges;
   const ClothMesh& mesh = model.mesh;
+  thickness_m_ = model.thickness_m;
+  // Where cloth is gathered to a share of its area its layers are pressed to that share.
+  for (std::size_t t = 0; t < mesh.gathered_uv.size(); ++t) {
+    if (mesh.gathered_uv[t] == mesh.uv[t]) continue;
+    const double share = material_frame(model.rest_uv(t)).area_m2 / material_frame(mesh.uv[t]).area_m2;
+    for (const Index i : mesh.triangles[t])
+      thickness_m_[at(i)] = std::min(thickness_m_[at(i)], share * model.thickness_m[at(i)]);
+  }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec2 b(model.membrane[t].b_u, model.membrane[t].b_v);
+    const std::array<Vec2, 3> uv = model.rest_uv(t);
     for (std::size_t k = 0; k < 3; ++k) {
-      const double length = b.cwiseProduct(mesh.uv[t][(k + 1) % 3] - mesh.uv[t][k]).norm();
+      const double length = b.cwiseProduct(uv[(k + 1) % 3] - uv[k]).norm();
       for (const Index corner : mesh.triangles[t]) shortest[at(corner)] = std::min(shortest[at(corner)], length);
       edges.push_back({mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3], length});
     }

@@ -3,6 +3,7 @@
 //   r = the thinner of the two fabrics' thickness, whatever the mesh;
 //   but what is that near to each other along the cloth, at rest, does not repel: neighbours keep at most
 //       0.45 of the shortest rest edge around either
+//   and cloth that is gathered to a share of its area (ClothMesh::gathered_uv) keeps that share of its thickness.
 //   Neighbours are joined by edges of less than 1.5 thickness and the longest edge, rest lengths summed; open seams join too.
 #pragma once
 #include "assembly/cloth_model.hpp"

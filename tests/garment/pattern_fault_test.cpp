@@ -221,8 +221,8 @@ TEST(PatternFaults, RefusesSeamsOfVeryDifferentLength) {
         "{\"a\": " + panel() + ", \"b\": " + panel("[[0, 0], [" + width + ", 0], [" + width + ", 60], [0, 60]]") + "}",
         "[" + stitch("a", 0, "b", 0) + "]");
   };
-  EXPECT_EQ(message_of(with_sleeve("10")), "(no error)") << "a factor of exactly 4 is the limit";
-  expect_error(with_sleeve("9.9"), {"/pattern/stitches/0:", "a factor of 4", "0.4 m", "0.099 m"});
+  EXPECT_EQ(message_of(with_sleeve("8")), "(no error)") << "gathers of 5:1";
+  expect_error(with_sleeve("6.6"), {"/pattern/stitches/0:", "a factor of 6", "0.4 m", "0.066 m"});
 }
 
 TEST(PatternFaults, RefusesAPanelOrderThatIsNone) {
