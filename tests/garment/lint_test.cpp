@@ -111,6 +111,40 @@ TEST(Lint, APanelKeepsItsPlaceWhenItsCornersAreCentred) {
   }
 }
 
+// A band around the waist with a knife pleat of three layers in its front: an edge sewn three times, one of them "right_wrong".
+TEST(Lint, FindsNothingInAPleat) {
+  const auto panel = [](const std::string& corners, const std::string& edges, const std::string& place) {
+    return pattern_text::panel(corners, edges, place);
+  };
+  const std::string ring =
+      R"([{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}])";
+  const std::string back_ring =
+      R"([{"endpoints": [0, 3]}, {"endpoints": [3, 2]}, {"endpoints": [2, 1]}, {"endpoints": [1, 0]}])";
+  const std::string sheet_ring =
+      R"([{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 4]},
+          {"endpoints": [4, 5]}, {"endpoints": [5, 0]}])";
+  // Fronts face +z, backs are drawn the other way round.
+  const std::string panels =
+      "{\"band_front\": " + panel("[[0, 0], [45, 0], [45, 4], [0, 4]]", ring, "[-22.5, 100, 20]") +
+      ", \"band_back\": " + panel("[[0, 0], [45, 0], [45, 4], [0, 4]]", back_ring, "[-22.5, 100, -20]") +
+      ", \"sheet\": " +
+      panel("[[0, 0], [135, 0], [135, 60], [90, 60], [45, 60], [0, 60]]", sheet_ring, "[-67.5, 38, 20]") +
+      ", \"back\": " + panel("[[0, 0], [45, 0], [45, 60], [0, 60]]", back_ring, "[-22.5, 38, -20]") + "}";
+  const auto seams = [](const std::string& under) {
+    using pattern_text::stitch;
+    return "[" + stitch("band_front", 0, "sheet", 4) + ", " + stitch("band_front", 0, "sheet", 3, under) + ", " +
+           stitch("band_front", 0, "sheet", 2) + ", " + stitch("band_back", 3, "back", 1) + ", " +
+           stitch("band_front", 1, "band_back", 2) + ", " + stitch("band_front", 3, "band_back", 0) + ", " +
+           stitch("sheet", 1, "back", 2) + ", " + stitch("sheet", 5, "back", 0) + "]";
+  };
+  const LintReport report = lint_pattern(pattern_text::file(panels, seams(", \"right_wrong\"")), "p.json");
+  EXPECT_TRUE(report.findings.empty()) << list(report);
+  EXPECT_TRUE(report.usable);
+  const LintReport flat = lint_pattern(pattern_text::file(panels, seams("")), "p.json");
+  ASSERT_FALSE(flat.findings.empty()) << "three layers of which none goes back";
+  EXPECT_EQ(flat.findings.front().code, reason::seam_twice);
+}
+
 TEST(Boundary, OfATubeIsTwoRingsAndOfABagOne) {
   Pattern tube = test::tube_pattern(0.4, 0.6, 0.2);
   const Boundary open = find_boundary(tube);

@@ -3,6 +3,7 @@
 #include "core/parallel.hpp"
 #include "io/json.hpp"
 #include "io/json_text.hpp"
+#include "io/json_value.hpp"
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
 #include "io/scratch.hpp"
@@ -18,8 +19,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 
 namespace toile {
@@ -267,6 +271,46 @@ TEST(Run, TheTShirtIsSewnWithoutACrossingWhereFourPanelsMeet) {
     EXPECT_EQ(report.audit.cloth_cloth_edges.max, 0) << resolution_cm << " cm, in any frame since the weld";
     EXPECT_EQ(report.audit.cloth_body_edges.last, 0) << resolution_cm;
   }
+}
+
+// A label for the waist on what hangs from the shoulders does nothing; here on both hems of the T-shirt, 20 cm below her waist.
+TEST(Run, WhatHangsFromTheShouldersIsNotHeldAtTheWaist) {
+  std::array<std::string, 2> state;
+  for (const bool labelled : {false, true}) {
+    const Scratch scratch;
+    JsonValue root(Json::load(TOILE_SOURCE_DIR "/patterns/tshirt.json"));
+    for (const char* panel : {"front", "back"})
+      if (labelled)
+        (*root.member("pattern").member("panels").member(panel).member("edges").array())[0].member("label") =
+            JsonValue(std::string("lower_interface"));
+    std::ofstream(scratch / "tshirt.json") << to_text(root);
+    const Report report = run(scratch, parse_scene(R"({"cloth": [{"pattern": ")" + (scratch / "tshirt.json") +
+                                                       R"(", "resolution_cm": 5}], "body": {"mannequin": "woman"},
+                                                       "time": {"seconds": 0.1}})",
+                                                   "s.json"));
+    ASSERT_EQ(report.ended, "time");
+    state[labelled ? 1 : 0] = report.state_hash;
+  }
+  EXPECT_EQ(state[0], state[1]);
+}
+
+// The skirt is drawn 8 cm too low, and is at the waist long before its seams are closed.
+TEST(Run, WhatHangsFromTheWaistIsHeldThereWhileItIsSewn) {
+  const Scratch scratch;
+  const Report report =
+      run(scratch,
+          parse_scene(R"({"cloth": [{"pattern": ")" TOILE_SOURCE_DIR
+                      R"(/patterns/skirt.json", "resolution_cm": 5, "placement": {"translation_m": [0, -0.08, 0]}}],
+                                   "body": {"mannequin": "woman"}, "time": {"seconds": 0.1}})",
+                      "s.json"));
+  ASSERT_EQ(report.ended, "time");
+  Pc2Reader film(scratch / "out/sewing.pc2");
+  const auto top_m = [&](int frame) {
+    Vec3s x;
+    film.read(frame, x);
+    return std::max_element(x.begin(), x.end(), [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); })->y();
+  };
+  EXPECT_GT(top_m(film.samples() / 2), top_m(0) + 0.04);
 }
 
 // At this edge length the seams that meet in the crotch close around a fold.
