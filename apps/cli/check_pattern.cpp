@@ -57,19 +57,20 @@ std::string describe(const Pattern& pattern, const GarmentMesh& garment, double 
   return text;
 }
 
-// As `dress` loads it, and what that would take for 10 s on the mannequin.
+// As `dress` loads it, and what that would take at most on the mannequin.
 std::string load_as_dress_does(const CommandLine& line, const std::string& path, const std::string& text,
                                JsonText& json) {
   const double resolution_m = line.resolution_cm ? 0.01 * *line.resolution_cm : SceneCloth{}.resolution_m;
   const Pattern pattern = parse_pattern(text, printable(path));
   Scene dressed;
   dressed.name = pattern.name;
-  dressed.seconds = 10;
+  dressed.seconds = Scene::longest_dress_s;
   dressed.until_still = true;
   dressed.body.kind = SceneBody::Kind::mannequin;
   dressed.cloth.emplace_back().pattern = path;
   dressed.cloth.front().set_edge_m(resolution_m);
-  const std::string budget = "  as dressed for 10 s: " + describe_budget(dressed, line.limits, json);
+  const std::string budget =
+      fmt::sprintf("  as dressed for %g s: ", dressed.seconds) + describe_budget(dressed, line.limits, json);
   Hash hash;
   const LoadedCloth loaded = load_cloth(
       dressed, dressed.cloth.front(), [&](const std::string&) { return text; }, hash);

@@ -129,7 +129,7 @@ Scene dress_scene(const CommandLine& line) {
   }
   scene.until_still = true;
   scene.body = dress_body(line);
-  if (!scene.body.motion) scene.seconds = 10;  // a limit: most garments are still after three or four
+  if (!scene.body.motion) scene.seconds = Scene::longest_dress_s;
   scene.strict_start = line.strict_start;
   return scene;
 }

@@ -90,17 +90,21 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
   world_.springs = [this](const ClothState& state, double end_s, double, std::vector<LinearSpring>& springs) {
     append_springs(state, end_s, springs);
   };
-  StepOptions sewing_step = step;
-  sewing_step.body.friction = 0;
-  sewing_step.rows.look_ahead = 2;
-  sewing_step.body.offset_m = std::max(step.body.offset_m, options.offset_m);
-  AdaptiveOptions adaptive;
-  adaptive.step_max_s = std::min(1 / options.fps, options.step_max_s);
-  adaptive.stop = options.stop;
-  adaptive.stretch_floor = 3;  // the pull of a seam is not divergence
-  stepper_.emplace(model_, world_, sewing_step, adaptive);
+  step_ = step;
+  step_.body.friction = 0;
+  step_.rows.look_ahead = 2;
+  step_.body.offset_m = std::max(step.body.offset_m, options.offset_m);
+  start_stepper();
   set_thickness_scale(std::vector<double>(garment.x.size(), options.thickness_scale));
   if (garment.pairs.empty()) status_ = SewingStatus::closed;
+}
+
+void Sewing::start_stepper() {
+  AdaptiveOptions adaptive;
+  adaptive.step_max_s = std::min(1 / options_.fps, options_.step_max_s);
+  adaptive.stop = options_.stop;
+  adaptive.stretch_floor = 3;  // the pull of a seam is not divergence
+  stepper_.emplace(model_, world_, step_, adaptive);
 }
 
 void Sewing::append_springs(const ClothState& state, double end_s, std::vector<LinearSpring>& springs) const {
@@ -143,6 +147,19 @@ void Sewing::append_springs(const ClothState& state, double end_s, std::vector<L
 void Sewing::set_thickness_scale(std::vector<double> scale) {
   thickness_scale_ = std::move(scale);
   stepper_->integrator().contact_rows().set_thickness_scale(thickness_scale_);
+}
+
+void Sewing::go_on(Vec3s x, std::vector<double> scale) {
+  for (double& s : scale) s *= options_.thickness_scale;
+  state_ = {std::move(x), Vec3s(scale.size(), Vec3::Zero())};
+  start_stepper();  // what it remembers of contacts is of cloth that was elsewhere
+  set_thickness_scale(std::move(scale));
+  escalations_ = 0;
+  pull_factor_ = 1;
+  best_gap_m_ = widest_gap_m();
+  best_time_s_ = time_s_;
+  weld_obstacle_.reset();
+  status_ = best_gap_m_ < options_.weld_gap_m ? SewingStatus::closed : SewingStatus::sewing;
 }
 
 FrameReport Sewing::frame() {
@@ -270,12 +287,11 @@ double Sewing::widest_gap_m() const {
   return widest;
 }
 
-std::vector<Index> Sewing::open_pairs() const {
+std::vector<Index> Sewing::open_pairs(double welded_m) const {
   std::vector<Index> open;
   for (std::size_t k = 0; k < garment_->pairs.size(); ++k) {
     const SeamPair& pair = garment_->pairs[k];
-    if (!((state_.x[at(pair.b)] - state_.x[at(pair.a)]).norm() < options_.weld_gap_m))
-      open.push_back(static_cast<Index>(k));
+    if (!((state_.x[at(pair.b)] - state_.x[at(pair.a)]).norm() < welded_m)) open.push_back(static_cast<Index>(k));
   }
   return open;
 }

@@ -10,9 +10,9 @@
 // filter of the step never lets cloth pass through cloth.
 //
 // If a seam still gapes when l = 0, the layers of cloth around the gap are thinned; then f_max doubles, at most twice, and folds that are
-// caught between the sides of a seam lose their contact; then the garment is reported as blocked, by seam.  Cloth that is stretched by a
-// fifth beside the gap ends it at once: the garment is too small.  The last millimetre is left to the weld, which waits while it would push
-// guarded cloth through cloth.
+// caught between the sides of a seam lose their contact; then the garment is blocked, by seam: who sews it may take apart what is in the way
+// and go_on() (sim/dressing.hpp).  Cloth that is stretched by a fifth beside the gap is blocked at once.  The last millimetre is left to the
+// weld, which waits while it would push guarded cloth through cloth.
 #pragma once
 #include "garment/label_heights.hpp"
 #include "step/adaptive_step.hpp"
@@ -82,11 +82,14 @@ class Sewing {
   // Of the fabrics' contact distance, per particle; 0 switches the contact of layers off there (cloth that crosses itself at the start).
   const std::vector<double>& thickness_scale() const { return thickness_scale_; }
   void set_thickness_scale(std::vector<double> scale);
+  // Once blocked: from x, at rest, with every layer as thick as at first but where `scale` is 0.
+  void go_on(Vec3s x, std::vector<double> scale);
   // Seams by gap, widest first.
   std::vector<SeamGap> gaps() const;
   double widest_gap_m() const;
-  // Places in GarmentMesh::pairs of those that are wider apart than what is welded, ascending.
-  std::vector<Index> open_pairs() const;
+  // Places in GarmentMesh::pairs of those that are wider apart than `welded_m`, ascending.
+  std::vector<Index> open_pairs(double welded_m) const;
+  double mean_edge_m() const { return mean_edge_m_; }
   // Where the last attempt to weld would have pushed cloth through cloth.
   std::optional<Vec3> weld_obstacle() const { return weld_obstacle_; }
   const ImplicitEuler& integrator() const { return stepper_->integrator(); }
@@ -103,6 +106,7 @@ class Sewing {
   }
 
  private:
+  void start_stepper();
   void append_springs(const ClothState& state, double end_s, std::vector<LinearSpring>& springs) const;
   void pull_gathers();
   void judge_progress();
@@ -114,6 +118,7 @@ class Sewing {
   SewingOptions options_;
   ClothModel model_;
   StepWorld world_;
+  StepOptions step_;
   ClothState state_;
   std::optional<AdaptiveStep> stepper_;
   LabelSprings labels_;

@@ -273,7 +273,7 @@ class Estimate {
     const double inner = patterned_ && scene_->start.empty() ? static_cast<double>(scene_->cloth.size() - 1) : 0;
     const double inner_frames = inner * frames_in(scene_->drape_seconds);
     const bool grows = patterned_ && scene_->start.empty() && body_triangles_ > 0;  // if it is a person
-    const double growth_frames = grows ? frames_in(DressingBody::growth_s) : 0;
+    const double growth_frames = grows ? frames_in(DressingBody::longest_growth_s) : 0;
     budget_.unwritten_frames = sewing_frames_ + growth_frames + inner_frames;
 
     const double longest_s = scene_->step_max_s.value_or(patterned_ ? 1.0 / 60 : 1 / scene_->fps);

@@ -1,8 +1,11 @@
 #include "sim/dressing.hpp"
 
+#include "sim/start_state.hpp"
 #include "sim/tangles.hpp"
 
 #include <fmt/printf.h>
+
+#include <numeric>
 
 namespace toile {
 namespace {
@@ -50,14 +53,9 @@ Dressing::Dressing(const Outfit& outfit, const GarmentMesh& garment, std::span<c
   options_.held_particles = outfit.mesh.particle_count;
   sewing_.emplace(panels_, outfit_.fabrics, body, step, options_);
 
-  const Topology topology = build_topology(panels_.mesh.particle_count, panels_.mesh.triangles);
-  Tangles tangles(topology, panels_.mesh.triangles);
-  tangles.find(panels_.x);
-  tangled_ = tangles.any();
-  if (!tangled_) return;
   std::vector<double> scale = sewing_->thickness_scale();
-  tangles.switch_off(scale);
-  sewing_->set_thickness_scale(std::move(scale));
+  tangled_ = switch_off_tangles(panels_.x, scale);
+  if (tangled_) sewing_->set_thickness_scale(std::move(scale));
 }
 
 std::string Dressing::explain() const {
@@ -86,18 +84,49 @@ std::string Dressing::explain() const {
   return text;
 }
 
+bool Dressing::take_apart(std::span<const Triangle> body, std::span<const Vec3> body_x,
+                          const std::function<bool()>& stop) {
+  const std::vector<Index> open = sewing_->open_pairs(options_.weld_share * sewing_->mean_edge_m());
+  GarmentMesh joined = panels_;
+  joined.leave_open(open);
+  Outfit apart = worn(joined);
+  std::vector<Index> held(static_cast<std::size_t>(options_.held_particles));
+  std::iota(held.begin(), held.end(), 0);
+  untangle_start(apart, body, body_x, std::move(held), stop, sewn_in_vain);
+  if (stop && stop()) return false;
+  const std::size_t in_the_way = open.size() + static_cast<std::size_t>(start_crossings(apart, body, body_x).all());
+  if (in_the_way >= least_in_the_way_) return false;
+  least_in_the_way_ = in_the_way;
+  const std::vector<Index> particle_of = weld(joined).particle_of;
+  Vec3s x(particle_of.size());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = apart.state.x[static_cast<std::size_t>(particle_of[i])];
+  std::vector<double> scale(x.size(), 1);
+  switch_off_tangles(x, scale);
+  sewing_->go_on(std::move(x), std::move(scale));
+  return true;
+}
+
+// Of panels that pass through each other or through the outfit.
+bool Dressing::switch_off_tangles(const Vec3s& x, std::vector<double>& scale) const {
+  const Topology topology = build_topology(panels_.mesh.particle_count, panels_.mesh.triangles);
+  Tangles tangles(topology, panels_.mesh.triangles);
+  tangles.find(x);
+  if (tangles.any()) tangles.switch_off(scale);
+  return tangles.any();
+}
+
 std::vector<Index> Dressing::leave_open() {
-  std::vector<Index> open = sewing_->open_pairs();
+  std::vector<Index> open = sewing_->open_pairs(options_.weld_gap_m);
   panels_.leave_open(open);
   return open;
 }
 
 std::vector<Index> Dressing::particle_of() const { return weld(panels_).particle_of; }
 
-Outfit Dressing::worn() const {
+Outfit Dressing::worn(const GarmentMesh& panels) const {
   Outfit worn = outfit_;
-  const WeldedMesh welded = weld(panels_);
-  worn.state = weld_state(panels_, welded, sewing_->model(), sewing_->state());
+  const WeldedMesh welded = weld(panels);
+  worn.state = weld_state(panels, welded, sewing_->model(), sewing_->state());
   worn.thickness_scale = weld_thickness(welded, sewing_->thickness_scale());
   weld_on(worn, welded);
   return worn;

@@ -88,6 +88,7 @@ void DressingBody::lifted(std::span<Vec3> x) const {
 }
 
 void DressingBody::at(double t_s, std::span<Vec3> x) const {
+  t_s -= pose_.falls_s;
   std::copy(standing_.begin(), standing_.end(), x.begin());
   thin_.at(std::clamp((t_s - grows_at_s) / grows_s, 0.0, 1.0), x.first(person_vertices_));
   const double out = smooth((t_s - waits_s) / out_s), down = smooth((t_s - waits_s - out_s) / lowers_s);

@@ -19,17 +19,19 @@ class DressingBody {
   DressingBody(std::span<const Vec3> standing, std::span<const Triangle> triangles, std::size_t person_vertices,
                std::size_t person_triangles, std::array<Arm, 2> arms);
 
-  // 0.3 s thin, in which a waist comes to its height; arms, 0.8 s; girth, 1 s; then 0.2 s as it stands.
-  static constexpr double growth_s = 1.8;
+  // 0.3 s thin, in which a waist comes to its height, and longer for what falls first; arms, 0.8 s; girth, 1 s; then 0.2 s as it stands.
+  double growth_s() const { return 1.8 + pose_.falls_s; }
+  static constexpr double falling_s = 0.8, longest_growth_s = 1.8 + falling_s;
 
   // How it is while a garment is sewn.
   struct Pose {
     // Of the left arm and the right one.
     std::array<double, 2> lift{0, 0};   // 0: as it stands, 1: level, and out of the way of sides and skirts
     std::array<double, 2> reach{1, 1};  // share of its length
+    double falls_s = 0;                 // so long what hangs from the waist falls before anything grows
     template <class Archive>
     void remember(Archive& archive) {
-      archive(lift[0], lift[1], reach[0], reach[1]);
+      archive(lift[0], lift[1], reach[0], reach[1], falls_s);
     }
   };
   void set_pose(const Pose& pose) { pose_ = pose; }

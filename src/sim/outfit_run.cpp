@@ -87,10 +87,10 @@ void OutfitRun::take_up(std::span<const Vec2> panel_rest_stretch) {
 }
 
 void OutfitRun::settle() {
-  const double t_s = settling_.waits ? 0 : time_s();
+  const double t_s = settling_.waits ? 0 : time_s(), weight = settling_.weightless ? 0 : ramp(time_s());
   const bool first = settling_.held_particles == 0;  // with friction off, what is worn below would slide down
   label_strength_ = std::clamp(1 - (t_s - labels_held_s) / labels_fade_s, 0.0, 1.0);
-  model_.gravity_m_per_s2 = ramp(t_s) * scene_->gravity_m_per_s2;
+  model_.gravity_m_per_s2 = weight * scene_->gravity_m_per_s2;
   set_rest_stretch(ramp(t_s));
   if (t_s >= settling_s) worn_pins_.clear();
   const double slippery_s = first ? frictionless_s : settling_s;

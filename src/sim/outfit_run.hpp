@@ -24,7 +24,8 @@ struct Settling {            // of a garment that has just been sewn
   Index held_particles = 0;  // worn before
   LabelSprings labels;       // hold the new garment for a while
   bool to_rest = false;      // it is awaited, until the body moves
-  bool waits = false;        // at the weld, without weight, however long it takes until nothing crosses
+  bool waits = false;        // at the weld, held by its labels, however long it takes until it is on
+  bool weightless = false;   // meanwhile
 };
 
 struct TimedPin {

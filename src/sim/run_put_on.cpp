@@ -42,8 +42,8 @@ bool Run::free_start(bool sewn_now) {
   if (scene_.strict_start && !sewn_now)
     throw Error(ExitCode::bad_start, printable(outfit_.parts.front().name) + ": bad start: " + what);
   say("untangling", 0);
-  const UntangledStart untangled =
-      untangle_start(outfit_, body_triangles_, body_x_, held_now(sewn_now), [&] { return stopped(); });
+  const UntangledStart untangled = untangle_start(
+      outfit_, body_triangles_, body_x_, held_now(sewn_now), [&] { return stopped(); }, sewn_now ? sewn_in_vain : 0);
   if (!untangled.moved_far.empty()) qualify(reason::moved_by_untangling, untangled.moved_far);
   const int weightless = sewn_now ? come_apart() : 0;
   // How far it came is by chance: it begins again when the run goes on.
@@ -76,7 +76,7 @@ std::vector<Index> Run::held_now(bool sewn_now) const {
 // it has weight.  Nothing of it is written.  Returns the number of frames.
 int Run::come_apart() {
   Settling waiting = settling_;
-  waiting.waits = true;
+  waiting.waits = waiting.weightless = true;
   std::optional<OutfitRun> run;
   const int most = frames_in(most_waiting_s);
   int frames = 0;
@@ -227,9 +227,13 @@ bool Run::sew(std::size_t k) {
   sewing_options.stop = stop();
   Dressing dressing(outfit_, garment, cloth.fabrics, cloth.rest_stretch, body(), step_, sewing_options);
   Sewing& sewing = dressing.sewing();
+  if (sewing_options.labels_hold_panels && !dressing.labels().empty()) {
+    pose_.falls_s = DressingBody::falling_s;
+    dressing_body_->set_pose(pose_);
+  }
   const bool filmed = k == 0;  // the panels of the others come with what is worn: another mesh
   if (resumed) {
-    restore(sewing);
+    restore(dressing);
   } else {
     if (dressing.tangled()) bad_start(garment.name, "placed panels pass through each other");
     checkpoints_->wait();
@@ -238,7 +242,7 @@ bool Run::sew(std::size_t k) {
       writer_->begin_sewing(garment.mesh, garment.name, garment.x, thin, std::span(body_x_).first(person_vertices_));
     }
     end_startup();
-    keep(sewing);
+    keep(dressing);
   }
   const FrameReport frame = sew_frames(dressing, filmed);
   PhaseReport& phase = report_.sewing;
@@ -306,6 +310,7 @@ bool Run::grow(std::size_t k) {
   if (!dressing_body_) return true;
   Settling waiting = settling_;
   waiting.waits = true;
+  waiting.weightless = pose_.falls_s == 0;
   waiting.to_rest = false;
   OutfitRun run(scene_, outfit_, body(), step_, waiting, stop());
   run.start_motion([&](double t_s, std::span<Vec3> x) { dressing_body_->at(t_s, x); });
@@ -315,7 +320,7 @@ bool Run::grow(std::size_t k) {
     place_ = {RunPhase::growth, k, 0};
     keep(run);
   }
-  const int frames = frames_in(DressingBody::growth_s);
+  const int frames = frames_in(dressing_body_->growth_s());
   while (place_.frame < frames) {
     const FrameReport frame = run.frame();
     if (frame.interrupted && !cut_off("while the body grew into the garment")) return false;
@@ -352,7 +357,11 @@ FrameReport Run::sew_frames(Dressing& dressing, bool filmed) {
     ++place_.frame;
     if (filmed && (place_.frame % every == 0 || sewing.status() != SewingStatus::sewing))
       writer_->sewing_frame(sewing.state().x);
-    if (sewing.status() == SewingStatus::sewing) keep_if_due(sewing);
+    if (sewing.status() == SewingStatus::blocked) {
+      say("untangling", 0);
+      dressing.take_apart(body_triangles_, body_x_, [&] { return stopped(); });
+    }
+    if (sewing.status() == SewingStatus::sewing) keep_if_due(dressing);
     const double share = sewing.closed_share();
     say("sewing", share, share > 0.05 ? watch.seconds() * (1 - share) / share : -1);
   }

@@ -69,11 +69,12 @@ std::vector<Index> held_from_the_start(const Events& events) {
 }
 
 UntangledStart untangle_start(Outfit& outfit, std::span<const Triangle> body, std::span<const Vec3> body_x,
-                              std::vector<Index> held, const std::function<bool()>& stop) {
+                              std::vector<Index> held, const std::function<bool()>& stop, int most_in_vain) {
   const bool with_body = !body.empty() && is_closed(body_x, body);
   const Vec3s before = outfit.state.x;
   UntangleOptions options;
   options.held = std::move(held);
+  options.most_in_vain = most_in_vain;
   const UntangleReport report =
       untangle(outfit.mesh.triangles, outfit.state.x, with_body ? body : std::span<const Triangle>{},
                with_body ? body_x : std::span<const Vec3>{}, options, [&](int, int) { return !(stop && stop()); });

@@ -32,8 +32,11 @@ struct UntangledStart {
 inline constexpr double most_edges_moved = 3;  // mean edges of the garment as it is cut
 
 // Moves the outfit's particles (sim/untangle.hpp) but for those that are held.  Of a body that is not closed inside and outside are not
-// known: then the cloth alone is untangled.  `stop` ends it.
+// known: then the cloth alone is untangled.  It gives up after `most_in_vain` trials without progress; 0: when there have been enough.
+// `stop` ends it.
 UntangledStart untangle_start(Outfit& outfit, std::span<const Triangle> body, std::span<const Vec3> body_x,
-                              std::vector<Index> held, const std::function<bool()>& stop);
+                              std::vector<Index> held, const std::function<bool()>& stop, int most_in_vain = 0);
+// Of what sewing leaves: what has not come apart by then comes apart as the body grows, or not at all.
+inline constexpr int sewn_in_vain = 60;
 
 }  // namespace toile

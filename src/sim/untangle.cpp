@@ -354,19 +354,22 @@ UntangleReport untangle(std::span<const Triangle> cloth, Vec3s& x, std::span<con
   Vec3s best = at_x, end;
   std::size_t best_count = seen.count();
   double least = std::numeric_limits<double>::infinity();
-  int way = 0, waited = 0, eased = 0;
+  int way = 0, waited = 0, eased = 0, in_vain = 0;
   const int most = options.most_iterations > 0
                        ? options.most_iterations
                        : static_cast<int>(std::clamp(most_work / static_cast<double>(x.size()), 100.0, 600.0));
   while (best_count > 0 && report.iterations < most) {
+    if (options.most_in_vain > 0 && in_vain >= options.most_in_vain) break;
     if (keep_going && !keep_going(report.iterations, static_cast<int>(best_count))) break;
     ++report.iterations;
     const double left = untangler.trial(at_x, seen, way, end);
     at_x.swap(end);
     seen = untangler.look(at_x);
+    ++in_vain;
     if (seen.count() < best_count) {
       best = at_x;
       best_count = seen.count();
+      in_vain = 0;
     }
     ++waited;
     if (left < progress * least) {

@@ -27,6 +27,7 @@ namespace toile {
 struct UntangleOptions {
   int most_iterations = 0;  // trials; 0: 600, and fewer for more than 1,170 particles
   int patience = 20;        // trials without progress until contours are pushed another way
+  int most_in_vain = 0;     // trials since there were fewest crossings until it gives up; 0: it does not
   std::vector<Index> held;  // particles that stay where they are, to the bit
 };
 

@@ -173,6 +173,17 @@ TEST(Untangle, SaysWhatIsLeft) {
   for (const auto& [a, b] : report.left[0].triangles) EXPECT_LT(a, b);
 }
 
+TEST(Untangle, GivesUpWhatDoesNotBecomeLess) {
+  const TangledStart start = test::tangled_start(0, 1);
+  UntangleOptions options;
+  options.most_in_vain = 7;
+  for (Index i = 0; i < static_cast<Index>(start.x.size()); ++i) options.held.push_back(i);
+  Vec3s x;
+  EXPECT_EQ(untangled(start, x, options).iterations, 7);
+  options.held.clear();
+  EXPECT_TRUE(untangled(start, x, options).resolved) << "while it does, it goes on";
+}
+
 TEST(Untangle, RefusesWhatIsNoSurface) {
   Vec3s x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const std::vector<Triangle> bad = {{0, 1, 5}};
