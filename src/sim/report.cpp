@@ -84,6 +84,7 @@ void add_verdict(JsonText& text, const Report& report) {
   text.member("stretch_p99", limits.stretch_p99);
   text.member("stretch_max", limits.stretch_max);
   text.member("slip_cm", 100 * limits.slip_m);
+  text.member("shoulder_slip_cm", 100 * limits.shoulder_slip_m);
   text.key("still_mm_per_s");
   if (limits.must_be_still) {
     text.value(limits.still_mm_per_s);

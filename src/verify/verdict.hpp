@@ -19,7 +19,8 @@ struct Limits {
   double stretch_p99 = 0.08, stretch_max = 0.25;    // over a gauge, of the last frame, outside elastic
   bool must_be_still = false;                       // `dress` without motion
   double still_mm_per_s = 5;
-  double slip_m = 0.05;  // of what holds a garment, against a body that has moved, in the last frame
+  // Of what holds a garment, against a body that has moved, in the last frame: an edge, and what lies on the shoulders.
+  double slip_m = 0.05, shoulder_slip_m = 0.08;
 };
 
 // Names that scripts may compare with.  The first three are GarmentCode's.
