@@ -137,7 +137,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       ->required();
   dress->add_option("--body-unit", line.body_unit, "Unit of the body's file")->check(CLI::IsMember({"m", "dm", "cm"}));
   dress->add_option("--motion", line.motion,
-                    "Motion: stand, sway, walk, twist, dance; for a mesh a .pc2 file or a folder of OBJ files");
+                    "Motion: stand, sway, walk, twist, crouch, dance; for a mesh stand, sway, twist, a .pc2 file or a "
+                    "folder of OBJ files");
   dress->add_flag("--strict-start", line.strict_start, "End with exit code 4 when the start already intersects");
   add_garment_options(*dress, line);
 

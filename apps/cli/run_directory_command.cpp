@@ -123,6 +123,7 @@ std::string as_json(const VerifyReport& audit, const Verdict& verdict) {
     json.member("frame", audit.jitter.worst_frame);
     json.end_object();
   }
+  add_slip(json, audit.slip);
   json.end_object();
   return json.str() + '\n';
 }
@@ -146,6 +147,7 @@ std::string as_text(const std::string& directory, const VerifyReport& audit, con
                         audit.jitter.p50_mm_per_s, audit.jitter.p99_mm_per_s, audit.jitter.max_mm_per_s,
                         audit.jitter.worst_vertex, audit.jitter.worst_frame);
   }
+  out += slip_line(audit.slip);
   if (audit.has_body) {
     out += fmt::sprintf(
         "  gap to the body: least %.2f mm, median %.2f mm; where it lies on it, median %.2f mm, p90 %.2f mm\n",

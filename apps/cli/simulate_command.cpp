@@ -88,6 +88,11 @@ std::string name_of_pattern(const std::string& path) {
   return name.empty() ? "garment" : name;
 }
 
+// What is no file's name at all is a motion's, misspelt; of a mesh a missing file is told when it is read.
+bool looks_like_a_file(const std::string& text) {
+  return text.ends_with(".pc2") || text.find_first_of("/%") != std::string::npos || std::filesystem::exists(text);
+}
+
 SceneBody dress_body(const CommandLine& line) {
   SceneBody body = body_option(line);
   const bool mannequin = body.kind == SceneBody::Kind::mannequin;
@@ -95,14 +100,18 @@ SceneBody dress_body(const CommandLine& line) {
   if (line.motion.empty()) return body;
   SceneMotion motion;
   motion.where = "--motion";
-  if (mannequin) {
-    const auto names = motion_names();
-    if (std::find(names.begin(), names.end(), line.motion) == names.end() && !std::filesystem::exists(line.motion))
-      throw Error(ExitCode::usage, "--motion: expected a motion or a file; nearest is \"" +
-                                       std::string(nearest_name(line.motion, names.data(), names.size())) +
-                                       "\", got \"" + printable(line.motion) + '"');
-    if (std::find(names.begin(), names.end(), line.motion) != names.end()) motion.name = line.motion;
-  }
+  const auto names = motion_names(), of_a_mesh = motion_names_without_skeleton();
+  const auto among = [&](std::span<const std::string_view> some) {
+    return std::find(some.begin(), some.end(), line.motion) != some.end();
+  };
+  if (!mannequin && !among(of_a_mesh) && (among(names) || !looks_like_a_file(line.motion)))
+    throw Error(ExitCode::usage,
+                "--motion: expected " + std::string(what_moves_a_mesh) + "; got \"" + printable(line.motion) + '"');
+  if (mannequin && !among(names) && !std::filesystem::exists(line.motion))
+    throw Error(ExitCode::usage, "--motion: expected a motion or a file; nearest is \"" +
+                                     std::string(nearest_name(line.motion, names.data(), names.size())) + "\", got \"" +
+                                     printable(line.motion) + '"');
+  if (among(names)) motion.name = line.motion;
   if (motion.name.empty()) {
     motion.path = line.motion;
     motion.fps = line.fps.value_or(motion.fps);
@@ -194,6 +203,7 @@ std::string summary(const Report& report, const std::string& directory) {
       drape.steps_rejected, drape.frames > 0 ? drape.seconds / drape.frames : 0.0, report.sewing.seconds,
       report.seconds_total, report.threads);
   if (report.frames == 0) return out;
+  out += slip_line(report.audit.slip);
   return out + fmt::sprintf(
                    "  last frame: %d edges cloth-body, %d cloth-cloth; stretch p50 %.2f %%, p99 %.2f %%, max %.2f %%; "
                    "still %.2f mm/s\n"

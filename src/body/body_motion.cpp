@@ -2,6 +2,7 @@
 #include "body/body_motion.hpp"
 
 #include "body/body_samples.hpp"
+#include "body/middle_line.hpp"
 #include "core/error.hpp"
 #include "io/pc2.hpp"
 
@@ -14,12 +15,11 @@ namespace {
 
 std::size_t z(Index i) { return static_cast<std::size_t>(i); }
 
-class MovingMannequin : public BodyMotion::Source {
+// Moves as a motion by name says.
+class ByName : public BodyMotion::Source {
  public:
-  MovingMannequin(const Mannequin& mannequin, const Motion& motion) : body_(mannequin), motion_(motion) {}
+  explicit ByName(const Motion& motion) : motion_(motion) {}
 
-  std::size_t vertex_count() const override { return body_.vertex_count(); }
-  void positions(double t_s, std::span<Vec3> x) const override { body_.positions(motion_.at(t_s), x); }
   double duration_s() const override { return std::numeric_limits<double>::infinity(); }
   double lead_in_s() const override { return motion_.lead_in_s(); }
   void add_to(Hash& hash) const override {
@@ -29,9 +29,33 @@ class MovingMannequin : public BodyMotion::Source {
     hash.add_bytes(&lead_in, sizeof lead_in);
   }
 
+ protected:
+  Motion motion_;
+};
+
+class MovingMannequin : public ByName {
+ public:
+  MovingMannequin(const Mannequin& mannequin, const Motion& motion) : ByName(motion), body_(mannequin) {}
+  std::size_t vertex_count() const override { return body_.vertex_count(); }
+  void positions(double t_s, std::span<Vec3> x) const override { body_.positions(motion_.at(t_s), x); }
+
  private:
   SkinnedBody body_;
-  Motion motion_;
+};
+
+class MovingPerson : public ByName {
+ public:
+  MovingPerson(std::string_view file, const CollisionBody& body, const Motion& motion)
+      : ByName(motion), line_(file, body.positions, body.triangles) {}
+  std::size_t vertex_count() const override { return line_.vertex_count(); }
+  void positions(double t_s, std::span<Vec3> x) const override { line_.bend(motion_.posture(t_s), x); }
+  void add_to(Hash& hash) const override {
+    ByName::add_to(hash);
+    hash.add_text("middle line");
+  }
+
+ private:
+  MiddleLine line_;
 };
 
 // The triangles of the body must be where they were in its file.
@@ -66,6 +90,13 @@ BodyMotion BodyMotion::of_mannequin(const Mannequin& mannequin, const Motion& mo
     throw InputError("", "body motion", "a motion for the joints of this mannequin",
                      "one for the " + std::string(to_string(motion.kind())));
   return {mannequin.triangles, std::make_shared<MovingMannequin>(mannequin, motion)};
+}
+
+BodyMotion BodyMotion::of_person(std::string_view file, const CollisionBody& body, const Motion& motion) {
+  const auto names = motion_names_without_skeleton();
+  if (std::find(names.begin(), names.end(), motion.name()) == names.end())
+    throw InputError(file, "motion", std::string(what_moves_a_mesh), '"' + motion.name() + '"');
+  return {body.triangles, std::make_shared<MovingPerson>(file, body, motion)};
 }
 
 BodyMotion BodyMotion::from_pc2(const std::string& path, const CollisionBody& body, const SampleOptions& options) {

@@ -16,6 +16,7 @@ namespace toile {
 namespace {
 
 constexpr std::array<std::string_view, 6> names = {"stand", "sway", "walk", "twist", "crouch", "dance"};
+constexpr std::array<std::string_view, 3> without_skeleton = {"stand", "sway", "twist"};
 constexpr double longest_lead_in_s = 10, two_pi = 6.283185307179586;
 // The smooth minimum over six points lies below the lowest one; so much less of the sole is in the floor.
 constexpr double soles_above_m = 0.004;
@@ -23,6 +24,8 @@ constexpr double soles_above_m = 0.004;
 }  // namespace
 
 std::span<const std::string_view> motion_names() { return names; }
+
+std::span<const std::string_view> motion_names_without_skeleton() { return without_skeleton; }
 
 Motion Motion::named(std::string_view name, MannequinKind kind) {
   Motion m;

@@ -24,6 +24,11 @@ namespace toile {
 
 // "stand", "sway", "walk", "twist", "crouch", "dance".
 std::span<const std::string_view> motion_names();
+// Of them what a body without a skeleton can do as well (body/middle_line.hpp): "stand", "sway", "twist".  In words, for whoever asks for another.
+std::span<const std::string_view> motion_names_without_skeleton();
+inline constexpr std::string_view what_moves_a_mesh =
+    "stand, sway or twist, a .pc2 file or a folder of OBJ files: a mesh has no skeleton to walk, crouch or dance with, "
+    "the mannequins have";
 
 class Motion {
  public:

@@ -84,7 +84,14 @@ LoadedBody load_body(const SceneBody& body, Hash& inputs) {
       inputs.add_text(text);
       CollisionBody read = read_body(body.mesh, text, body.unit);
       loaded.warnings = std::move(read.notes);
-      if (body.motion) loaded.movement = movement_from_file(body, read, inputs);
+      if (body.motion && body.motion->name.empty()) {
+        loaded.movement = movement_from_file(body, read, inputs);
+      } else if (body.motion) {
+        Motion motion = Motion::named(body.motion->name);
+        motion.set_lead_in_s(body.motion->lead_in_s);
+        loaded.movement =
+            movement_of(BodyMotion::of_person(printable(body.mesh), read, motion), body.motion->name, inputs);
+      }
       loaded.solid = {std::move(read.positions), std::move(read.triangles)};
       break;
     }

@@ -83,6 +83,8 @@ void add_verdict(JsonText& text, const Report& report) {
   text.member("cloth_cloth_edges", limits.cloth_cloth_edges);
   text.member("stretch_p99", limits.stretch_p99);
   text.member("stretch_max", limits.stretch_max);
+  text.member("slip_cm", 100 * limits.slip_m);
+  text.member("shoulder_slip_cm", 100 * limits.shoulder_slip_m);
   text.key("still_mm_per_s");
   if (limits.must_be_still) {
     text.value(limits.still_mm_per_s);
@@ -169,6 +171,7 @@ void add_measurements(JsonText& text, const Report& report) {
   text.member("speed_mm_per_s_p99", report.audit.still_mm_per_s_p99);
   text.end_object();
   add_jitter(text, report.audit.jitter);
+  add_slip(text, report.audit.slip);
 }
 
 void add_point(JsonText& text, std::string_view key, const Vec3& p) {

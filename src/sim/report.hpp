@@ -127,6 +127,9 @@ void add_facts(JsonText& json, const Report& report);
 
 // What report.json and `toile verify --json` say alike: verdict, reasons, qualifications and their details, as members of an object.
 void add_judgement(JsonText& text, const Verdict& verdict);
+// The key "slip", likewise; and as a line of text, empty where no body moved.
+void add_slip(JsonText& text, const SlipStatistics& slip);
+std::string slip_line(const SlipStatistics& slip);
 // "pass", "pass, with reservations: moved_by_untangling", "fail"; and a line for each reason and qualification.
 std::string judgement_line(const Verdict& verdict);
 std::string judgement_details(const Verdict& verdict);

@@ -1,5 +1,8 @@
 // sim/scene_body.cpp: what the keys of a body and of solids ask of each other.
+#include "body/motion.hpp"
 #include "sim/scene_settle.hpp"
+
+#include <algorithm>
 
 namespace toile {
 
@@ -17,8 +20,11 @@ void settle(const Json& value, SceneBody& body) {
   const Json* motion = value.find("motion");
   if (motion == nullptr) return;
   if (!mannequin && !mesh) motion->fail("a mannequin or a mesh beside it", "a motion without a body that can move");
-  if (!mannequin && !body.motion->name.empty())
-    motion->at("name").fail("a mannequin, or \"file\" for a mesh", "the name of a motion");
+  if (!mesh || body.motion->name.empty()) return;
+  const auto names = motion_names_without_skeleton();
+  if (std::find(names.begin(), names.end(), body.motion->name) != names.end()) return;
+  (motion->is_object() ? motion->at("name") : *motion)
+      .fail(std::string(what_moves_a_mesh), '"' + body.motion->name + '"');
 }
 
 void settle(const Json& value, SceneSolid& solid) {

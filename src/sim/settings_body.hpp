@@ -3,12 +3,16 @@
 #include "body/motion.hpp"
 #include "sim/settings_cloth.hpp"
 
+#include <algorithm>
+
 namespace toile {
 
-// A string is one of the mannequin's own motions, unless it looks like a file; of a mesh it always is a file.
+// A string is a motion by name, unless it looks like a file; of a mesh, unless it is no motion's name.
 inline Shorthand motion_by_name(bool mannequin) {
   return [mannequin](const std::string& text) -> std::string_view {
-    const bool from_file = !mannequin || text.ends_with(".pc2") || text.find('/') != std::string::npos;
+    const auto names = motion_names();
+    const bool from_file = text.ends_with(".pc2") || text.find('/') != std::string::npos ||
+                           (!mannequin && std::find(names.begin(), names.end(), text) == names.end());
     return from_file ? "file" : "name";
   };
 }
@@ -16,8 +20,11 @@ inline Shorthand motion_by_name(bool mannequin) {
 template <class V>
 void describe(V& v, SceneMotion& motion) {
   v.exactly_one({"name", "file"});
-  v.text_among({"name", "one of the mannequin's own ([motions.md](motions.md))", "a file"}, motion_names(),
-               motion.name);
+  v.text_among({"name",
+                "of a mannequin any of them, of a mesh one that needs no skeleton: stand, sway, twist "
+                "([motions.md](motions.md))",
+                "a file"},
+               motion_names(), motion.name);
   v.path({"file", "a .pc2 file, or a folder of OBJ files", "a name"}, motion.path);
   v.number({"fps", "of the file"}, {1, most_fps}, motion.fps);
   v.number({"lead_in_s", "from the pose in which the body stands into the motion"}, {0, 10}, motion.lead_in_s);

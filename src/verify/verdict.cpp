@@ -1,6 +1,8 @@
 // verify/verdict.cpp: see the header.
 #include "verify/verdict.hpp"
 
+#include "core/error.hpp"
+
 #include <fmt/printf.h>
 
 #include <algorithm>
@@ -45,11 +47,33 @@ std::string misfit(const StretchStatistics& s, const Limits& limits) {
          percent(limits.stretch_p99) + "; max " + percent(s.gauge_max) + ", limit " + percent(limits.stretch_max);
 }
 
+// Of what held a garment and has slid; empty where all stayed.
+std::string slid(const SlipStatistics& slip, const Limits& limits) {
+  std::string text;
+  const auto add = [&](const std::string& what, const Slip& s, double limit_m) {
+    text +=
+        (text.empty() ? "" : "; ") + what +
+        fmt::sprintf(" %.1f cm against the body since it began to move, limit %.1f cm; most was %.1f cm, in frame %d",
+                     100 * s.last_m, 100 * limit_m, 100 * s.worst_m, s.worst_frame);
+  };
+  for (const LoopSlip& loop : slip.loops)
+    if (loop.holds && !within(loop.drop.last_m, limits.slip_m))
+      add(loop.girth_m > 0 ? fmt::sprintf("the edge of %s, %.0f cm round at %.2f m, dropped", printable(loop.name),
+                                          100 * loop.girth_m, loop.height_m)
+                           : fmt::sprintf("what of %s lay highest on the body, at %.2f m, dropped",
+                                          printable(loop.name), loop.height_m),
+          loop.drop, limits.slip_m);
+  if (!within(slip.shoulders.last_m, limits.shoulder_slip_m))
+    add("what lay on a shoulder moved", slip.shoulders, limits.shoulder_slip_m);
+  return text;
+}
+
 }  // namespace
 
 bool is_measured_reason(std::string_view code) {
   return code == reason::static_equilibrium || code == reason::cloth_body_intersection ||
-         code == reason::cloth_self_intersection || code == reason::not_finite || code == reason::stretch;
+         code == reason::cloth_self_intersection || code == reason::not_finite || code == reason::stretch ||
+         code == reason::slid_off;
 }
 
 Verdict judge(const VerifyReport& report, const Limits& limits) {
@@ -87,6 +111,7 @@ Verdict judge(const VerifyReport& report, const Limits& limits) {
     const StretchStatistics& s = report.stretch;
     if (!within(s.gauge_p99, limits.stretch_p99) || !within(s.gauge_max, limits.stretch_max))
       add(reason::stretch, misfit(s, limits));
+    if (std::string text = slid(report.slip, limits); !text.empty()) add(reason::slid_off, std::move(text));
     if (limits.must_be_still && report.frames < 2)
       add(reason::static_equilibrium, "one frame does not show whether the cloth moves");
     else if (limits.must_be_still && !within(report.still_mm_per_s_p99, limits.still_mm_per_s))

@@ -1,7 +1,7 @@
 // verify/verdict.hpp: pass or fail, with a code for each reason.                                   docs/reason-codes.md
 //
 // pass = the run reached its end, everything is finite, the last frame has no crossings, the cloth outside elastic is
-// stretched by at most the limits, and, where the run was to come to rest, it has.
+// stretched by at most the limits, it has not slid off a body that moved, and, where the run was to come to rest, it has.
 //
 // Easily got wrong: earlier frames may cross (a bad start that was untangled) and still pass.  Their counts are in the
 // report, for whoever wants to be stricter.
@@ -19,6 +19,8 @@ struct Limits {
   double stretch_p99 = 0.08, stretch_max = 0.25;    // over a gauge, of the last frame, outside elastic
   bool must_be_still = false;                       // `dress` without motion
   double still_mm_per_s = 5;
+  // Of what holds a garment, against a body that has moved, in the last frame: an edge, and what lies on the shoulders.
+  double slip_m = 0.05, shoulder_slip_m = 0.08;
 };
 
 // Names that scripts may compare with.  The first three are GarmentCode's.
@@ -28,6 +30,7 @@ inline constexpr std::string_view cloth_body_intersection = "cloth_body_intersec
 inline constexpr std::string_view cloth_self_intersection = "cloth_self_intersection";
 inline constexpr std::string_view not_finite = "not_finite";
 inline constexpr std::string_view stretch = "stretch";
+inline constexpr std::string_view slid_off = "slid_off";
 inline constexpr std::string_view unfinished = "unfinished";
 inline constexpr std::string_view data_changed = "data_changed";
 inline constexpr std::string_view moved_by_untangling = "moved_by_untangling";  // of a qualification, as the next

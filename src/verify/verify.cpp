@@ -96,6 +96,7 @@ void check_first_frame(const std::string& cache, std::span<const Vec3> x, const 
 RunAudit::RunAudit(RunDescription run)
     : run_(std::move(run)),
       jitter_(run_.body_triangles, run_.fps),
+      slip_(run_.mesh, run_.body_triangles),
       crossings_(run_.mesh.triangles, run_.body_triangles) {
   if (!(run_.fps > 0) || !std::isfinite(run_.fps)) throw InputError("audit", "fps", "> 0", std::to_string(run_.fps));
   // Positions come later; every other complaint about the meshes comes now.
@@ -116,6 +117,7 @@ void RunAudit::add(std::span<const Vec3> x, std::span<const Vec3> body_x) {
   report_.cloth_body_edges.last = report_.outside_pinches.last = report_.cloth_cloth_edges.last = 0;
   if (finite) {
     jitter_.add(x, body_x);
+    slip_.add(x, body_x);
     CrossingSearch::Found found = crossings_.find(x, body_x);
     report_.last_cloth_crossings = std::move(found.of_cloth);
     report_.last_body_crossings = std::move(found.of_body);
@@ -132,6 +134,7 @@ void RunAudit::add(std::span<const Vec3> x, std::span<const Vec3> body_x) {
     }
   } else {
     jitter_.skip();
+    slip_.skip();
     if (report_.finite) report_.first_bad_frame = frame;
     report_.finite = false;
   }
@@ -144,6 +147,7 @@ void RunAudit::add(std::span<const Vec3> x, std::span<const Vec3> body_x) {
 VerifyReport RunAudit::report() const {
   VerifyReport result = report_;
   result.jitter = jitter_.statistics();
+  result.slip = slip_.statistics();
   if (!last_is_finite_) return result;
   result.stretch = measure_stretch(run_.mesh, last_x_, run_.b);
   if (result.has_body) result.gap = measure_gap(last_x_, run_.body_triangles, last_body_x_);

@@ -7,8 +7,8 @@
 //   predicates.hpp   signs, exactly                      crossings.hpp    edges through triangles
 //   box_tree.hpp     candidates                          statistics.hpp   stretch, shear, gap, speed
 //   interior.hpp     inside or outside                   pinch.hpp        where a body leaves no room
-//   jitter.hpp       trembling                           verdict.hpp      pass or fail, and why
-//   verify.hpp       a run, frame by frame
+//   jitter.hpp       trembling                           slip.hpp         sliding on the body
+//   verdict.hpp      pass or fail, and why               verify.hpp       a run, frame by frame
 //
 // Easily got wrong: audit the positions that the files hold.  Rounding to float32 moves a particle by up to 6e-8 of its
 // coordinate, which can open or close a crossing; a caller that audits from memory rounds first.
@@ -18,6 +18,7 @@
 #include "verify/crossings.hpp"
 #include "verify/jitter.hpp"
 #include "verify/predicates.hpp"
+#include "verify/slip.hpp"
 #include "verify/statistics.hpp"
 
 #include <span>
@@ -54,6 +55,7 @@ struct VerifyReport {
   GapStatistics gap;              // last frame; zero without a body
   double still_mm_per_s_p99 = 0;  // largest per-frame p99 of the last second; zero with fewer than two frames
   JitterStatistics jitter;        // of the motion if the body moves, else of all frames
+  SlipStatistics slip;            // of the motion
   std::vector<Crossing> last_body_crossings, last_cloth_crossings;
   Index worst_frame = -1;  // the first of those with most crossings; -1: no frame has any
   std::vector<Crossing> worst_body_crossings, worst_cloth_crossings;
@@ -92,6 +94,7 @@ class RunAudit {
   RunDescription run_;
   VerifyReport report_;
   JitterMeter jitter_;
+  SlipMeter slip_;
   CrossingSearch crossings_;
   Vec3s last_x_, last_body_x_;
   bool last_is_finite_ = false;

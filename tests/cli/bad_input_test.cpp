@@ -191,6 +191,22 @@ TEST(BadInput, AMotionThatNoMannequinHasIsAnsweredWithTheNearest) {
   expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"body\": {\"cylinder\": {}, \"motion\": \"walk\"}}",
                        {"/body/motion", "body that can move"});
 }
+TEST(BadInput, AMotionThatNeedsASkeletonIsRefusedForAMesh) {
+  expect_scene_refused("{\"cloth\": [{\"grid\": {}}], \"body\": {\"mesh\": \"b.obj\", \"motion\": \"walk\"}}",
+                       {"/body/motion", "stand, sway or twist", "no skeleton", "\"walk\""});
+  expect_scene_refused(
+      "{\"cloth\": [{\"grid\": {}}], \"body\": {\"mesh\": \"b.obj\", \"motion\": {\"name\": \"dance\"}}}",
+      {"/body/motion/name", "stand, sway or twist", "\"dance\""});
+  const Scratch scratch;
+  scratch.put("p.json", "{}");
+  scratch.put("b.obj", "v 0 0 0\n");
+  for (const char* motion : {"walk", "swey"}) {
+    const Ended ended = run_toile(scratch, {"dress", "p.json", "--body", "b.obj", "--motion", motion});
+    EXPECT_EQ(ended.exit_code, 2) << ended.err;
+    EXPECT_NE(ended.err.find("stand, sway or twist"), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find(motion), std::string::npos) << ended.err;
+  }
+}
 
 TEST(BadInput, AnOutputThatCannotBeWritten) {
   const Scratch scratch;

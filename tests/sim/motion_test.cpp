@@ -70,6 +70,57 @@ TEST(MovingBody, OfAMotionThatStandsStillChangesNothing) {
   EXPECT_EQ(moving.state_hash, still.state_hash);
 }
 
+// What a mesh can do without a skeleton; and what of it the judge sees, from memory and from the files.
+TEST(MovingBody, APersonGivenAsAMeshSwaysByName) {
+  const Scratch scratch;
+  const Mannequin woman = make_mannequin(MannequinKind::woman);
+  ObjMesh obj;
+  obj.positions = woman.positions;
+  obj.triangles = woman.triangles;
+  obj.group.assign(obj.triangles.size(), 0);
+  obj.group_names = {""};
+  obj.object = obj.group;
+  obj.object_names = {"woman"};
+  write_obj(scratch / "woman.obj", obj);
+  Scene scene = kerchief("sway");
+  scene.body.kind = SceneBody::Kind::mesh;
+  scene.body.mesh = scratch / "woman.obj";
+  scene.seconds = 1;
+  const Report report = run(scratch / "out", scene);
+  EXPECT_EQ(report.motion_name, "sway");
+  EXPECT_EQ(report.motion.frames, 30);
+  const std::string body = scratch / "out/body.pc2";
+  EXPECT_EQ(farthest(sample(body, 0), sample(body, report.motion_first_frame)), 0);
+  EXPECT_GT(farthest(sample(body, 0), sample(body, report.motion_first_frame + 18)), 0.015);
+  EXPECT_EQ(report.audit.cloth_body_edges.last, 0);
+  EXPECT_EQ(report.audit.slip.first_frame, report.motion_first_frame);
+  const VerifyReport audit = verify_directory(scratch / "out");
+  EXPECT_EQ(audit.slip.first_frame, report.audit.slip.first_frame);
+  scene.body.motion->name = "walk";
+  EXPECT_THROW(run(scratch / "walks", scene), InputError);
+}
+
+// A hoop wider than the waist: nothing presses it on, so no friction holds it.
+TEST(MovingBody, WhatSlidesDownItIsSaidToHaveSlidOff) {
+  const Scratch scratch;
+  const auto hoop = [&](const std::string& seconds, const std::string& name) {
+    return run(scratch / name, parse_scene(R"({"cloth": [{"name": "hoop",
+      "tube": {"radius_m": 0.15, "length_m": 0.1, "edge_m": 0.03}, "placement": {"translation_m": [0, 1.1, 0]}}],
+      "body": {"mannequin": "woman", "motion": "sway"}, "time": {"drape_seconds": 0, "seconds": )" +
+                                               seconds + "}}",
+                                           "s.json"));
+  };
+  const Report slid = hoop("0.3", "long");
+  ASSERT_EQ(slid.verdict.reasons.size(), 1U);
+  EXPECT_EQ(slid.verdict.reasons[0].code, "slid_off");
+  EXPECT_NE(slid.verdict.reasons[0].detail.find("the edge of"), std::string::npos) << slid.verdict.reasons[0].detail;
+  EXPECT_EQ(exit_code(slid), ExitCode::simulation_failed);
+  EXPECT_EQ(judge(verify_directory(scratch / "long")).reasons.at(0).detail, slid.verdict.reasons[0].detail);
+  const Report short_one = hoop("0.0667", "short");
+  EXPECT_TRUE(short_one.verdict.pass) << "3 cm are no slide";
+  EXPECT_NEAR(short_one.audit.slip.loops.at(0).drop.last_m, 3 * 9.81 / 900, 0.001) << "two implicit steps of free fall";
+}
+
 TEST(StartRun, TakesUpADrapeWhereTheBodyBeganToMove) {
   const Scratch scratch;
   run(scratch / "first", kerchief("twist"));

@@ -214,6 +214,11 @@ TEST(Settings, ScenesThatWereToldByTheSameNumbersHaveTheirOwnHashes) {
   differ(R"({"cloth": [{"grid": {}}], "body": {"mannequin": "woman"}})", R"({"cloth": [{"grid": {}}]})");
   differ(R"({"cloth": [{"grid": {}}], "body": {"mannequin": "woman", "motion": "walk"}})",
          R"({"cloth": [{"grid": {}}], "body": {"mannequin": "woman", "motion": "a/walk"}})");
+  // Of a mesh, too, a motion's name is one, and what looks like a path is none.
+  differ(R"({"cloth": [{"grid": {}}], "body": {"mesh": "b.obj", "motion": "sway"}})",
+         R"({"cloth": [{"grid": {}}], "body": {"mesh": "b.obj", "motion": "twist"}})");
+  differ(R"({"cloth": [{"grid": {}}], "body": {"mesh": "b.obj", "motion": "sway"}})",
+         R"({"cloth": [{"grid": {}}], "body": {"mesh": "b.obj", "motion": "./sway"}})");
 }
 
 TEST(Settings, EveryValueOutOfItsRangeIsRefusedAtItsPlaceAndByTheSchema) {

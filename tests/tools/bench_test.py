@@ -1,4 +1,5 @@
-"""bench/compare.py pairs two builds and says by how much they differ; bench/quality.py measures the distance between two motions.
+"""bench/compare.py pairs two builds and says by how much they differ; bench/quality.py measures the distance between two motions; bench/worn.py
+tabulates what stays on.
 
 Usage: bench_test.py FOLDER_OF_BENCH
 
@@ -128,6 +129,63 @@ class Quality(WithBuilds):
             ended = self.run_tool("quality.py", *words)
             self.assertEqual(ended.returncode, 2, ended.stderr)
             self.assertIn(said, ended.stderr)
+
+
+# `dress` leaves a report, `verify` answers what the pattern is named after.
+WARDROBE = '''#!{python}
+import json, pathlib, sys
+words = sys.argv[1:]
+log = pathlib.Path("{log}")
+log.write_text((log.read_text() if log.exists() else "") + words[0] + " ")
+if words[0] == "dress":
+    if "missing" in words[1]:
+        sys.exit("no such pattern")
+    out = pathlib.Path(words[words.index("--out") + 1])
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "report.json").write_text("{{}}")
+    sys.exit(0)
+name = pathlib.Path(words[1]).name
+part = lambda last, worst: dict(last_cm=last, worst_cm=worst)
+slip = dict(waist_drop=part(-0.04, 0.3), shoulder_slip=None, loops=[dict(holds=False, **part(9, 9)), dict(holds=True, **part(0.5, {worst}))])
+if name == "blocked":
+    slip = None
+fell = name == "fell"
+print(json.dumps(dict(verdict="fail" if fell or slip is None else "pass", reasons=["slid_off"] if fell else ["seam_blocked"] if slip is None else [], slip=slip)))
+sys.exit(5 if fell or slip is None else 0)
+'''
+
+
+class Worn(WithBuilds):
+    def worn(self, *garments, worst=0.7, more=()):
+        program = self.folder / "wardrobe"
+        program.write_text(WARDROBE.format(python=sys.executable, log=self.folder / "worn.log", worst=worst))
+        program.chmod(0o755)
+        return subprocess.run([sys.executable, str(bench / "worn.py"), str(program), *garments, "--out", str(self.folder / "runs"), *more],
+                              capture_output=True, text=True)
+
+    def test_a_row_has_what_holds_the_garment_and_no_minus_before_a_zero(self):
+        done = self.worn("p/skirt.json=b.obj", "p/blocked.json=b.obj")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("| skirt | pass | 0.5, 0.7 | 0.0, 0.3 | - |", done.stdout)
+        self.assertIn("| blocked | seam_blocked | - | - | - |", done.stdout)
+
+    def test_what_is_there_is_not_run_again_but_measured_again(self):
+        self.worn("p/skirt.json=b.obj")
+        self.worn("p/skirt.json=b.obj")
+        self.assertEqual((self.folder / "worn.log").read_text().split(), ["dress", "verify", "verify"])
+        self.worn("p/skirt.json=other.obj")
+        self.assertEqual((self.folder / "worn.log").read_text().split()[3:], ["dress", "verify"])
+
+    def test_what_slid_is_exit_code_1(self):
+        self.assertEqual(self.worn("p/fell.json=b.obj").returncode, 1)
+        self.assertEqual(self.worn("p/skirt.json=b.obj", worst=2.5).returncode, 1)
+        self.assertEqual(self.worn("p/skirt.json=b.obj", worst=2.5, more=("--most-cm", "3")).returncode, 0)
+
+    def test_what_cannot_run_is_exit_code_2(self):
+        done = self.worn("p/missing.json=b.obj")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no such pattern", done.stderr)
+        self.assertEqual(self.worn("p/skirt.json").returncode, 2)
 
 
 if __name__ == "__main__":

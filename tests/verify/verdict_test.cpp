@@ -62,6 +62,26 @@ TEST(Verdict, GivesOneCodeForEachExcess) {
   EXPECT_EQ(codes(report), Codes{"unfinished"});
 }
 
+TEST(Verdict, SaysWhatSlidOffABodyThatMoved) {
+  VerifyReport report = good();
+  report.slip.first_frame = 3;
+  report.slip.loops.resize(2);
+  report.slip.loops[0] = {"wb_front, wb_back", 1.05, 0.72, true, {40, 0.05, 0.06, 12}};
+  report.slip.loops[1] = {"skirt", 0.6, 1.1, false, {40, 0.3, 0.3, 12}};
+  report.slip.shoulders = {12, 0.08, 0.2, 7};
+  EXPECT_EQ(codes(report), Codes{}) << "exactly at the limit, and hems may swing";
+  report.slip.loops[0].drop.last_m = 0.0501;
+  EXPECT_EQ(codes(report), Codes{"slid_off"});
+  EXPECT_EQ(judge(report).reasons.at(0).detail,
+            "the edge of wb_front, wb_back, 72 cm round at 1.05 m, dropped 5.0 cm against the body since it began to "
+            "move, limit 5.0 cm; most was 6.0 cm, in frame 12");
+  report.slip.loops[0].drop.last_m = 0;
+  report.slip.shoulders.last_m = 0.081;
+  EXPECT_EQ(codes(report), Codes{"slid_off"});
+  EXPECT_NE(judge(report).reasons.at(0).detail.find("on a shoulder moved 8.1 cm"), std::string::npos);
+  EXPECT_TRUE(is_measured_reason("slid_off"));
+}
+
 TEST(Verdict, DoesNotJudgeElasticNorEarlierFrames) {
   VerifyReport report = good();
   report.stretch.max = report.stretch.p99 = 0.5;
