@@ -1,4 +1,4 @@
-// apps/cli/body_option.hpp: what --body and --body-unit name.
+// apps/cli/body_option.hpp: what --body, --body-unit and --measurements name.
 #pragma once
 #include "command_line.hpp"
 #include "sim/scene.hpp"

@@ -90,7 +90,7 @@ void refuse_inputs(const CommandLine& line) {
   for (const auto& [output, option] : outputs) {
     if (output.empty()) continue;
     std::error_code ignored;
-    for (const std::string& input : {line.inputs.front(), line.body})
+    for (const std::string& input : {line.inputs.front(), line.body, line.measurements})
       if (!input.empty() && std::filesystem::equivalent(input, output, ignored))
         throw IoError(printable(input),
                       std::string("is an input, which would be written over: name another file with ") + option);
@@ -112,11 +112,19 @@ std::string describe_findings(const std::vector<LintFinding>& findings) {
   return text;
 }
 
-std::optional<BodyFigures> figures_of(const CommandLine& line) {
+// `notes`: what is odd about the body.
+std::optional<BodyFigures> figures_of(const CommandLine& line, std::string& notes) {
+  if (line.body.empty() && !line.measurements.empty())
+    throw Error(ExitCode::usage, "--measurements: expected --body beside it");
   if (line.body.empty()) return std::nullopt;
   Hash hash;
   const LoadedBody body = load_body(body_option(line), hash);
-  return body_figures(body.solid.positions, body.solid.triangles);
+  BodyFigures figures = body_figures(body.solid.positions, body.solid.triangles, body.measurements);
+  add_arms(figures, find_arms(body.solid.positions, body.solid.triangles));
+  for (const std::string& note : body.warnings) notes += "  note: " + note + '\n';
+  const std::string odd = body.measurements ? odd_pose(*body.measurements, figures) : "";
+  if (!odd.empty()) notes += "  note: " + odd + '\n';
+  return figures;
 }
 
 // What is said of a mended copy; its errors become those of `checked`.
@@ -150,7 +158,8 @@ Checked check_pattern(const CommandLine& line, const std::string& path, const st
   refuse_inputs(line);
   Checked checked;
   checked.is_pattern = true;
-  LintReport report = lint_pattern(text, printable(path), figures_of(line));
+  std::string notes;
+  LintReport report = lint_pattern(text, printable(path), figures_of(line, notes));
   const JsonText before = json;
   try {
     checked.said = load_as_dress_does(line, path, text, json);
@@ -177,7 +186,7 @@ Checked check_pattern(const CommandLine& line, const std::string& path, const st
   }
   if (!checked.error.empty()) checked.said = "pattern, cannot be used\n";
   checked.findings = report.findings;
-  checked.said += describe_findings(report.findings);
+  checked.said += notes + describe_findings(report.findings);
   if (!line.svg.empty()) {
     write_whole(line.svg, draw_pattern(report.drawing, report.findings));
     checked.said += "  drawn: " + printable(line.svg) + '\n';
@@ -225,7 +234,7 @@ void write_findings(const Checked& checked, JsonText& json) {
 
 void refuse_other_files(const CommandLine& line, bool is_pattern, const std::string& path) {
   const std::pair<const std::string&, const char*> options[] = {
-      {line.svg, "--svg"}, {line.repair, "--repair"}, {line.body, "--body"}};
+      {line.svg, "--svg"}, {line.repair, "--repair"}, {line.body, "--body"}, {line.measurements, "--measurements"}};
   for (const auto& [value, option] : options)
     if (!value.empty() && !is_pattern)
       throw Error(ExitCode::usage, std::string(option) + ": " + printable(path) + " is no pattern");

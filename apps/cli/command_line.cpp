@@ -136,6 +136,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   dress->add_option("--body", line.body, "Body mesh (OBJ), or a mannequin: woman (also: mannequin), dancer, man")
       ->required();
   dress->add_option("--body-unit", line.body_unit, "Unit of the body's file")->check(CLI::IsMember({"m", "dm", "cm"}));
+  dress->add_option("--measurements", line.measurements,
+                    "Measurements of the body's mesh, YAML (default: the file of its name beside it)");
   dress->add_option("--motion", line.motion,
                     "Motion: stand, sway, walk, twist, crouch, dance; for a mesh stand, sway, twist, a .pc2 file or a "
                     "folder of OBJ files");
@@ -151,6 +153,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   check->add_option("--resolution", line.resolution_cm, "Edge length at which patterns are meshed, cm (default: 1)")
       ->check(CLI::Range(0.1, 20.0));
   check->add_option("--body", line.body, "Of a pattern: who is to wear it; OBJ, or a mannequin: woman, dancer, man");
+  check->add_option("--measurements", line.measurements,
+                    "Measurements of the body's mesh, YAML (default: the file of its name beside it)");
   check->add_option("--svg", line.svg, "Of one pattern: draw its panels here, with the places that were found");
   check->add_option("--repair", line.repair, "Of one pattern: write a copy here with what can be mended");
   check->add_option("--body-unit", line.body_unit, "Unit of meshes that are bodies")

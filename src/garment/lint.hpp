@@ -9,6 +9,7 @@
 #include "garment/pattern.hpp"
 #include "io/json.hpp"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,6 +48,10 @@ struct BodyFigures {
   Vec3 low_m{0, 0, 0}, high_m{0, 0, 0};                                       // its box
   Vec3 middle_m{0, 0, 0};                                                     // of the trunk at the waist
   double head_girth_m = 0, waist_girth_m = 0, hips_girth_m = 0, waist_m = 0;  // waist_m: its height; 0: none was found
+  // Where the tips of the shoulders and the waist are (y), for those who know them from a tape.
+  std::optional<double> shoulder_m, tape_waist_m;
+  std::optional<double> arm_down_deg;              // how far the arms hang below the level, the mean of both; 0: a T
+  std::optional<std::array<Vec3, 2>> arm_roots_m;  // middles of the left arm and the right one at the armpits
   double height_m() const { return high_m.y() - low_m.y(); }
 };
 

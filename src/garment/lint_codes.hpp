@@ -31,6 +31,7 @@ inline constexpr std::string_view seam_unequal = "seam_unequal";
 // The garment and who is to wear it.
 inline constexpr std::string_view unit_doubtful = "unit_doubtful";
 inline constexpr std::string_view other_body = "other_body";
+inline constexpr std::string_view other_pose = "other_pose";
 inline constexpr std::string_view off_body = "off_body";
 inline constexpr std::string_view no_way_in = "no_way_in";
 inline constexpr std::string_view no_way_for_head = "no_way_for_head";

@@ -7,6 +7,7 @@
 //
 // Bands of 40 %, so only what is far off is seen: a unit (2.54, 10 or 100 times), a child's body for an adult's shirt.
 #include "garment/lint_context.hpp"
+#include "garment/pattern_figures.hpp"
 
 #include <algorithm>
 #include <array>
@@ -154,7 +155,13 @@ class SizeLint {
     const bool above = !pattern_.legacy_frame && low.y() > body.high_m.y(),
                below = !pattern_.legacy_frame && high.y() < body.low_m.y() + waist.low / 2 * body.height_m();
     if (beside(0) || beside(2) || above || below) return tell_place(low, high, above || below);
-    if (pattern_.legacy_frame) return;
+    if (!check_size()) tell_misfits();
+  }
+
+  // False when nothing is far off.
+  bool check_size() {
+    const BodyFigures& body = *context_.body;
+    if (pattern_.legacy_frame) return false;
     const Band who = heights(1);
     const double top = top_m_ - body.low_m.y();
     const Band band = wearing_.has_arms ? neck : waist;
@@ -164,7 +171,7 @@ class SizeLint {
                                      ", as high as its top is",
                                  "a body " + cm_text(body.height_m()) + " tall");
       problem.finding.repair = "refused: it would have to be drafted anew";
-      return;
+      return true;
     }
     const Opening& top_opening = context_.boundary->openings[at(wearing_.top)];
     if (!wearing_.has_arms && body.waist_girth_m > 0 && top_opening.girth_m < small_waist * body.waist_girth_m) {
@@ -173,6 +180,18 @@ class SizeLint {
                                      " for a waist of " + cm_text(body.waist_girth_m),
                                  cm_text(top_opening.girth_m));
       problem.finding.repair = "refused: it would have to be drafted anew";
+      return true;
+    }
+    return false;
+  }
+
+  // What labels, and the angle of the sleeves, say of the body that it was cut for.
+  void tell_misfits() {
+    for (Misfit& misfit : misfits(pattern_, *context_.body)) {
+      LintProblem& problem = add(misfit.code, std::move(misfit.expected), std::move(misfit.got));
+      problem.finding.repair = misfit.code == reason::other_pose
+                                   ? "refused: `dress` turns the sleeves onto the arms as they are"
+                                   : "refused: it would have to be drafted anew";
     }
   }
 

@@ -390,8 +390,8 @@ class PatternReader {
 
   // The templates of 2021 put the origin near the pelvis; GarmentCode puts it on the floor.  No key says which, so:
   //   a garment whose middle lies below the floor can only be meant in the old frame;
-  //   a file with `parameters` (which only the templates have) is in the old frame when its top is below 0.7 m, which is
-  //   under the waist of a standing adult and above the shoulders of one whose pelvis is at 0.
+  //   a file with `parameters` (which only the templates have) is in the old frame when its middle is below 0.4 m: that of a jacket with a hood,
+  //   which is drawn above the head, is at 0.23 m with the pelvis at 0; that of trousers on the floor, the lowest there are, at 0.47 m.
   bool is_legacy_frame() const {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Panel& panel : pattern_.panels) {
@@ -402,10 +402,10 @@ class PatternReader {
         high = std::max(high, y);
       }
     }
-    constexpr double highest_top_m = 0.7;
+    constexpr double highest_middle_m = 0.4;
     const Json* parameters = root_.find("parameters");
     const bool is_template = parameters != nullptr && parameters->is_object() && !parameters->object().empty();
-    return low + high < 0 || (is_template && high < highest_top_m);
+    return low + high < (is_template ? 2 * highest_middle_m : 0);
   }
 
   const Json& root_;

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double lowest_m = -0.12, highest_m = 0.16, step_m = 0.01;  // vertical shifts
 constexpr double depth_m = 0.04, depth_step_m = 0.02;                // forwards and backwards
-constexpr double legacy_origin = 0.68;                               // of the body's height
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -83,6 +82,7 @@ Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size
     const Vec3 raise(0, low + legacy_origin * (high - low), 0);
     for (Vec3& p : garment.x) p += raise;
     placement.shift_m += raise;
+    placement.raised_m = raise.y();
   }
   const BodyLines lines(body);
   std::vector<Vec3> shifts;

@@ -9,9 +9,6 @@
 namespace toile {
 namespace {
 
-constexpr double near_height =
-    0.2;  // of the body's height: how far from an arm's root a sleeve without a label may hang
-
 constexpr double shoulder_from = 0.6, shoulder_to = 1;  // of the way from the body's middle to an arm's root
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -47,7 +44,7 @@ std::array<double, 2> hang_sleeves(GarmentMesh& garment, const std::array<ArmLin
     const int s = middle[p].x() > between_m ? 0 : 1;
     const ArmLine& arm = arms[static_cast<std::size_t>(s)];
     const bool beyond = std::abs(middle[p].x() - between_m) > std::abs(arm.root.x() - between_m) &&
-                        std::abs(middle[p].y() - arm.root.y()) < near_height * body_height_m;
+                        std::abs(middle[p].y() - arm.root.y()) < near_an_arm * body_height_m;
     if (labelled ? garment.panel_labels[p] == "arm" : beyond) side[p] = s;
   }
   std::array<double, 2> ends_m{0, 0};

@@ -11,6 +11,9 @@
 
 namespace toile {
 
+inline constexpr double near_an_arm =
+    0.2;  // of the body's height: how far from an arm's root a sleeve without a label may hang
+
 struct ArmLine {
   Vec3 root{0, 0, 0};       // middle of the arm at the armpit
   Vec3 direction{0, 0, 0};  // unit, towards the hand

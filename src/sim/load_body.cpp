@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -58,6 +59,41 @@ CollisionBody read_body(const std::string& path, std::string_view text, LengthUn
   return body;
 }
 
+std::string measurements_path(const SceneBody& body) {
+  if (body.kind != SceneBody::Kind::mesh || !body.measurements.empty()) return body.measurements;
+  const std::filesystem::path beside = std::filesystem::path(body.mesh).replace_extension(".yaml");
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(beside, ignored) ? beside.string() : std::string();
+}
+
+namespace {
+
+// Hair and shoes are in a mesh and not on a tape; people differ by more.
+constexpr double height_agrees = 0.02;
+
+void load_measurements(const SceneBody& body, std::span<const Vec3> x, LoadedBody& loaded, Hash& inputs) {
+  const std::string path = measurements_path(body), file = printable(path);
+  if (path.empty()) return;
+  const std::string text = read_file(path, std::size_t{1} << 20);
+  if (body.measurements.empty() && !holds_measurements(text, file)) {
+    loaded.warnings.push_back(file + " is beside the body and holds no measurements: it has no key \"body\"");
+    return;
+  }
+  inputs.add_text(text);
+  BodyMeasurements measured = parse_measurements(text, file);
+  const auto [low, high] =
+      std::minmax_element(x.begin(), x.end(), [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); });
+  const double height_m = high->y() - low->y();
+  if (std::abs(measured.height_m - height_m) > height_agrees * height_m)
+    throw InputError(file, "body.height",
+                     fmt::sprintf("%.1f cm within %g %%, the height of %s", 100 * height_m, 100 * height_agrees,
+                                  printable(body.mesh)),
+                     fmt::sprintf("%.1f cm", 100 * measured.height_m));
+  loaded.measurements = std::move(measured);
+}
+
+}  // namespace
+
 LoadedBody load_body(const SceneBody& body, Hash& inputs) {
   LoadedBody loaded;
   switch (body.kind) {
@@ -84,6 +120,7 @@ LoadedBody load_body(const SceneBody& body, Hash& inputs) {
       inputs.add_text(text);
       CollisionBody read = read_body(body.mesh, text, body.unit);
       loaded.warnings = std::move(read.notes);
+      load_measurements(body, read.positions, loaded, inputs);
       if (body.motion && body.motion->name.empty()) {
         loaded.movement = movement_from_file(body, read, inputs);
       } else if (body.motion) {

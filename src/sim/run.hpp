@@ -115,6 +115,8 @@ class Run {
   bool put_on();
   void wear_again();
   std::vector<LabelHeight> heights_of(std::size_t cloth, std::vector<std::string>& warnings);
+  const BodyFigures& figures();
+  void tell_misfits(std::size_t cloth);
   bool sew(std::size_t cloth);
   void leave_open(std::size_t cloth, Dressing& dressing);
   FrameReport sew_frames(Dressing& dressing, bool filmed);
@@ -154,7 +156,9 @@ class Run {
   std::vector<Triangle> body_triangles_;
   std::optional<BodySurface> body_;
   std::size_t person_vertices_ = 0, person_triangles_ = 0;  // of body_x_ and body_triangles_; solids come behind
-  std::optional<DressingBody> dressing_body_;               // until the first garment is on
+  std::optional<BodyMeasurements> measurements_;
+  std::optional<BodyFigures> figures_;         // as it stands; figures() makes them
+  std::optional<DressingBody> dressing_body_;  // until the first garment is on
   std::optional<BodyMovement> motion_;
   StepOptions step_;
   std::unique_ptr<RunFolder> folder_;

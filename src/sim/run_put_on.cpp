@@ -3,6 +3,7 @@
 #include "garment/layering.hpp"
 #include "garment/placement.hpp"
 #include "garment/sleeves.hpp"
+#include "sim/body_figures.hpp"
 #include "sim/run.hpp"
 #include "sim/start_run.hpp"
 #include "sim/start_state.hpp"
@@ -135,6 +136,11 @@ void Run::place(GarmentMesh& garment, bool tell) {
       dressing_body_ ? place_around_arms(garment) : place_garment(garment, *body_, person_vertices_);
   if (!tell) return;
   report_.shift_m = placement.shift_m;
+  if (placement.raised_m != 0)
+    report_.warnings.push_back(
+        fmt::sprintf("%s is in the frame of the templates of 2021, with y = 0 near the pelvis: raised by %.1f cm, %g "
+                     "of the body's height",
+                     printable(garment.name), 100 * placement.raised_m, legacy_origin));
   if (placement.panel_crossings > 0)
     bad_start(garment.name,
               std::to_string(placement.panel_crossings) + " edges of the placed panels pass through the body");
@@ -144,9 +150,23 @@ void Run::place(GarmentMesh& garment, bool tell) {
 }
 
 std::vector<LabelHeight> Run::heights_of(std::size_t cloth, std::vector<std::string>& warnings) {
-  return label_heights_of(scene_.cloth[cloth], cloth_[cloth].garment, cloth == 0 && on_shoulders_,
-                          std::span(standing_x_).first(person_vertices_),
-                          std::span(body_triangles_).first(person_triangles_), warnings);
+  return label_heights_of(scene_.cloth[cloth], cloth_[cloth].garment, cloth == 0 && on_shoulders_, figures(), warnings);
+}
+
+const BodyFigures& Run::figures() {
+  if (!figures_)
+    figures_ = body_figures(std::span(standing_x_).first(person_vertices_),
+                            std::span(body_triangles_).first(person_triangles_), measurements_);
+  return *figures_;
+}
+
+// What the pattern says of the body that it was cut for, where this is another one.
+void Run::tell_misfits(std::size_t cloth) {
+  if (!cloth_[cloth].pattern || person_vertices_ == 0) return;
+  const std::string which = cloth_.size() > 1 ? printable(cloth_[cloth].garment.name) + ": " : "";
+  for (const Misfit& misfit : misfits(*cloth_[cloth].pattern, figures()))
+    report_.warnings.push_back(which + std::string(misfit.code) + ": the pattern is cut for " + misfit.expected +
+                               "; this body has " + misfit.got);
 }
 
 // Fills the outfit; false when a garment could not be closed or did not come to its drape.
@@ -217,6 +237,7 @@ bool Run::sew(std::size_t k) {
   LoadedCloth& cloth = cloth_[k];
   GarmentMesh& garment = cloth.garment;
   place(garment, !resumed);
+  if (!resumed) tell_misfits(k);
   SewingOptions sewing_options;
   sewing_options.step_max_s = scene_.step_max_s.value_or(1 / sewing_options.fps);
   sewing_options.paper_scaling = scene_.paper_scaling;
@@ -289,6 +310,12 @@ void Run::find_person() {
   const Timed timed(startup(&StartupReport::placement));
   Arms arms =
       find_arms(std::span(standing_x_).first(person_vertices_), std::span(body_triangles_).first(person_triangles_));
+  figures();
+  add_arms(*figures_, arms);
+  if (measurements_ && !resumes()) {
+    const std::string odd = odd_pose(*measurements_, *figures_);
+    if (!odd.empty()) report_.warnings.push_back(odd);
+  }
   if (!arms) return;
   dressing_body_.emplace(standing_x_, body_triangles_, person_vertices_, person_triangles_, std::move(*arms));
   make_thin();

@@ -134,7 +134,8 @@ struct SceneBody {
   Kind kind = Kind::none;
   MannequinKind mannequin = MannequinKind::woman;
   std::optional<SceneMotion> motion;
-  std::string mesh;  // path, resolved
+  std::string mesh;          // path, resolved
+  std::string measurements;  // path, resolved; empty: the mesh's name with .yaml, if there is one
   LengthUnit unit = LengthUnit::automatic;
   SceneCylinder cylinder;
   std::optional<double> friction;  // absent: the fabric's

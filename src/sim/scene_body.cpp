@@ -17,6 +17,8 @@ void settle(const Json& value, SceneBody& body) {
   const bool mannequin = body.kind == SceneBody::Kind::mannequin, mesh = body.kind == SceneBody::Kind::mesh;
   if (const Json* unit = value.find("unit"); unit != nullptr && !mesh)
     unit->fail("\"mesh\" beside it", "a unit without a mesh");
+  if (const Json* measured = value.find("measurements"); measured != nullptr && !mesh)
+    measured->fail("\"mesh\" beside it", "measurements without a mesh");
   const Json* motion = value.find("motion");
   if (motion == nullptr) return;
   if (!mannequin && !mesh) motion->fail("a mannequin or a mesh beside it", "a motion without a body that can move");

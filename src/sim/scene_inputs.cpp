@@ -2,6 +2,7 @@
 
 #include "body/body_samples.hpp"
 #include "io/file.hpp"
+#include "sim/setup.hpp"
 
 #include <filesystem>
 #include <set>
@@ -36,6 +37,7 @@ std::vector<std::string> input_paths(const Scene& scene) {
   };
   for (const SceneCloth& cloth : scene.cloth) add(cloth.pattern);
   add(scene.body.mesh);
+  add(measurements_path(scene.body));
   if (scene.body.motion) add(scene.body.motion->path);
   for (const SceneSolid& solid : scene.solids)
     if (const auto* mesh = std::get_if<SceneSolid::Mesh>(&solid.shape)) add(mesh->path);

@@ -65,6 +65,9 @@ void describe(V& v, SceneBody& body) {
         of.object({"cylinder", "upright, with rounded rims", "no"}, body.cylinder);
       });
   v.name({"unit", "of the mesh", "metres, or an error that asks"}, units, body.unit);
+  v.path({"measurements", "of the mesh, a YAML file: [howto/measurements.md](howto/measurements.md)",
+          "the file of the mesh's name that ends in .yaml, if there is one"},
+         body.measurements);
   v.object({"motion", "a name, a file, or an object. The cloth drapes on the first pose, then the body moves", "none"},
            body.motion, motion_by_name(chosen(Kind::mannequin)));
   v.number({"friction", "of the cloth on the body and on solids", "the fabric's"}, {0, 100}, body.friction);

@@ -1,7 +1,6 @@
 // sim/setup.cpp: the cloth of a scene, and what happens to it.
 #include "sim/setup.hpp"
 
-#include "body/measure.hpp"
 #include "core/error.hpp"
 #include "mesh/check.hpp"
 #include "sim/check_garment.hpp"
@@ -12,8 +11,6 @@
 
 namespace toile {
 namespace {
-
-constexpr std::string_view waist_label = "lower_interface";
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -38,11 +35,12 @@ Vec3 along(const std::vector<ScenePin::Key>& path, double t_s) {
 
 // The pattern of the cloth, meshed and moved as `placement` says.
 GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& inputs,
-                         std::optional<double>& counted_edge_m) {
+                         std::optional<double>& counted_edge_m, std::optional<Pattern>& as_read) {
   const std::string text = read(cloth.pattern);
   inputs.add_text(text);
   const std::string file = printable(cloth.pattern);
-  const Pattern pattern = parse_pattern(text, file);
+  as_read = parse_pattern(text, file);
+  const Pattern& pattern = *as_read;
   GarmentMesh garment;
   try {
     if (cloth.vertices) {
@@ -163,7 +161,8 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
                             : cloth.shape_where.empty() ? printable(cloth.name)
                                                         : cloth.shape_where + ": " + cloth.shape_pointer;
   try {
-    loaded.garment = cloth.is_sewn() ? load_garment(cloth, read, inputs, counted_edge_m) : load_shape(cloth);
+    loaded.garment =
+        cloth.is_sewn() ? load_garment(cloth, read, inputs, counted_edge_m, loaded.pattern) : load_shape(cloth);
   } catch (const InputError& error) {
     throw_within(where, error);
   }
@@ -225,19 +224,17 @@ Events events_of(const Outfit& outfit, std::span<const LoadedCloth> cloth) {
 }
 
 std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment, bool on_shoulders,
-                                          std::span<const Vec3> body_x, std::span<const Triangle> body_triangles,
-                                          std::vector<std::string>& warnings) {
+                                          const BodyFigures& body, std::vector<std::string>& warnings) {
   check_labels(cloth, garment);
   std::vector<LabelHeight> heights = cloth.label_heights;
   std::vector<std::string> free;
   for (const LabelledEdge& edge : garment.labels) {
     const auto named = [&](const LabelHeight& height) { return height.label == edge.label; };
     if (std::any_of(heights.begin(), heights.end(), named)) continue;
-    if (on_shoulders && edge.label == waist_label) continue;
-    const double waist = edge.label == waist_label && !body_x.empty() ? waist_height_m(body_x, body_triangles) : 0;
-    if (waist > 0) {
-      heights.push_back({edge.label, waist});
-    } else if (std::find(free.begin(), free.end(), edge.label) == free.end()) {
+    if (on_shoulders && edge.label == edge_label::waist) continue;
+    if (edge.label == edge_label::waist && body.waist_m > 0) {
+      heights.push_back({edge.label, body.waist_m});
+    } else if (!is_of_bodice(edge.label) && std::find(free.begin(), free.end(), edge.label) == free.end()) {
       free.push_back(edge.label);
     }
   }
@@ -249,7 +246,7 @@ std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const Garment
 double waist_girth_m(const GarmentMesh& garment) {
   double girth_m = 0;
   for (const LabelledEdge& edge : garment.labels) {
-    if (edge.label != waist_label) continue;
+    if (edge.label != edge_label::waist) continue;
     for (std::size_t k = 1; k < edge.particles.size(); ++k)
       girth_m += (garment.x[at(edge.particles[k])] - garment.x[at(edge.particles[k - 1])]).norm();
   }

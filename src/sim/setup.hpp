@@ -4,6 +4,8 @@
 #include "body/solid_shapes.hpp"
 #include "core/hash.hpp"
 #include "garment/garment_mesh.hpp"
+#include "garment/pattern_figures.hpp"
+#include "io/body_measurements.hpp"
 #include "sim/outfit.hpp"
 #include "sim/outfit_run.hpp"
 #include "sim/scene.hpp"
@@ -22,12 +24,15 @@ struct BodyMovement {
 struct LoadedBody {
   SolidMesh solid;                    // empty for a scene without body
   std::vector<std::string> warnings;  // what of its file is left out
+  std::optional<BodyMeasurements> measurements;
   std::optional<BodyMovement> movement;
 };
 
 // The body of an OBJ file with this text, checked.  Throws InputError.
 CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit);
-// Adds the bytes of its files to `inputs`.  Throws IoError, InputError; every sample of a motion is checked here, before
+// The file that the body's measurements are read from: the one that is named, or one beside the mesh; empty: there is none.
+std::string measurements_path(const SceneBody& body);
+// Adds the bytes of its files to `inputs`.  Throws IoError, InputError, also for measurements of another body; every sample of a motion is checked here, before
 // anything runs.
 LoadedBody load_body(const SceneBody& body, Hash& inputs);
 // Puts the solids beside the body; they move with its motion, or by themselves.
@@ -42,6 +47,7 @@ void check_areas(std::string_view file, std::span<const Vec3> positions, std::sp
 // A cloth of the scene, meshed and moved as `placement` says: a pattern's panels, or a shape of one panel.
 struct LoadedCloth {
   GarmentMesh garment;
+  std::optional<Pattern> pattern;  // as read; none of a shape
   std::vector<Fabric> fabrics;     // [panel] with the scene's contact overrides
   std::vector<Vec2> rest_stretch;  // [panel] (b_u, b_v)
   std::vector<TimedPin> pins;      // on the particles of `garment`
@@ -59,12 +65,11 @@ Outfit outfit_of_shapes(std::span<const LoadedCloth> cloth);
 Events events_of(const Outfit& outfit, std::span<const LoadedCloth> cloth);
 // How long the edges are that the pattern wants at the waist, as cut; 0: there are none.
 double waist_girth_m(const GarmentMesh& garment);
-// Where labelled edges are held: as the cloth says; if it says nothing, the waist ("lower_interface") where the body is narrowest, unless the garment
-// hangs from the shoulders: its waist is as low as it is cut, and held higher it would bunch.
-// Labels that stay without a height are named in a warning.  Throws InputError for a height of a label that no edge carries.
+// Where labelled edges are held: as the cloth says; if it says nothing, the waist ("lower_interface") at the body's, unless the garment
+// hangs from the shoulders: its waist is as low as it is cut, and held higher it would bunch.  The other labels of GarmentCode are held only where
+// the cloth says (docs/theory/sewing.md#collars-and-strapless-tops); those that nobody knows are named in a warning.  Throws InputError for a height of a label that no edge carries.
 std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment, bool on_shoulders,
-                                          std::span<const Vec3> body_x, std::span<const Triangle> body_triangles,
-                                          std::vector<std::string>& warnings);
+                                          const BodyFigures& body, std::vector<std::string>& warnings);
 // How far above the body cloth of this edge length rests when nobody says: edges cut corners of the body, by e^2 / 8R.
 double default_offset_m(double edge_m);
 StepOptions step_options(const Scene& scene, const Fabric& fabric, double edge_m);

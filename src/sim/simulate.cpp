@@ -70,6 +70,7 @@ void Run::load(Hash& inputs) {
   add_solids(scene_.solids, loaded, inputs);
   if (!scene_.start.empty()) add_start(scene_.start, inputs);
   motion_ = std::move(loaded.movement);
+  measurements_ = std::move(loaded.measurements);
   report_.warnings.insert(report_.warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
   SolidMesh& solid = loaded.solid;
   body_x_ = standing_x_ = solid.positions;

@@ -131,5 +131,52 @@ TEST(CheckPattern, ItsOptionsAreForOnePattern) {
   }
 }
 
+// The measurements beside a body, or those that are named, tell whom a pattern was cut for.
+TEST(CheckPattern, TellsWhomAPatternIsCutForByTheBodysMeasurements) {
+  const Scratch scratch;
+  scratch.put("skirt.json", own("skirt"));
+  // A pillar 1.7 m tall and 68 cm round.
+  std::string obj;
+  for (const char* y : {"0", "1.7"})
+    for (const char* xz : {"-0.08 -0.09", "0.08 -0.09", "0.08 0.09", "-0.08 0.09"}) {
+      const std::string pair = xz;
+      obj += "v " + pair.substr(0, pair.find(' ')) + ' ' + y + pair.substr(pair.find(' ')) + '\n';
+    }
+  scratch.put("body.obj", obj + "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n");
+  const auto codes = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"check", "skirt.json", "--json", "--resolution", "5", "--body", "body.obj"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ended ended = run_toile(scratch, words);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    std::vector<std::string> found;
+    const Json said = Json::parse(ended.out, "stdout");
+    for (const Json& finding : said.at("files").array().front().at("findings").array())
+      found.push_back(finding.at("code").string());
+    return found;
+  };
+  const std::vector<std::string> told = {"other_body"};
+  EXPECT_EQ(codes({}), std::vector<std::string>());
+  scratch.put("body.yaml", "body: {height: 170, head_l: 24, waist_line: 45}");
+  EXPECT_EQ(codes({}), told);
+  scratch.put("tape.yaml", "body: {height: 170, head_l: 24, waist_line: 35.5}");
+  EXPECT_EQ(codes({"--measurements", "tape.yaml"}), std::vector<std::string>());
+
+  scratch.put("body.yaml", "body: {height: 150}");
+  const Ended other = run_toile(scratch, {"check", "skirt.json", "--body", "body.obj"});
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_NE(
+      other.err.find("body.yaml: body.height: expected 170.0 cm within 2 %, the height of body.obj, got 150.0 cm"),
+      std::string::npos)
+      << other.err;
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"check", "skirt.json", "--measurements", "tape.yaml"},
+        std::vector<std::string>{"check", "body.obj", "--measurements", "tape.yaml"},
+        std::vector<std::string>{"dress", "skirt.json", "--body", "woman", "--measurements", "tape.yaml"}}) {
+    const Ended ended = run_toile(scratch, words);
+    EXPECT_EQ(ended.exit_code, 2) << ended.err;
+    EXPECT_NE(ended.err.find("--measurements"), std::string::npos) << ended.err;
+  }
+}
+
 }  // namespace
 }  // namespace toile

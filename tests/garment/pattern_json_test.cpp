@@ -182,6 +182,8 @@ TEST(PatternFile, GarmentBelowTheFloorIsInTheOldFrame) {
   EXPECT_FALSE(legacy("[0, -20, 0]", ""));         // -0.2 ... 0.4 m: a train on the floor
   EXPECT_TRUE(legacy("[0, -20, 0]", parameters));  // a template: the same height is above its pelvis
   EXPECT_FALSE(legacy("[0, 80, 0]", parameters));  // a template that somebody raised
+  EXPECT_TRUE(legacy("[0, 5, 0]", parameters));    // 0.05 ... 0.65 m
+  EXPECT_FALSE(legacy("[0, 15, 0]", parameters));  // 0.15 ... 0.75 m: trousers of a child on the floor
   EXPECT_FALSE(legacy("[0, -20, 0]", R"(, "parameters": {})"));
 }
 

@@ -8,6 +8,7 @@
 #include "io/pc2.hpp"
 #include "io/scratch.hpp"
 #include "mesh/check.hpp"
+#include "sim/body_figures.hpp"
 #include "sim/run_writer.hpp"
 #include "sim/setup.hpp"
 #include "sim/simulate.hpp"
@@ -341,23 +342,25 @@ TEST(Setup, LongerEdgesRestFartherFromTheBodyUnlessTheSceneSays) {
 
 TEST(Setup, LabelHeightsComeFromTheSceneAndTheWaistFromTheBody) {
   GarmentMesh garment;
-  garment.labels = {{"lower_interface", {0}}, {"right_collar", {1}}, {"right_collar", {2}}};
+  garment.labels = {
+      {"lower_interface", {0}}, {"right_collar", {1}}, {"pocket", {2}}, {"pocket", {3}}, {"strapless_top", {4}}};
   const SolidMesh solid = rounded_cylinder(0.2, 1.8, Vec3(0, 1.8, 0));
   SceneCloth cloth;
   std::vector<std::string> warnings;
-  auto heights = label_heights_of(cloth, garment, false, solid.positions, solid.triangles, warnings);
+  const BodyFigures figures = body_figures(solid.positions, solid.triangles);
+  auto heights = label_heights_of(cloth, garment, false, figures, warnings);
   ASSERT_EQ(heights.size(), 1U);
   EXPECT_GT(heights[0].height_m, 0.9);
   EXPECT_LT(heights[0].height_m, 1.3);
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("right_collar"), std::string::npos);
+  ASSERT_EQ(warnings.size(), 1U) << "collars and tops are known, and held only where the scene says";
+  EXPECT_NE(warnings[0].find("pocket"), std::string::npos);
   warnings.clear();
-  cloth.label_heights = {{"lower_interface", 1.1}, {"right_collar", 1.5}};
-  heights = label_heights_of(cloth, garment, false, solid.positions, solid.triangles, warnings);
-  EXPECT_EQ(heights.size(), 2U);
+  cloth.label_heights = {{"lower_interface", 1.1}, {"right_collar", 1.5}, {"pocket", 1}};
+  heights = label_heights_of(cloth, garment, false, figures, warnings);
+  EXPECT_EQ(heights.size(), 3U);
   EXPECT_TRUE(warnings.empty());
   cloth.label_heights = {{"waist", 1.1}};
-  EXPECT_THROW(label_heights_of(cloth, garment, false, solid.positions, solid.triangles, warnings), InputError);
+  EXPECT_THROW(label_heights_of(cloth, garment, false, figures, warnings), InputError);
 }
 
 TEST(Setup, TheWaistOfWhatHangsFromTheShouldersIsHeldOnlyWhereTheSceneSays) {
@@ -366,10 +369,11 @@ TEST(Setup, TheWaistOfWhatHangsFromTheShouldersIsHeldOnlyWhereTheSceneSays) {
   const SolidMesh solid = rounded_cylinder(0.2, 1.8, Vec3(0, 1.8, 0));
   SceneCloth cloth;
   std::vector<std::string> warnings;
-  EXPECT_TRUE(label_heights_of(cloth, garment, true, solid.positions, solid.triangles, warnings).empty());
+  const BodyFigures figures = body_figures(solid.positions, solid.triangles);
+  EXPECT_TRUE(label_heights_of(cloth, garment, true, figures, warnings).empty());
   EXPECT_TRUE(warnings.empty());
   cloth.label_heights = {{"lower_interface", 1.1}};
-  const auto heights = label_heights_of(cloth, garment, true, solid.positions, solid.triangles, warnings);
+  const auto heights = label_heights_of(cloth, garment, true, figures, warnings);
   ASSERT_EQ(heights.size(), 1U);
   EXPECT_EQ(heights[0].height_m, 1.1);
 }

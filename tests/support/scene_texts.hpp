@@ -56,7 +56,7 @@ inline constexpr std::array<std::string_view, 5> scenes_with_every_setting = {
 })",
     R"({
   "cloth": [{"pattern": "p.json", "vertices": 500}],
-  "body": {"mesh": "body.obj", "unit": "cm", "motion": {"file": "motion.pc2", "fps": 24, "lead_in_s": 2}}
+  "body": {"mesh": "body.obj", "unit": "cm", "measurements": "body.yaml", "motion": {"file": "motion.pc2", "fps": 24, "lead_in_s": 2}}
 })",
     R"({
   "cloth": [{"pattern": "p.json"}, {"pattern": "q.json", "name": "coat"}],
