@@ -1,13 +1,11 @@
 #include "verify/hem_loops.hpp"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 
 namespace toile {
 
-std::vector<std::vector<Index>> hem_loops(std::span<const Triangle> triangles) {
-  using Side = std::array<Index, 2>;
+std::vector<Side> hem_sides(std::span<const Triangle> triangles) {
   std::vector<Side> sides, reversed;
   for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -16,9 +14,13 @@ std::vector<std::vector<Index>> hem_loops(std::span<const Triangle> triangles) {
     }
   std::sort(sides.begin(), sides.end());
   std::sort(reversed.begin(), reversed.end());
-  std::vector<Side> hems;  // as chains: as many end in a particle as begin there
+  std::vector<Side> hems;
   std::set_difference(sides.begin(), sides.end(), reversed.begin(), reversed.end(), std::back_inserter(hems));
+  return hems;
+}
 
+std::vector<std::vector<Index>> hem_loops(std::span<const Triangle> triangles) {
+  const std::vector<Side> hems = hem_sides(triangles);
   std::vector<char> used(hems.size(), 0);
   std::vector<std::vector<Index>> loops;
   for (std::size_t first = 0; first < hems.size(); ++first) {

@@ -1,32 +1,19 @@
 #include "verify/winding.hpp"
 
 #include "core/disjoint_sets.hpp"
+#include "verify/hem_loops.hpp"
 #include "verify/predicates.hpp"
 
 #include <algorithm>
-#include <array>
-#include <iterator>
 #include <utility>
 
 namespace toile {
 namespace {
 
-using Side = std::array<Index, 2>;
-
 // Triangles and positions.
 std::pair<std::vector<Triangle>, Vec3s> close_holes(std::span<const Triangle> triangles, std::span<const Vec3> x) {
   std::pair<std::vector<Triangle>, Vec3s> closed{{triangles.begin(), triangles.end()}, {x.begin(), x.end()}};
-  std::vector<Side> sides, reversed;
-  for (const Triangle& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      sides.push_back({t[k], t[(k + 1) % 3]});
-      reversed.push_back({t[(k + 1) % 3], t[k]});
-    }
-  std::sort(sides.begin(), sides.end());
-  std::sort(reversed.begin(), reversed.end());
-  // As chains the boundary is sides - reversed, each pair twice: the half of it that runs along a triangle.
-  std::vector<Side> boundary;
-  std::set_difference(sides.begin(), sides.end(), reversed.begin(), reversed.end(), std::back_inserter(boundary));
+  const std::vector<Side> boundary = hem_sides(triangles);
   if (boundary.empty()) return closed;
 
   // One fan per connected piece of the boundary.  The boundary of a fan around any point is the piece itself, reversed.
