@@ -1,6 +1,7 @@
 #include "sim/falling.hpp"
 
 #include "body/measure.hpp"
+#include "garment/pattern_figures.hpp"
 
 #include <fmt/printf.h>
 #include <Eigen/Geometry>
@@ -124,25 +125,41 @@ std::optional<LostGarment> FallWatch::find(std::span<const OutfitPart> parts, co
                    cloth.high.z(), solids.low.z(), solids.high.z(), beside.head<2>().norm())};
 }
 
-std::optional<LostGarment> slid_off_hips(std::span<const OutfitPart> parts, std::span<const double> waists_m,
-                                         std::span<const Vec3> cloth, std::span<const Vec3> person,
-                                         std::span<const Triangle> triangles) {
-  const Level widest = hips(person, triangles);
-  if (!(widest.girth_m > 0)) return std::nullopt;
-  std::size_t first = 0;
-  for (std::size_t p = 0; p < parts.size() && p < waists_m.size(); ++p) {
-    const std::span<const Vec3> mine = cloth.subspan(first, static_cast<std::size_t>(parts[p].particles));
-    first += mine.size();
-    double top_m = -std::numeric_limits<double>::infinity();
-    for (const Vec3& x : mine) top_m = std::max(top_m, x.y());
-    if (waists_m[p] == 0 || top_m >= widest.height_m) continue;
-    return LostGarment{
-        static_cast<Index>(p),
-        fmt::sprintf("all of it is below %.2f m, the hips are %.2f m high and %.1f cm round; its waist is "
-                     "%.1f cm round as cut",
-                     top_m, widest.height_m, 100 * widest.girth_m, 100 * waists_m[p])};
+Belonging belonging_of(const GarmentMesh& garment) {
+  Belonging belonging;
+  for (const LabelledEdge& edge : garment.labels) {
+    belonging.bodice = belonging.bodice || is_of_bodice(edge.label);
+    if (edge.label != edge_label::waist) continue;
+    for (std::size_t k = 1; k < edge.particles.size(); ++k)
+      belonging.waist_girth_m += (garment.x[at(edge.particles[k])] - garment.x[at(edge.particles[k - 1])]).norm();
   }
-  return std::nullopt;
+  return belonging;
+}
+
+std::optional<LostGarment> slid_down(std::span<const OutfitPart> parts, std::span<const Belonging> belongings,
+                                     std::span<const Vec3> cloth, std::span<const Vec3> person,
+                                     std::span<const Triangle> triangles) {
+  const Level widest = hips(person, triangles);
+  const double waist_m = waist_height_m(person, triangles);
+  std::optional<LostGarment> lost;
+  for_parts(parts, [&](std::size_t p, std::size_t first) {
+    if (lost || p >= belongings.size()) return;
+    const Belonging& belonging = belongings[p];
+    double top_m = -std::numeric_limits<double>::infinity();
+    for (const Vec3& x : cloth.subspan(first, at(parts[p].particles))) top_m = std::max(top_m, x.y());
+    if (belonging.bodice && waist_m > 0 && top_m < waist_m) {
+      lost = LostGarment{static_cast<Index>(p),
+                         fmt::sprintf("slid down: all of it, its bodice too, is below %.2f m, the waist is %.2f m high",
+                                      top_m, waist_m)};
+    } else if (belonging.waist_girth_m > 0 && widest.girth_m > 0 && top_m < widest.height_m) {
+      lost = LostGarment{
+          static_cast<Index>(p),
+          fmt::sprintf("slid off the hips: all of it is below %.2f m, the hips are %.2f m high and %.1f cm round; its "
+                       "waist is %.1f cm round as cut",
+                       top_m, widest.height_m, 100 * widest.girth_m, 100 * belonging.waist_girth_m)};
+    }
+  });
+  return lost;
 }
 
 }  // namespace toile

@@ -13,6 +13,7 @@
 // Easily got wrong: this is about still air, in which cloth gains no height.  In wind, without gravity, or while a hand drags the cloth,
 // nothing follows for what is to come; the caller must not ask.
 #pragma once
+#include "garment/garment_mesh.hpp"
 #include "sim/outfit.hpp"
 #include "sim/outfit_run.hpp"
 
@@ -73,9 +74,17 @@ class FallWatch {
   std::optional<Box> swept_;  // all places of solids that move; made when it is first asked for
 };
 
-// The first garment with a waist, all of which is below a person's hips.  `waists_m`: [part] how long what belongs at the waist is as cut; 0: nothing does.
-std::optional<LostGarment> slid_off_hips(std::span<const OutfitPart> parts, std::span<const double> waists_m,
-                                         std::span<const Vec3> cloth, std::span<const Vec3> person,
-                                         std::span<const Triangle> triangles);
+// Where a garment belongs on a person, by the labels of its edges.
+struct Belonging {
+  double waist_girth_m = 0;  // how long what belongs at the waist is, as cut; 0: nothing does
+  bool bodice = false;       // it has collars, armholes or a strapless top
+};
+Belonging belonging_of(const GarmentMesh& garment);
+
+// The first garment that is not worn though the person is within it: with a bodice and yet all of it below her waist, or with a waist and yet all
+// of it below her hips.  `belongings`: [part].
+std::optional<LostGarment> slid_down(std::span<const OutfitPart> parts, std::span<const Belonging> belongings,
+                                     std::span<const Vec3> cloth, std::span<const Vec3> person,
+                                     std::span<const Triangle> triangles);
 
 }  // namespace toile

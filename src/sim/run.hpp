@@ -74,7 +74,7 @@ class Run {
   bool awaits_rest() const { return scene_.until_still || motion_.has_value(); }
   double frame_s() const { return 1 / scene_.fps; }
   int frames_in(double seconds) const;
-  void end(std::string_view how, std::string detail);
+  void end(std::string_view how, const std::string& detail);
   void qualify(std::string_view code, const std::string& detail);
   void collapse(const std::string& when, const FrameReport& frame, const ClothMesh& mesh, std::span<const Vec3> x);
   void end_startup();
@@ -139,7 +139,7 @@ class Run {
   bool lost();
   bool goes_on(const OutfitRun& run);
   void judge_end(const OutfitRun& run);
-  void find_below_hips();
+  void find_slid_down();
 
   const Scene& scene_;
   const RunOptions& options_;
@@ -171,9 +171,9 @@ class Run {
   DressingBody::Pose pose_;    // of dressing_body_, while the first garment is sewn
   bool on_shoulders_ = false;  // it hangs from there, not from its waist
   std::vector<std::vector<Index>>
-      open_pairs_;                // [garment that is on] what its weld left open: places in GarmentMesh::pairs
-  std::vector<double> waists_m_;  // [garment] how long its edges are that belong at the waist, as cut; 0: it has none
-  bool stopped_short_ = false;    // put on as far as it went: that one frame is written, and nothing moves
+      open_pairs_;                     // [garment that is on] what its weld left open: places in GarmentMesh::pairs
+  std::vector<Belonging> belongings_;  // [garment]
+  bool stopped_short_ = false;         // put on as far as it went: that one frame is written, and nothing moves
 
   mutable bool user_stopped_ = false;  // options_.stop has said so
 

@@ -21,7 +21,7 @@ void Run::live() {
   begin_recording(run);
   watch_falling();
   // What hangs now is the run's: a second and a third copy of a fine mesh are large.
-  for (const LoadedCloth& cloth : cloth_) waists_m_.push_back(waist_girth_m(cloth.garment));
+  for (const LoadedCloth& cloth : cloth_) belongings_.push_back(belonging_of(cloth.garment));
   cloth_.clear();
   outfit_.mesh = {};
   const std::string put_on_ended = failure_.empty() ? "" : failure_.front().code;
@@ -40,7 +40,7 @@ void Run::live() {
     drape(run);
   }
   if (report_.ended == "time" && failure_.empty()) judge_end(run);
-  if (failure_.empty()) find_below_hips();
+  if (failure_.empty()) find_slid_down();
   if (!put_on_ended.empty() && report_.ended != reason::interrupted) report_.ended = put_on_ended;
   close(run);
 }
@@ -184,17 +184,15 @@ void Run::judge_end(const OutfitRun& run) {
     lost();
 }
 
-// A skirt or trousers that lie about the feet are not worn.
-void Run::find_below_hips() {
-  const auto waisted = [](double girth_m) { return girth_m > 0; };
-  if (!body_ || std::none_of(waists_m_.begin(), waists_m_.end(), waisted)) return;
+// A skirt that lies about the feet is not worn, nor is a dress that hangs at the hips.
+void Run::find_slid_down() {
+  if (!body_) return;
   const std::span person = std::span<const Triangle>(body_triangles_).first(person_triangles_);
   if (!find_arms(std::span(standing_x_).first(person_vertices_), person)) return;  // a torso has no hips to be found
   const std::optional<LostGarment> lost =
-      slid_off_hips(outfit_.parts, waists_m_, outfit_.state.x, std::span(body_x_).first(person_vertices_), person);
+      slid_down(outfit_.parts, belongings_, outfit_.state.x, std::span(body_x_).first(person_vertices_), person);
   if (lost)
-    end(reason::fell_off,
-        printable(outfit_.parts[static_cast<std::size_t>(lost->part)].name) + " slid off the hips: " + lost->where);
+    end(reason::fell_off, printable(outfit_.parts[static_cast<std::size_t>(lost->part)].name) + ' ' + lost->where);
 }
 
 void Run::close(OutfitRun& run) {

@@ -270,22 +270,18 @@ bool Run::sew(std::size_t k) {
   phase.simulated_s += sewing.time_s();
   add_seconds(phase, sewing.seconds());
   const std::string which = cloth_.size() > 1 ? printable(garment.name) + ": " : "";
-  switch (sewing.status()) {
-    case SewingStatus::closed:
-      break;
-    case SewingStatus::sewing:
-      cut_off(which + "while sewing, after " + std::to_string(place_.frame) + " frames");
-      break;
-    case SewingStatus::blocked:
-      end(reason::seam_blocked, which + dressing.explain() + (frame.ok ? "" : "; then " + frame.diagnosis));
-      break;
-    case SewingStatus::failed:
-      collapse(which + "while sewing (" + dressing.explain() + ")", frame, sewing.model().mesh, sewing.state().x);
-      break;
-  }
-  if (sewing.status() == SewingStatus::sewing && !stopped_short_) {
-    outfit_.state = sewing.state();  // for the hash
-    return false;
+  // What blocks it may still come apart: that it is blocked is not known before.
+  const bool ended =
+      sewing.status() != SewingStatus::sewing && !(sewing.status() == SewingStatus::blocked && stopped());
+  if (!ended) {
+    if (!cut_off(which + "while sewing, after " + std::to_string(place_.frame) + " frames")) {
+      outfit_.state = sewing.state();  // for the hash
+      return false;
+    }
+  } else if (sewing.status() == SewingStatus::blocked) {
+    end(reason::seam_blocked, which + dressing.explain() + (frame.ok ? "" : "; then " + frame.diagnosis));
+  } else if (sewing.status() == SewingStatus::failed) {
+    collapse(which + "while sewing (" + dressing.explain() + ")", frame, sewing.model().mesh, sewing.state().x);
   }
   open_pairs_.resize(k + 1);
   if (sewing.status() != SewingStatus::closed) leave_open(k, dressing);
@@ -386,7 +382,10 @@ FrameReport Run::sew_frames(Dressing& dressing, bool filmed) {
       writer_->sewing_frame(sewing.state().x);
     if (sewing.status() == SewingStatus::blocked) {
       say("untangling", 0);
-      dressing.take_apart(body_triangles_, body_x_, [&] { return stopped(); });
+      const std::string why = dressing.explain();
+      if (dressing.take_apart(body_triangles_, body_x_, [&] { return stopped(); }))
+        report_.warnings.push_back("while sewing: " + why +
+                                   "; what was in the way was taken apart, and sewing went on");
     }
     if (sewing.status() == SewingStatus::sewing) keep_if_due(dressing);
     const double share = sewing.closed_share();

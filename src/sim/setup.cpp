@@ -243,16 +243,6 @@ std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const Garment
   return heights;
 }
 
-double waist_girth_m(const GarmentMesh& garment) {
-  double girth_m = 0;
-  for (const LabelledEdge& edge : garment.labels) {
-    if (edge.label != edge_label::waist) continue;
-    for (std::size_t k = 1; k < edge.particles.size(); ++k)
-      girth_m += (garment.x[at(edge.particles[k])] - garment.x[at(edge.particles[k - 1])]).norm();
-  }
-  return girth_m;
-}
-
 double default_offset_m(double edge_m) { return std::clamp(0.2 * edge_m, 1.5e-3, 2.5e-3); }
 
 StepOptions step_options(const Scene& scene, const Fabric& fabric, double edge_m) {

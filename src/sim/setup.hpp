@@ -63,8 +63,6 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
 Outfit outfit_of_shapes(std::span<const LoadedCloth> cloth);
 // What happens to the cloth in time, on the particles and panels of `outfit`, whose parts are the cloths in their order.
 Events events_of(const Outfit& outfit, std::span<const LoadedCloth> cloth);
-// How long the edges are that the pattern wants at the waist, as cut; 0: there are none.
-double waist_girth_m(const GarmentMesh& garment);
 // Where labelled edges are held: as the cloth says; if it says nothing, the waist ("lower_interface") at the body's, unless the garment
 // hangs from the shoulders: its waist is as low as it is cut, and held higher it would bunch.  The other labels of GarmentCode are held only where
 // the cloth says (docs/theory/sewing.md#collars-and-strapless-tops); those that nobody knows are named in a warning.  Throws InputError for a height of a label that no edge carries.

@@ -21,6 +21,16 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+// Each code once.
+void add_reason(std::vector<Reason>& reasons, std::string_view code, const std::string& detail) {
+  for (Reason& known : reasons) {
+    if (known.code != code) continue;
+    known.detail += "; " + detail;
+    return;
+  }
+  reasons.push_back({std::string(code), detail});
+}
+
 }  // namespace
 
 Report Run::operator()() {
@@ -120,20 +130,13 @@ void Run::take_up(std::uint64_t input_hash) {
 
 int Run::frames_in(double seconds) const { return std::max(1, static_cast<int>(std::lround(seconds * scene_.fps))); }
 
-void Run::end(std::string_view how, std::string detail) {
+void Run::end(std::string_view how, const std::string& detail) {
   report_.ended = how;
-  failure_.push_back({std::string(how), std::move(detail)});
+  add_reason(failure_, how, detail);
 }
 
 // The verdict, if it is a pass, is one with this reservation.
-void Run::qualify(std::string_view code, const std::string& detail) {
-  for (Reason& known : qualifications_) {
-    if (known.code != code) continue;
-    known.detail += "; " + detail;
-    return;
-  }
-  qualifications_.push_back({std::string(code), detail});
-}
+void Run::qualify(std::string_view code, const std::string& detail) { add_reason(qualifications_, code, detail); }
 
 // The step could not be made however short: says over what, and leaves it in a file.
 void Run::collapse(const std::string& when, const FrameReport& frame, const ClothMesh& mesh, std::span<const Vec3> x) {
@@ -146,7 +149,7 @@ void Run::collapse(const std::string& when, const FrameReport& frame, const Clot
     if (of_body > 0) words += ", and " + std::to_string(of_body) + " triangles of the body near them";
     writer_->offenders(offenders);
   }
-  end(reason::step_collapsed, std::move(words));
+  end(reason::step_collapsed, words);
 }
 
 // Called before every first step of something; the first of them counts.

@@ -297,18 +297,46 @@ TEST(Weld, PutsWhatIsWornBeforeWhatIsNew) {
 TEST(Judging, AGarmentWithAWaistThatLiesBelowTheHipsIsNotWorn) {
   const Mannequin woman = make_mannequin();
   const std::vector<OutfitPart> parts{{"shirt", 0, 1, 2}, {"skirt", 1, 1, 2}};
-  const auto found = [&](double skirt_top_m, std::vector<double> waists_m) {
+  const auto found = [&](double skirt_top_m, std::vector<Belonging> belongings) {
     const Vec3s cloth{{0, 1.4, 0}, {0, 0.3, 0}, {0, skirt_top_m, 0}, {0, 0.2, 0}};
-    return slid_off_hips(parts, waists_m, cloth, woman.positions, woman.triangles);
+    return slid_down(parts, belongings, cloth, woman.positions, woman.triangles);
   };
   const double hips_m = hips(woman.positions, woman.triangles).height_m;
   ASSERT_GT(hips_m, 0.7);
-  ASSERT_TRUE(found(hips_m - 0.01, {0, 1.26}));
-  EXPECT_EQ(found(hips_m - 0.01, {0, 1.26})->part, 1);
-  EXPECT_NE(found(hips_m - 0.01, {0, 1.26})->where.find("126.0 cm"), std::string::npos);
-  EXPECT_FALSE(found(hips_m + 0.01, {0, 1.26}));
-  EXPECT_FALSE(found(0.3, {0, 0})) << "nothing of it belongs at the waist: stockings";
-  EXPECT_FALSE(found(0.9, {1.26, 0}));
+  const Belonging nowhere, waist{1.26, false};
+  ASSERT_TRUE(found(hips_m - 0.01, {nowhere, waist}));
+  EXPECT_EQ(found(hips_m - 0.01, {nowhere, waist})->part, 1);
+  EXPECT_NE(found(hips_m - 0.01, {nowhere, waist})->where.find("126.0 cm"), std::string::npos);
+  EXPECT_FALSE(found(hips_m + 0.01, {nowhere, waist}));
+  EXPECT_FALSE(found(0.3, {nowhere, nowhere})) << "nothing of it belongs at the waist: stockings";
+  EXPECT_FALSE(found(0.9, {waist, nowhere}));
+
+  const double waist_m = waist_height_m(woman.positions, woman.triangles);
+  const Belonging dress{1.26, true}, top{0, true};
+  for (const Belonging& bodice : {dress, top}) {
+    ASSERT_TRUE(found(waist_m - 0.01, {nowhere, bodice}));
+    EXPECT_NE(found(waist_m - 0.01, {nowhere, bodice})->where.find("its bodice too"), std::string::npos);
+    EXPECT_FALSE(found(waist_m + 0.01, {nowhere, bodice}));
+  }
+}
+
+TEST(Judging, WhereAGarmentBelongsIsReadFromItsLabels) {
+  GarmentMesh garment = mesh_garment(test::tube_pattern(0.5, 0.4, 0.6), 0.05);
+  EXPECT_EQ(belonging_of(garment).waist_girth_m, 0);
+  EXPECT_FALSE(belonging_of(garment).bodice);
+  LabelledEdge edge{"lower_interface", {}};
+  for (Index i = 0; i < 3; ++i) {
+    garment.x[test::at(i)] = Vec3(0.1 * i, 1, 0);
+    edge.particles.push_back(i);
+  }
+  garment.labels.push_back(edge);
+  EXPECT_NEAR(belonging_of(garment).waist_girth_m, 0.2, 1e-15);
+  EXPECT_FALSE(belonging_of(garment).bodice);
+  for (const char* label : {"left_collar", "right_armhole", "strapless_top"}) {
+    garment.labels.back().label = label;
+    EXPECT_TRUE(belonging_of(garment).bodice) << label;
+    EXPECT_EQ(belonging_of(garment).waist_girth_m, 0);
+  }
 }
 
 }  // namespace

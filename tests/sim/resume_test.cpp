@@ -151,6 +151,41 @@ TEST(Resume, OfAPersonThatGrowsWithItsArmsLifted) {
           {90});
 }
 
+// A strip between the sides of both seams of a tube blocks them, and is taken apart from them.  Left open they cross nothing: a run that took
+// them for blocked would go on from there.
+TEST(Resume, OfASeamThatIsStoppedWhileItIsTakenApart) {
+  const Scratch scratch;
+  scratch.put("tube.json", R"({"pattern": {"panels": {
+      "front": {"translation": [0, 0, 12], "rotation": [0, 0, 0], "vertices": [[-6, -6], [6, -6], [6, 6], [-6, 6]],
+        "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]},
+      "back": {"translation": [0, 0, -12], "rotation": [0, 0, 0], "vertices": [[-6, -6], [-6, 6], [6, 6], [6, -6]],
+        "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]},
+      "strip": {"translation": [0, 0, 0], "rotation": [0, 0, 0], "vertices": [[-15, -10], [15, -10], [15, 10], [-15, 10]],
+        "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]}},
+    "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}],
+                 [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
+    "properties": {"units_in_meter": 100}})");
+  const std::string text =
+      R"({"cloth": [{"pattern": "tube.json", "resolution_cm": 5}], "contact": {"thickness_mm": 20}, "time": {"seconds": 0.3}})";
+  const Scene scene = parse_scene(text, scratch.put("s.json", text));
+  const Report report = simulate(scene, options_of(scratch / "whole"));
+  EXPECT_TRUE(report.open_seams.empty());
+  ASSERT_FALSE(report.warnings.empty());
+  EXPECT_NE(report.warnings.front().find("was taken apart, and sewing went on"), std::string::npos)
+      << report.warnings.front();
+  RunOptions options = options_of(scratch / "parts");
+  bool untangling = false;
+  options.progress = [&](const Progress& progress) { untangling = untangling || progress.phase == "untangling"; };
+  options.stop = [&] { return untangling; };
+  EXPECT_EQ(simulate(scene, options).ended, reason::interrupted);
+  EXPECT_TRUE(untangling);
+  options.progress = nullptr;
+  options.stop = nullptr;
+  options.resume = true;
+  simulate(scene, options);
+  EXPECT_EQ(contents(scratch / "parts"), contents(scratch / "whole"));
+}
+
 TEST(Resume, RefusesOtherInputsAndADamagedState) {
   const Scratch scratch;
   const auto scene = [](const char* gravity) {
