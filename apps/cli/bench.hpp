@@ -4,7 +4,7 @@
 #pragma once
 #include "bench_runs.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 BenchResult bench_scaling(BenchRuns& runs);
 BenchResult bench_stiffness(BenchRuns& runs);
@@ -12,4 +12,4 @@ BenchResult bench_paper(BenchRuns& runs);
 BenchResult bench_micro(BenchRuns& runs);
 BenchResult bench_torture(BenchRuns& runs);
 
-}  // namespace toile
+}  // namespace toile::internal

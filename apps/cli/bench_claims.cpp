@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int cg_particles = 6000;  // 18,000 variables
@@ -100,4 +100,4 @@ void add_explicit_claims(BenchRuns& runs, std::vector<BenchRow>& claims) {
                          ours_s * limit.omega_per_s / 2, "", 0));
 }
 
-}  // namespace toile
+}  // namespace toile::internal

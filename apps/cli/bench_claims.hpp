@@ -5,9 +5,9 @@
 #pragma once
 #include "bench_runs.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 void add_cg_claims(BenchRuns& runs, std::vector<BenchRow>& claims);
 void add_explicit_claims(BenchRuns& runs, std::vector<BenchRow>& claims);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <thread>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::string processor() {
@@ -81,4 +81,4 @@ ExitCode bench_command(const CommandLine& line) {
   return ExitCode::simulation_failed;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 #include <limits>
 #include <memory>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double h_s = 1.0 / 60;
@@ -262,4 +262,4 @@ BenchTable measure_limits(BenchRuns& runs) {
   return table;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

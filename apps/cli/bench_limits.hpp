@@ -8,9 +8,9 @@
 #pragma once
 #include "bench_runs.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // A row per piece, size of CommandLine::limit_sizes, and one and two threads, as far as there are two.
 BenchTable measure_limits(BenchRuns& runs);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <array>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int state_frame = 45;
@@ -158,4 +158,4 @@ BenchResult bench_micro(BenchRuns& runs) {
   return result;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Row1998 {
@@ -125,4 +125,4 @@ BenchResult bench_paper(BenchRuns& runs) {
   return result;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

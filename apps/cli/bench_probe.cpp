@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 ClothModel of_fabric(const ClothModel& model, const Fabric& fabric) {
@@ -115,4 +115,4 @@ PcgReport StepSystem::solve_prepared(const PcgOptions& options, std::span<const 
   return pcg_.solve(system_, b, reference_, options, dv);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 
 #include <optional>
 
-namespace toile {
+namespace toile::internal {
 
 // A scene of grids, without motion.
 class Drape {
@@ -83,4 +83,4 @@ class StepSystem {
   Vec3s y_, landing_, b_, reference_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

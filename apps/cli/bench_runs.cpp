@@ -14,7 +14,7 @@
 #include <cstring>
 #include <filesystem>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::string temporary_directory() {
@@ -137,4 +137,4 @@ void set_frames(Scene& scene, int frames) {
   scene.seconds_given = true;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include "sim/simulate.hpp"
 #include "terminal.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // Of the scenes that are built in.  Throws IoError when there is none of that name.
 Scene embedded_scene(std::string_view name);
@@ -56,4 +56,4 @@ double edge_for(const SceneGrid& grid, long particles);
 // Sets how many frames of it are simulated.
 void set_frames(Scene& scene, int frames);
 
-}  // namespace toile
+}  // namespace toile::internal

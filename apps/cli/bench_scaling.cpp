@@ -9,7 +9,7 @@
 #include <cmath>
 #include <optional>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Time1998 {
@@ -91,4 +91,4 @@ BenchResult bench_scaling(BenchRuns& runs) {
   return result;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

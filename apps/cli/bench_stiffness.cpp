@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <array>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int drape_frames = 75;
@@ -179,4 +179,4 @@ BenchResult bench_stiffness(BenchRuns& runs) {
   return result;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct InTable {
@@ -154,4 +154,4 @@ std::string as_json(const BenchResult& result) {
   return json.str() + '\n';
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 using BenchCell = std::variant<std::monostate, long, double, std::string>;
 
@@ -61,4 +61,4 @@ std::string as_csv(const BenchResult& result);
 // One object: bench, the facts, and each table's rows under its name.
 std::string as_json(const BenchResult& result);
 
-}  // namespace toile
+}  // namespace toile::internal

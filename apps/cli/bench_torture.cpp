@@ -15,7 +15,7 @@
 #include <random>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Size {
@@ -176,4 +176,4 @@ BenchResult bench_torture(BenchRuns& runs) {
   return result;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

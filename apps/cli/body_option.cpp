@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 SceneBody body_option(const CommandLine& line) {
   SceneBody body;
@@ -22,4 +22,4 @@ SceneBody body_option(const CommandLine& line) {
   return body;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

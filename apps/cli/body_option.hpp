@@ -3,9 +3,9 @@
 #include "command_line.hpp"
 #include "sim/scene.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // A mannequin by its name (always in metres), or a file; without a motion.
 SceneBody body_option(const CommandLine& line);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -4,7 +4,7 @@
 
 #include <fmt/printf.h>
 
-namespace toile {
+namespace toile::internal {
 
 std::string describe_budget(const Scene& scene, const BudgetLimits& limits, JsonText& json) {
   const Budget budget = estimate_budget(scene, read_text_file);
@@ -23,4 +23,4 @@ std::string describe_budget(const Scene& scene, const BudgetLimits& limits, Json
                                               : fmt::sprintf("%.1f hours", budget.seconds / 3600));
 }
 
-}  // namespace toile
+}  // namespace toile::internal

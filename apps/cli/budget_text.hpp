@@ -6,9 +6,9 @@
 
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 // Throws when that is beyond the limits.
 std::string describe_budget(const Scene& scene, const BudgetLimits& limits, JsonText& json);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -21,7 +21,7 @@
 #include <filesystem>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // What this throws for bad input, or nothing.
@@ -185,4 +185,4 @@ ExitCode check_command(const CommandLine& line) {
   return code;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // `garment` is the pattern meshed.
@@ -240,4 +240,4 @@ void refuse_other_files(const CommandLine& line, bool is_pattern, const std::str
       throw Error(ExitCode::usage, std::string(option) + ": " + printable(path) + " is no pattern");
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Checked {
   std::string said;        // for a person; ends with a line feed, or is empty
@@ -28,4 +28,4 @@ void write_findings(const Checked& checked, JsonText& json);
 // Throws Error(usage) where an option needs one pattern and the files are others.
 void refuse_other_files(const CommandLine& line, bool is_pattern, const std::string& path);
 
-}  // namespace toile
+}  // namespace toile::internal

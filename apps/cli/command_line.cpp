@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 void add_common(CLI::App& command, CommandLine& line) {
@@ -237,4 +237,4 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   return line;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct CommandLine {
   enum class Command { help, demo, dress, run, check, verify, preview, resume, untangle, bench };
@@ -50,4 +50,4 @@ CommandLine parse_command_line(int argc, const char* const* argv);
 // Whether --json is among the words: known even when the rest is wrong.
 bool wants_json(int argc, const char* const* argv);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -3,7 +3,7 @@
 #include "command_line.hpp"
 #include "core/error.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 ExitCode simulate_command(const CommandLine& line);  // demo, dress, run
 ExitCode resume_command(const CommandLine& line);
@@ -13,4 +13,4 @@ ExitCode preview_command(const CommandLine& line);
 ExitCode untangle_command(const CommandLine& line);
 ExitCode bench_command(const CommandLine& line);
 
-}  // namespace toile
+}  // namespace toile::internal

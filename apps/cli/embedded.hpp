@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 struct EmbeddedFile {
   std::string_view path, text;  // "scenes/tshirt.json"
@@ -21,4 +21,4 @@ inline std::string embedded_text(const std::string& path) {
   throw IoError(path, "not built into this program");
 }
 
-}  // namespace toile
+}  // namespace toile::internal

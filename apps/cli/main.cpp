@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <new>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 ExitCode run_command(const CommandLine& line) {
@@ -88,6 +88,6 @@ ExitCode guarded_main(int argc, char** argv) noexcept {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal
 
-int main(int argc, char** argv) { return static_cast<int>(toile::guarded_main(argc, argv)); }
+int main(int argc, char** argv) { return static_cast<int>(toile::internal::guarded_main(argc, argv)); }

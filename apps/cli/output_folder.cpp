@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Links are followed as far as the path exists.
@@ -36,4 +36,4 @@ std::string output_folder(const CommandLine& line, const Scene& scene) {
   return "out/" + name;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

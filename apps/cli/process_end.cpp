@@ -11,7 +11,7 @@
 #include <exception>
 #include <new>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr long unheard_us = 800'000;  // with what the system takes to free a large run, a second
@@ -143,4 +143,4 @@ bool interrupted() {
   return true;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

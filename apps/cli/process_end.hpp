@@ -11,7 +11,7 @@
 #pragma once
 #include "core/error.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // Once, at the start of main.  `json`: whoever is left without another word gets an object on stdout, too.
 void prepare_for_the_end(bool json);
@@ -19,4 +19,4 @@ void prepare_for_the_end(bool json);
 // Has somebody asked for an end?  Asked by a phase that will end soon: from the first true on it has 5 s in place of the 0.8 s.
 bool interrupted();
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace toile::HWY_NAMESPACE {
+namespace toile::internal::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -35,11 +35,11 @@ std::uint64_t sum_words(const std::uint64_t* words, std::size_t count) {
 }
 
 }  // namespace
-}  // namespace toile::HWY_NAMESPACE
+}  // namespace toile::internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace toile {
+namespace toile::internal {
 namespace {
 HWY_EXPORT(sum_words);
 }  // namespace
@@ -75,5 +75,5 @@ double ReadStream::seconds_per_byte(std::size_t bytes) {
   return seconds / static_cast<double>(passes * size);
 }
 
-}  // namespace toile
+}  // namespace toile::internal
 #endif

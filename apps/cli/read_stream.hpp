@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class ReadStream {
  public:
@@ -28,4 +28,4 @@ class ReadStream {
   std::vector<CacheLine> sums_;  // [member] on a line of its own
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 CommandLine asked_for(const UnfinishedRun& run, const std::string& directory) {
@@ -48,4 +48,4 @@ ExitCode resume_command(const CommandLine& line) {
   return simulate_command(again);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <cstdio>
 #include <filesystem>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 void add_count(JsonText& json, std::string_view key, const PenetrationCount& count) {
@@ -210,4 +210,4 @@ ExitCode preview_command(const CommandLine& line) {
   return ExitCode::ok;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

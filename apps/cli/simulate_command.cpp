@@ -21,7 +21,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Demo {
@@ -270,4 +270,4 @@ ExitCode simulate_command(const CommandLine& line) {
   return code;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

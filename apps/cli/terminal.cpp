@@ -10,7 +10,7 @@
 #include <cstring>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 ProgressBar::ProgressBar(const CommandLine& line) : on_(!line.quiet && isatty(STDERR_FILENO) == 1) {}
 
@@ -49,4 +49,4 @@ void tell_failure(const std::string& directory, const Verdict& verdict) {
                reason.detail.c_str());
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 // One line on stderr that overwrites itself; nothing unless stderr is a terminal, or with --quiet.
 class ProgressBar {
@@ -29,4 +29,4 @@ void print(std::string_view text);
 // The first reason of a verdict that is no pass, on stderr: "toile: DIR: stretch: p99 7 %, ...".
 void tell_failure(const std::string& directory, const Verdict& verdict);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -18,7 +18,7 @@
 #include <filesystem>
 #include <system_error>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t told_contours = 3, told_pairs = 2;  // in the one line on stderr; --json has them all
@@ -232,4 +232,4 @@ ExitCode untangle_command(const CommandLine& line) {
   return code;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

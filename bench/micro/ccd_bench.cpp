@@ -4,7 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // One iteration is one query.
@@ -33,4 +33,4 @@ BENCHMARK_CAPTURE(ccd_query, vertex_face, exact::Features::vertex_face)->Unit(be
 BENCHMARK_CAPTURE(ccd_query, edge_edge, exact::Features::edge_edge)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Sheet {
@@ -109,4 +109,4 @@ BENCHMARK(coarse_setup)->Arg(2600)->Arg(8600)->Unit(benchmark::kMillisecond);
 BENCHMARK(solve)->ArgsProduct({{2600, 8600}, {0, 1, 2, 3}})->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t grain = 512;  // triangles per block of work
@@ -84,4 +84,4 @@ void Air::assemble(double h_s, BlockMatrix<T>& A) const {
 template void Air::assemble(double, BlockMatrix<float>&) const;
 template void Air::assemble(double, BlockMatrix<double>&) const;
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct AirOptions {
   Vec3 wind_m_per_s{0, 0, 0};
@@ -51,4 +51,4 @@ class Air {
 extern template void Air::assemble(double, BlockMatrix<float>&) const;
 extern template void Air::assemble(double, BlockMatrix<double>&) const;
 
-}  // namespace toile
+}  // namespace toile::internal

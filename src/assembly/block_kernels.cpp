@@ -12,7 +12,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 HWY_BEFORE_NAMESPACE();
-namespace toile::HWY_NAMESPACE {
+namespace toile::internal::HWY_NAMESPACE {
 namespace {
 
 // Three numbers and one that does not matter; the compiler cuts them into what the instruction set has.
@@ -115,11 +115,11 @@ void gather(const BlockParts& parts, Slot begin, Slot end, const Mat3* membranes
 }
 
 }  // namespace
-}  // namespace toile::HWY_NAMESPACE
+}  // namespace toile::internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace toile {
+namespace toile::internal {
 namespace {
 HWY_EXPORT(multiply_rows);
 HWY_EXPORT(sum_diagonals);
@@ -139,5 +139,5 @@ void gather_blocks(const BlockParts& parts, Slot begin, Slot end, const Mat3* me
   HWY_DYNAMIC_DISPATCH(gather)(parts, begin, end, membranes, bends, weight, below);
 }
 
-}  // namespace toile
+}  // namespace toile::internal
 #endif

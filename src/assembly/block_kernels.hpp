@@ -6,7 +6,7 @@
 #include "material/bend.hpp"
 #include "material/membrane_batch.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // Rows [begin, end) of A x, with x of all rows.
 void multiply_block_rows(const BlockRows& A, Index begin, Index end, const Vec3* x, Vec3* of_rows);
@@ -33,4 +33,4 @@ struct BlockParts {
 void gather_blocks(const BlockParts& parts, Slot begin, Slot end, const Mat3* membranes, const BendResponse* bends,
                    const double* weight, Block<float>* below);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <functional>
 #include <type_traits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t grain = 512;  // rows
@@ -158,4 +158,4 @@ Eigen::MatrixXd BlockMatrix<T>::to_dense() const {
 template class BlockMatrix<float>;
 template class BlockMatrix<double>;
 
-}  // namespace toile
+}  // namespace toile::internal

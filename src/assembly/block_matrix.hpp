@@ -22,7 +22,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // Of a matrix in single precision, for those who walk along its rows (assembly/block_kernels.hpp).
 struct BlockRows {
@@ -89,4 +89,4 @@ BlockRows BlockMatrix<float>::block_rows() const;
 extern template class BlockMatrix<float>;
 extern template class BlockMatrix<double>;
 
-}  // namespace toile
+}  // namespace toile::internal

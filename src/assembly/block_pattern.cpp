@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double own_is_enough = 1.25;  // of the bandwidth of the best order found
@@ -164,4 +164,4 @@ BlockPattern pattern_of_cloth(Index particle_count, std::span<const Triangle> tr
   return {particle_count, std::move(links)};
 }
 
-}  // namespace toile
+}  // namespace toile::internal

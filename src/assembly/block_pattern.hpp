@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 using Slot = std::int32_t;  // position of a block in the value array
 
@@ -59,4 +59,4 @@ class BlockPattern {
 // Of the elements of cloth: corners of a triangle, and the two corners across a hinge.
 BlockPattern pattern_of_cloth(Index particle_count, std::span<const Triangle> triangles, std::span<const Hinge> hinges);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // uv of the hinge's edge, seen from one of its triangles: x1 - x0.
@@ -182,4 +182,4 @@ void set_panel_rest_stretch(ClothModel& model, Index panel, const Vec2& b) {
   ++model.rest_version;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct ClothState {  // copy to save, assign to restore
   Vec3s x, v;        // m, m/s
@@ -74,4 +74,4 @@ void set_gathers(ClothModel& model, double share);
 void set_rest_stretch(ClothModel& model, Index triangle, const Vec2& b);
 void set_panel_rest_stretch(ClothModel& model, Index panel, const Vec2& b);
 
-}  // namespace toile
+}  // namespace toile::internal

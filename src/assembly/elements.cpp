@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t grain = 512;  // elements per block of work
@@ -232,4 +232,4 @@ MembraneResponse Elements::membrane(Index triangle) const {
 template void Elements::assemble(double, BlockMatrix<float>&);
 template void Elements::assemble(double, BlockMatrix<double>&);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include "assembly/cloth_model.hpp"
 #include "material/membrane_batch.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 class Elements {
  public:
@@ -85,4 +85,4 @@ class Elements {
 extern template void Elements::assemble(double, BlockMatrix<float>&);
 extern template void Elements::assemble(double, BlockMatrix<double>&);
 
-}  // namespace toile
+}  // namespace toile::internal

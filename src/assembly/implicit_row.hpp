@@ -11,7 +11,7 @@
 
 #include <span>
 
-namespace toile {
+namespace toile::internal {
 
 struct LinearSpring {
   std::array<Index, 4> particle{-1, -1, -1, -1};  // -1: unused
@@ -53,4 +53,4 @@ inline ImplicitRow implicit_row(const LinearSpring& s, double h_s, std::span<con
   return implicit_row(s, h_s, v, y, h_s);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

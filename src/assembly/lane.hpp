@@ -4,7 +4,7 @@
 #pragma once
 #include "core/types.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // Four doubles: for systems that single precision does not bear, and for tests and references.
 struct alignas(32) DoubleLane {
@@ -111,4 +111,4 @@ struct Block {
   }
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <queue>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // All of the height, as people are built: a hand is 0.11 long, an arm with it 0.44.
@@ -162,4 +162,4 @@ Arms find_arms(std::span<const Vec3> x, std::span<const Triangle> triangles) {
   return std::array<Arm, 2>{std::move(*left), std::move(*right)};
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Arm {
   Vec3 root{0, 0, 0};       // middle of the ring at the armpit
@@ -26,4 +26,4 @@ struct Arm {
 using Arms = std::optional<std::array<Arm, 2>>;
 Arms find_arms(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
-}  // namespace toile
+}  // namespace toile::internal

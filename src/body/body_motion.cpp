@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -141,4 +141,4 @@ void BodyMotion::add_to(Hash& hash) const {
   source_->add_to(hash);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -22,7 +22,7 @@
 #include <span>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 struct SampleOptions {
   double rate_hz = 30;  // samples per second
@@ -86,4 +86,4 @@ class BodyMotion {
   std::shared_ptr<const Source> source_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

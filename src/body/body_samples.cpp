@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -140,4 +140,4 @@ void BodySamples::add_to(Hash& hash) const {
   hash.add(std::span<const double>(numbers));
 }
 
-}  // namespace toile
+}  // namespace toile::internal

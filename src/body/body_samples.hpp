@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct NumberedFile {
   std::int64_t number = 0;
@@ -50,4 +50,4 @@ class BodySamples : public BodyMotion::Source {
   std::vector<Vec3f> samples_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 #include <optional>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -228,4 +228,4 @@ CollisionBody from_mannequin(const Mannequin& mannequin) {
   return body;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct CollisionBody {
   std::vector<Vec3> positions;      // m
@@ -43,4 +43,4 @@ CollisionBody make_collision_body(const ObjMesh& mesh, std::string_view file, Le
 
 CollisionBody from_mannequin(const Mannequin& mannequin);
 
-}  // namespace toile
+}  // namespace toile::internal

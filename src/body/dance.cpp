@@ -8,7 +8,7 @@
 #include <initializer_list>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -251,4 +251,4 @@ Posture dance_posture(double t_s) {
   return p;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -131,4 +131,4 @@ bool RoundCone::far(const Vec3& p, double d) const {
   return (p - a).squaredNorm() > 2 * ((b - a).squaredNorm() + reach * reach);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

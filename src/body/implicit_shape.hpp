@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // One cross-section of a loft; all lengths in metres.
 struct LoftSection {
@@ -68,4 +68,4 @@ inline double smooth_min(double a, double b, double k) {
 }
 inline double smooth_max(double a, double b, double k) { return -smooth_min(-a, -b, k); }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -1,7 +1,7 @@
 // body/man_form.cpp: the numbers of the man.
 #include "body/mannequin_form.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -163,4 +163,4 @@ const MannequinForm& man_form() {
   return form;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

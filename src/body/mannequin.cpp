@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -126,4 +126,4 @@ Mannequin make_mannequin(MannequinKind kind) {
   return m;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

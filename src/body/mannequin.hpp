@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Joint {
   std::string name;   // "hips", "spine", "chest", "neck", "head", "shoulder_left", ...
@@ -58,4 +58,4 @@ std::string_view to_string(MannequinKind kind);
 // Takes about a second; call it once.
 Mannequin make_mannequin(MannequinKind kind = MannequinKind::woman);
 
-}  // namespace toile
+}  // namespace toile::internal

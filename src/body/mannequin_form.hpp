@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct MannequinForm {
   // Lofts: `trunk` (from the crotch to the root of the neck), `neck`, `face` (from under the chin to the forehead) and
@@ -65,4 +65,4 @@ const MannequinForm& man_form();
 // The form of a kind; the dancer's is the woman's.
 const MannequinForm& mannequin_form(MannequinKind kind);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -147,4 +147,4 @@ std::vector<Joint> mannequin_joints(const MannequinForm& form) {
   return joints;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

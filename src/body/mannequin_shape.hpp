@@ -7,7 +7,7 @@
 
 #include <memory>
 
-namespace toile {
+namespace toile::internal {
 
 class MannequinShape {
  public:
@@ -37,4 +37,4 @@ struct ArmAxis {
 };
 ArmAxis left_arm_axis(const MannequinForm& form = woman_form());
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -144,4 +144,4 @@ HalfSurface mirror(const HalfSurface& half) {
   return whole;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -130,4 +130,4 @@ Level hips(std::span<const Vec3> positions, std::span<const Triangle> triangles)
   return extreme_girth(positions, triangles, hips_from, waist_from, false);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

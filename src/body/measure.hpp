@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // The closed curves in which the plane (p - origin) . normal = 0 cuts a closed mesh, each as points in order;
 // curves are ordered by the first edge of the mesh that they cross.  A vertex on the plane counts as above it.
@@ -32,4 +32,4 @@ struct Level {
 // such section exists.
 Level hips(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
-}  // namespace toile
+}  // namespace toile::internal

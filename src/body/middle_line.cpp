@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Of the height, in people as they are built [Winter, Biomechanics and Motor Control of Human Movement, 4th ed. 2009, fig. 4.1].
@@ -159,4 +159,4 @@ void MiddleLine::bend(const Posture& posture, std::span<Vec3> x) const {
   });
 }
 
-}  // namespace toile
+}  // namespace toile::internal

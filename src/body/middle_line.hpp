@@ -24,7 +24,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class MiddleLine {
  public:
@@ -64,4 +64,4 @@ class MiddleLine {
   std::vector<Shares> shares_;   // [vertex]
 };
 
-}  // namespace toile
+}  // namespace toile::internal

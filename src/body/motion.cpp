@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -114,4 +114,4 @@ Pose Motion::at(double t_s) const {
   return pose;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

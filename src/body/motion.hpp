@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // "stand", "sway", "walk", "twist", "crouch", "dance".
 std::span<const std::string_view> motion_names();
@@ -69,4 +69,4 @@ class Motion {
   std::vector<Joint> joints_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -151,4 +151,4 @@ Posture crouch_posture(double t_s) {
   return p;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

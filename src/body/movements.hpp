@@ -4,7 +4,7 @@
 #pragma once
 #include "body/posture.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 constexpr double walk_period_s = 1.06;   // a stride: two steps
 constexpr double twist_period_s = 1.25;  // 0.8 Hz
@@ -23,4 +23,4 @@ Posture twist_posture(double t_s);
 Posture crouch_posture(double t_s);
 Posture dance_posture(double t_s);
 
-}  // namespace toile
+}  // namespace toile::internal

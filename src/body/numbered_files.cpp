@@ -7,7 +7,7 @@
 #include <optional>
 #include <system_error>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::vector<NumberedFile> numbered_files(const std::string& path) {
   return frames;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

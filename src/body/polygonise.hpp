@@ -15,7 +15,7 @@
 #include <functional>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 using ScalarField = std::function<double(const Vec3&)>;
 
@@ -33,4 +33,4 @@ void remesh(HalfSurface& surface, const ScalarField& field, const ScalarField& e
 // Mirrors the half: first the vertices on the plane, then those with x > 0, then their images in the same order.
 HalfSurface mirror(const HalfSurface& half);
 
-}  // namespace toile
+}  // namespace toile::internal

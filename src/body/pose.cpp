@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -76,4 +76,4 @@ void SkinnedBody::positions(const Pose& pose, std::span<Vec3> x) const {
   });
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Pose {
   Vec3 root_m = Vec3::Zero();     // shift of the first joint
@@ -53,4 +53,4 @@ class SkinnedBody {
   std::vector<Joint> joints_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -157,4 +157,4 @@ Pose make_pose(const Posture& posture, Legs legs, std::span<const Joint> joints)
   return Poser(posture, joints).make(legs);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 #include <array>
 #include <cstddef>
 
-namespace toile {
+namespace toile::internal {
 
 enum class Channel : std::size_t {
   turn,  // of the whole figure about the vertical through the origin, to its left
@@ -80,4 +80,4 @@ constexpr double sole_depth_m = 0.01;
 // leg; on the way there the knee snaps, its angle going with the root of what is missing, so motions must stay below.
 Pose make_pose(const Posture& posture, Legs legs, std::span<const Joint> joints);
 
-}  // namespace toile
+}  // namespace toile::internal

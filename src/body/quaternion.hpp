@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 
 struct Quaternion {
   double w = 1;
@@ -42,4 +42,4 @@ inline Quaternion rotation_between(const Vec3& from, const Vec3& to) {
   return Quaternion{length + from.dot(to), from.cross(to)}.normalised();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -329,4 +329,4 @@ void remesh(HalfSurface& surface, const ScalarField& field, const ScalarField& e
   surface = remesher.take();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -125,4 +125,4 @@ std::vector<SkinWeights> skin_weights(std::span<const Vec3> positions, std::span
   return skin;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

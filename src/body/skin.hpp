@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // The mesh is that of mirror(): first the vertices with x = 0, then the left ones, then their images in the same
 // order; joints that end in _left have a partner that ends in _right.  An image gets its original's weights with
@@ -19,4 +19,4 @@ namespace toile {
 std::vector<SkinWeights> skin_weights(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                       const std::vector<Joint>& joints);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 #include <string>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -214,4 +214,4 @@ void turn_inside_out(SolidMesh& solid) {
   for (Triangle& t : solid.triangles) std::swap(t[1], t[2]);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct SolidMesh {
   std::vector<Vec3> positions;
@@ -41,4 +41,4 @@ SolidMesh whole_of(const ObjMesh& mesh);
 // A room: the same surface seen from inside.
 void turn_inside_out(SolidMesh& solid);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Of the square of the height: arms become tubes of some 6 cm.  Thinner ones (1e-3: 2 cm) let cuffs collapse around them while they are
@@ -114,4 +114,4 @@ void ThinBody::at(double share, std::span<Vec3> x) const {
   for (std::size_t i = 0; i < shapes_[k].size(); ++i) x[i] = (1 - s) * shapes_[k - 1][i] + s * shapes_[k][i];
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class ThinBody {
  public:
@@ -28,4 +28,4 @@ class ThinBody {
   std::vector<double> shares_;  // when each is reached: by the root mean square way of the vertices
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -1,7 +1,7 @@
 // body/woman_form.cpp: the numbers of the woman (and of the dancer, who is the same with longer edges).
 #include "body/mannequin_form.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -163,4 +163,4 @@ const MannequinForm& woman_form() {
   return form;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

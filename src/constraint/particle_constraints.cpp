@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 
 void ParticleConstraints::resize(Index particle_count) {
   const auto n = static_cast<std::size_t>(particle_count);
@@ -63,4 +63,4 @@ void ParticleConstraints::filter(std::span<Vec3> a) const {
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

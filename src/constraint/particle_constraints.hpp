@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class ParticleConstraints {
  public:
@@ -48,4 +48,4 @@ class ParticleConstraints {
   std::vector<Index> constrained_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using Mover = BodyImpactWorkspace::Mover;
@@ -219,4 +219,4 @@ bool mark_through_body(const ClothTopology& cloth, TriangleTree& tree, std::span
   return any;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

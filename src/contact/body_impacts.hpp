@@ -14,7 +14,7 @@
 #pragma once
 #include "contact/impacts.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 struct BodyGuard {
   const BodySurface* body = nullptr;  // in motion from positions() to next_positions()
@@ -45,4 +45,4 @@ struct BodyImpactWorkspace {
 bool mark_through_body(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x, const BodySurface& body,
                        BodyImpactWorkspace& workspace, std::vector<char>& through);
 
-}  // namespace toile
+}  // namespace toile::internal

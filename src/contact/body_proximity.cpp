@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t triangle_grain = 1024, feature_grain = 1024;
@@ -169,4 +169,4 @@ void find_body_contacts(const ClothTopology& cloth, TriangleTree& cloth_tree, st
                 contacts);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

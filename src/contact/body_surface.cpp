@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t normal_grain = 1024;
@@ -287,4 +287,4 @@ int BodySurface::winding_number(const Vec3& p) const {
   return winding;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // The nearest point of a closed body to one point.
 struct BodyPoint {
@@ -124,4 +124,4 @@ class BodySurface {
   std::vector<double> ridge_bend_;     // [edge]
 };
 
-}  // namespace toile
+}  // namespace toile::internal

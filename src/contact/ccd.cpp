@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using Points = std::array<Vec3, 4>;
@@ -158,4 +158,4 @@ double edge_edge_impact(const Points& x, const Points& u, double separation_m) {
   return first_impact<TwoEdges>(x, u, std::max(p[0], p[1]) + std::max(p[2], p[3]), separation_m);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

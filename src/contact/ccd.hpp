@@ -38,7 +38,7 @@
 
 #include <array>
 
-namespace toile {
+namespace toile::internal {
 
 inline constexpr double no_impact = 2;  // a time later than any step
 
@@ -49,4 +49,4 @@ double vertex_face_impact(const std::array<Vec3, 4>& x, const std::array<Vec3, 4
 // The same for the edges x[0] x[1] and x[2] x[3].
 double edge_edge_impact(const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, double separation_m);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t query_grain = 512, triangle_grain = 1024;
@@ -353,4 +353,4 @@ void find_cloth_contacts(const ClothTopology& cloth, TriangleTree& tree, std::sp
   for (const Index i : memory.sorted.order()) contacts.push_back(memory.cloth_edges[static_cast<std::size_t>(i)]);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -124,4 +124,4 @@ Sweep sweep(const IntersectionContour& contour, std::span<const Triangle> triang
   return result;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -18,7 +18,7 @@
 #pragma once
 #include "contact/intersection_contours.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // A point of a surface, and a vector there.
 struct ContourPull {
@@ -45,4 +45,4 @@ Sweep sweep(const IntersectionContour& contour, std::span<const Triangle> triang
             std::span<const SurfaceCrossing> crossings, std::span<const Vec3> x, int side,
             std::span<const Index> region);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <string>
 #include <tuple>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t grain = 4096;
@@ -184,4 +184,4 @@ int count_crossing_edges(std::span<const SurfaceCrossing> crossings) {
   return count;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

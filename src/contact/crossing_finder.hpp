@@ -19,7 +19,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct FoundCrossings {
   std::vector<SurfaceCrossing> all;  // of cloth with cloth, then of cloth with the body; each by (edge, triangle)
@@ -67,4 +67,4 @@ std::vector<Triangle> joined_triangles(std::span<const Triangle> cloth, std::siz
 // How many different edges a list that is sorted by edge names.
 int count_crossing_edges(std::span<const SurfaceCrossing> crossings);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Squared sine below which a triangle is treated as its three edges: they then hold its every point to 1e-6 of its
@@ -126,4 +126,4 @@ EdgeEdge closest_edge_edge(const Vec3& p0, const Vec3& p1, const Vec3& q0, const
   return result;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

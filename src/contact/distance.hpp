@@ -10,7 +10,7 @@
 #pragma once
 #include "core/types.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 enum class Feature : std::uint8_t { face, edge, vertex };
 
@@ -49,4 +49,4 @@ inline bool interior_edge_edge(const Vec3& p0, const Vec3& p1, const Vec3& q0, c
   return true;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

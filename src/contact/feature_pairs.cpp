@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr float steps_ahead = 4;      // of as much motion as there was of late
@@ -109,4 +109,4 @@ void FeaturePairs::list(Keys Found::*keys, std::size_t rows, IndexRows& lists) c
   each([&](std::size_t first, Index second) { values[static_cast<std::size_t>(offsets[first + 1]++)] = second; });
 }
 
-}  // namespace toile
+}  // namespace toile::internal

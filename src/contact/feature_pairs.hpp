@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // Pairs of features that do not touch (share a merged particle) and whose boxes overlap, of one task of the tree's walk over itself:
 // on_vertex(particle, triangle) and on_edges(lesser edge, greater edge), each pair once.
@@ -96,4 +96,4 @@ class FeaturePairs {
   std::vector<Found> found_;  // by task
 };
 
-}  // namespace toile
+}  // namespace toile::internal

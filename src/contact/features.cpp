@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Rows from (row, value) pairs given by row_of(i), value_of(i), i ascending.
@@ -102,4 +102,4 @@ ClothTopology::ClothTopology(std::size_t particle_count, std::span<const Triangl
       [](std::size_t e) { return static_cast<Index>(e); });
 }
 
-}  // namespace toile
+}  // namespace toile::internal

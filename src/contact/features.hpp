@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // [triangle] bit k: owns corner k;  bit 3 + k: owns edge k (corners k, k+1).  Every particle with a triangle and every
 // edge has exactly one owner, the first triangle that has it.
@@ -78,4 +78,4 @@ class ClothTopology {
   std::vector<Index> edge_class_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t list_grain = 512;
@@ -204,4 +204,4 @@ double impact_time(const Impact& pair, std::span<const Vec3> start, std::span<co
                                                : edge_edge_impact(x, u, pair.separation_m);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -21,7 +21,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Impact {
   ContactKind kind;               // vertex_face: (vertex, corners);  edge_edge: (ends, ends)
@@ -67,4 +67,4 @@ bool decide_impact(const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, I
 // When does this pair meet on another motion?  As Impact::time, or no_impact.
 double impact_time(const Impact& pair, std::span<const Vec3> start, std::span<const Vec3> end);
 
-}  // namespace toile
+}  // namespace toile::internal

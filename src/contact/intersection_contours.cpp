@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -230,4 +230,4 @@ void SurfaceRegions::grow(std::vector<char>& marked, int rings) const {
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -22,7 +22,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct SurfaceCrossing {
   std::array<Index, 2> edge;  // particles, smaller first
@@ -89,4 +89,4 @@ class SurfaceRegions {
 // The index of an edge in topology.edges; -1 when there is none.
 Index find_edge(const Topology& topology, std::array<Index, 2> edge);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 
 // A box in single precision that holds the double precision box it was made from.
 struct OuterBox {
@@ -106,4 +106,4 @@ void for_lanes(unsigned bits, Body&& body) {
   for (; bits != 0; bits &= bits - 1) body(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-}  // namespace toile
+}  // namespace toile::internal

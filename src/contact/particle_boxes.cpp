@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t box_grain = 1024;
@@ -63,4 +63,4 @@ bool ParticleBoxes::within(const ParticleBoxes& other) const {
   return true;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class ParticleBoxes {
  public:
@@ -47,4 +47,4 @@ class ParticleBoxes {
   std::vector<OuterBox> boxes_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-namespace toile {
+namespace toile::internal {
 
 enum class Pinched : std::uint8_t { no, with_room, without_room };
 
@@ -25,4 +25,4 @@ bool is_let_be(const Particles& particles, std::span<const Pinched> pinched) {
                      [&](Index i) { return i >= 0 && pinched[static_cast<std::size_t>(i)] == Pinched::without_room; });
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -36,7 +36,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // Cosine of the angle to a direction within the cloth above which a record leans into the feature's own surroundings.
 inline constexpr double region_tolerance = 0.1;
@@ -83,7 +83,7 @@ struct ProximityOptions {
   double depth_m = 10e-3;  // body: and penetrating less than this
   // 0.1 leaves nothing that leans into its own cloth; 0.5 keeps contacts in sharp creases, where sewing squeezes folds together.
   // Sheets slide with either: what locked them was the stiffness of slanting rows (step/contact_rows.hpp).
-  double region_tolerance = toile::region_tolerance;
+  double region_tolerance = toile::internal::region_tolerance;
   // Edges (a < b) of the cloth that count as bent, whatever their faces say: rows that lie flat because they act.
   std::span<const std::array<Index, 2>> bent = {};
 };
@@ -123,4 +123,4 @@ void find_body_contacts(const ClothTopology& cloth, TriangleTree& cloth_tree, st
                         const BodySurface& body, const ProximityOptions& options, ProximityWorkspace& workspace,
                         std::vector<BodyContact>& contacts);
 
-}  // namespace toile
+}  // namespace toile::internal

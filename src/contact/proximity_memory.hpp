@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct ProximityWorkspace::Memory {
   using Keys = std::vector<std::pair<Index, Index>>;
@@ -136,4 +136,4 @@ class Surroundings {
   double range2_, tolerance2_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

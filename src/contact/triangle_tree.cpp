@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr Index task_size = 512;    // a task's nodes hold at most this many triangles
@@ -259,4 +259,4 @@ void TriangleTree::overlapping(const Box& box, std::vector<Index>& triangles) co
   std::sort(triangles.begin(), triangles.end());
 }
 
-}  // namespace toile
+}  // namespace toile::internal

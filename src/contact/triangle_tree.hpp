@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Box {
   Vec3 low, high;
@@ -267,4 +267,4 @@ double TriangleTree::nearest(const Vec3& p, double bound2, Visit&& visit) const 
   return bound2;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 __extension__ typedef __int128 Wide;
@@ -144,4 +144,4 @@ bool passes_through(const WholePoint& p, const WholePoint& q, const WholePoint& 
   return side == perturbed_orientation({&p, &q, &b, &c}) && side == perturbed_orientation({&p, &q, &c, &a});
 }
 
-}  // namespace toile
+}  // namespace toile::internal

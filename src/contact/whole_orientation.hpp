@@ -15,7 +15,7 @@
 
 #include <array>
 
-namespace toile {
+namespace toile::internal {
 
 inline constexpr int whole_bits = 60;  // of a coordinate
 
@@ -35,4 +35,4 @@ int perturbed_orientation(const std::array<const WholePoint*, 4>& points);
 bool passes_through(const WholePoint& p, const WholePoint& q, const WholePoint& a, const WholePoint& b,
                     const WholePoint& c);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double mb = 1 << 20;
@@ -57,4 +57,4 @@ double available_memory_mb() {
   return std::min({least, limit_mb(RLIMIT_AS), limit_mb(RLIMIT_DATA)});
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // Keeps its memory between calls.
 class BucketOrder {
@@ -47,4 +47,4 @@ class BucketOrder {
   std::vector<std::uint64_t> packed_;  // second, index
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace toile {
+namespace toile::internal {
 
 // While it lives, its thread reads and writes such numbers as zero: in float and in double.  What the host had set returns afterwards.
 // Elsewhere than on x86 nothing happens.
@@ -33,4 +33,4 @@ class DenormalsAreZero {
 #endif
 };
 
-}  // namespace toile
+}  // namespace toile::internal

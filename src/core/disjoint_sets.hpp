@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace toile {
+namespace toile::internal {
 
 class DisjointSets {
  public:
@@ -40,4 +40,4 @@ class DisjointSets {
   std::vector<Index> parent_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

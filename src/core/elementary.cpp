@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Pair {  // hi + lo, unevaluated; |lo| at most half a unit in the last place of hi
@@ -130,4 +130,4 @@ double ieee_asin(double x) {
   return ieee_atan2(x, std::sqrt((1 - x) * (1 + x)));
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 // sin and cos of |x| > 1e6 are NaN: no angle in a garment is that large, and reducing one needs more digits of pi.
 #pragma once
 
-namespace toile {
+namespace toile::internal {
 
 // Angle of the point (x, y) from the x axis, in [-pi, pi].  Signed zeros and infinities as in IEEE 754: (-0, -1) is -pi.
 double ieee_atan2(double y, double x);
@@ -20,4 +20,4 @@ double ieee_cos(double x);
 // NaN outside [-1, 1].
 double ieee_asin(double x);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::string input_message(std::string_view where, std::string_view place, std::string_view expected,
@@ -70,4 +70,4 @@ std::string_view nearest_name(std::string_view name, const std::string_view* fir
   return best;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

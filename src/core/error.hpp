@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 // The process exit codes of the command line; a contract with scripts.
 enum class ExitCode {
@@ -54,6 +54,6 @@ std::string printable(std::string_view name);
 // The candidate nearest to `name` by edit distance, for "did you mean"; empty when there is none.
 std::string_view nearest_name(std::string_view name, const std::string_view* first, std::size_t count);
 
-}  // namespace toile
+}  // namespace toile::internal
 
 #define TOILE_ASSERT(expr) assert(expr)

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 inline std::string hex_of(std::uint64_t value) {
   static constexpr char digits[] = "0123456789abcdef";
@@ -76,4 +76,4 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 void parallel_blocks(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
   if (count == 0) return;
@@ -105,4 +105,4 @@ int start_threads(int threads) {
   return threads;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

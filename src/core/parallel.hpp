@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace toile {
+namespace toile::internal {
 
 // Calls body(begin, end) for consecutive blocks of `grain` indices that cover [0, count).
 void parallel_blocks(std::size_t count, std::size_t grain,
@@ -33,4 +33,4 @@ int usable_cores();
 // the caller.  Without it they start when they are first needed, and a thread that is refused then ends the program.
 int start_threads(int threads);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <sanitizer/tsan_interface.h>
 #endif
 
-namespace toile {
+namespace toile::internal {
 
 class PoolOrder {
  public:
@@ -29,4 +29,4 @@ class PoolOrder {
 #endif
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 template <class T>
 concept RawState = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -183,4 +183,4 @@ class StateReader {
   std::size_t at_ = 0;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

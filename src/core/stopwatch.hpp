@@ -2,7 +2,7 @@
 #pragma once
 #include <chrono>
 
-namespace toile {
+namespace toile::internal {
 
 class Stopwatch {
  public:
@@ -25,4 +25,4 @@ class Timed {
   double& total_s_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -2,7 +2,7 @@
 
 #include <tbb/task_group.h>
 
-namespace toile {
+namespace toile::internal {
 
 struct Tasks::Group {
   tbb::task_group tasks;
@@ -25,4 +25,4 @@ void Tasks::wait() {
   order_.all_done();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace toile {
+namespace toile::internal {
 
 class Tasks {
  public:
@@ -23,4 +23,4 @@ class Tasks {
   PoolOrder order_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

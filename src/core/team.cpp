@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <thread>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int spins = 4000;  // some tens of microseconds
@@ -71,4 +71,4 @@ void Team::wait_until(const std::atomic<unsigned>& value, unsigned differs_from)
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <functional>
 #include <memory>
 
-namespace toile {
+namespace toile::internal {
 
 class Team {
  public:
@@ -50,4 +50,4 @@ class Team {
   std::atomic<int> long_waits_{0};
 };
 
-}  // namespace toile
+}  // namespace toile::internal

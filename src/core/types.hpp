@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 using Index = std::int32_t;  // a particle, triangle, edge ...; -1 where documented means "none"
 
@@ -23,4 +23,4 @@ using Vec3s = std::vector<Vec3>;
 
 using Triangle = std::array<Index, 3>;  // counter-clockwise seen from outside
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 // Bytes of the character that begins the text, which is not empty; 0: it is not UTF-8 (overlong, a surrogate, beyond U+10FFFF, cut).
 inline std::size_t utf8_character_bytes(std::string_view text) {
@@ -19,4 +19,4 @@ inline std::size_t utf8_character_bytes(std::string_view text) {
   return overlong || beyond ? 0 : bytes;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -125,4 +125,4 @@ Boundary find_boundary(const Pattern& pattern) {
   return boundary;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

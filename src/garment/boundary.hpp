@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Opening {
   std::vector<StitchSide> edges;  // in order
@@ -33,4 +33,4 @@ struct Boundary {
 // All outlines must be loops, and every stitch name two edges that no other names.
 Boundary find_boundary(const Pattern& pattern);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -406,4 +406,4 @@ void Delaunay::roll_back() {
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

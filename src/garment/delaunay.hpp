@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // The triangles of a simple polygon given counter-clockwise, by clipping ears; corners on a straight run are kept,
 // and no triangle is flat.  O(n r) for r corners that are not convex.  `ring` holds indices into `points`.
@@ -115,4 +115,4 @@ class Delaunay {
   Index first_new_face_ = 0, first_new_vertex_ = 0;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

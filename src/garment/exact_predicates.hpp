@@ -13,7 +13,7 @@
 #include <array>
 #include <cstdint>
 
-namespace toile {
+namespace toile::internal {
 
 struct GridPoint {
   std::int32_t x = 0, y = 0;
@@ -46,4 +46,4 @@ inline std::int64_t squared_length(const GridPoint& a, const GridPoint& b) {
   return x * x + y * y;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using Ring = std::vector<Index>;  // a piece's outline, as numbers of points
@@ -99,4 +99,4 @@ FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<con
   return folded;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

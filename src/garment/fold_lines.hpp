@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct FoldLine {
   Index from = 0, to = 0;              // points of the outline
@@ -37,4 +37,4 @@ struct FoldedPlanarMesh {
 FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<const FoldLine> lines, double edge_m,
                                     std::span<const FinerZone> finer = {});
 
-}  // namespace toile
+}  // namespace toile::internal

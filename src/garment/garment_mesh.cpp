@@ -17,7 +17,7 @@
 #include <numeric>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -313,4 +313,4 @@ MeshQuality mesh_quality(const ClothMesh& mesh) {
   return quality;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

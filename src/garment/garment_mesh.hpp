@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct SeamPair {  // two particles that will become one
   Index a = 0, b = 0;
@@ -83,4 +83,4 @@ struct WeldedMesh {
 };
 WeldedMesh weld(const GarmentMesh& garment);
 
-}  // namespace toile
+}  // namespace toile::internal

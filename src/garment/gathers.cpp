@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Of the area as drawn.  Three lengths that leave a triangle less, or are none of a triangle, do not become its shape: it stays as drawn.
@@ -145,4 +145,4 @@ void gather(ClothMesh& mesh, std::span<const Gather> gathers) {
   for (std::size_t t = 0; t < mesh.uv.size(); ++t) mesh.gathered_uv[t] = gathering.shape(t);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // Longer / shorter side, above which a seam is gathered and not eased.  Ease of 1.10 stretches the short side by 1.4 %, in proportion.
 constexpr double gathered_ratio = 1.15;
@@ -45,4 +45,4 @@ struct Gather {                  // the longer side of a seam
 // Sets mesh.gathered_uv, if there are gathers.  The mesh is not welded yet.
 void gather(ClothMesh& mesh, std::span<const Gather> gathers);
 
-}  // namespace toile
+}  // namespace toile::internal

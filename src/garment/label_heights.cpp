@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double pull_N_per_m = 20, give_m = 0.02, damping_s = 0.02;
@@ -51,4 +51,4 @@ LabelSprings LabelSprings::welded(std::span<const Index> particle_of) const {
   return joined;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct LabelHeight {
   std::string label;  // of edges in the pattern: "lower_interface" ...
@@ -38,4 +38,4 @@ class LabelSprings {
   std::vector<Held> held_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numeric>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double parallel = 0.98;  // cosine between normals of panels that can cover each other: 11 degrees
@@ -99,4 +99,4 @@ void separate_layers(GarmentMesh& garment, const Vec3& middle) {
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,11 +6,11 @@
 #pragma once
 #include "garment/garment_mesh.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 inline constexpr double layer_gap_m = 0.01;  // thrice the distance at which layers touch while they are sewn
 
 // `middle`: of the body; away from it is outwards.
 void separate_layers(GarmentMesh& garment, const Vec3& middle);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 #include <set>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // A round mends one thing, and its time goes with the number of edges; a file with more faults is told what it was until there.
@@ -356,4 +356,4 @@ LintReport lint_pattern(std::string_view text, std::string_view file, const std:
   return Mending(text, file, body).run();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

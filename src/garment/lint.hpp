@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 enum class Severity {
   error,
@@ -66,4 +66,4 @@ struct LintReport {
 // `file` is for messages.
 LintReport lint_pattern(std::string_view text, std::string_view file, const std::optional<BodyFigures>& body = {});
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -2,7 +2,7 @@
 #pragma once
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 namespace reason {
 // The outline of a panel.
@@ -39,4 +39,4 @@ inline constexpr std::string_view no_way_for_hand = "no_way_for_hand";
 inline constexpr std::string_view no_way_for_foot = "no_way_for_foot";
 }  // namespace reason
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct LintProblem {
   LintFinding finding;
@@ -69,4 +69,4 @@ void lint_seams(LintContext& context);
 void lint_size(LintContext& context);
 void lint_openings(LintContext& context);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -20,7 +20,7 @@
 #include <cmath>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double inward = 0.25;          // out above looks inward
@@ -156,4 +156,4 @@ void lint_flips(LintContext& context) {
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Girths of an adult 1.70 m tall, m; of another body by its height.  The least that is usual: 5th percentiles of women, about.
@@ -235,4 +235,4 @@ void lint_openings(LintContext& context) {
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

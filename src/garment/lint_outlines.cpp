@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Ends of an outline this near were meant to be one corner: 2 mm is a pencil line and a rounded file; 1 % of the outline what a
@@ -423,4 +423,4 @@ void lint_outlines(LintContext& context) {
   for (std::size_t p = 0; p < context.pattern.panels.size(); ++p) OutlineLint(context, static_cast<Index>(p)).run();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double same_length = 1.02;   // longer / shorter edge of a seam that is neither eased nor gathered
@@ -417,4 +417,4 @@ class SeamLint {
 
 void lint_seams(LintContext& context) { SeamLint(context).run(); }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 #include <array>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Band {
@@ -249,4 +249,4 @@ class SizeLint {
 
 void lint_size(LintContext& context) { SizeLint(context).run(); }
 
-}  // namespace toile
+}  // namespace toile::internal

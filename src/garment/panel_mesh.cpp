@@ -11,7 +11,7 @@
 #include <exception>
 #include <iterator>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -176,4 +176,4 @@ std::span<const PanelMesh> PanelMesher::mesh(double outline_m, std::span<const d
   return meshes_;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

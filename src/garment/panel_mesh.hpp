@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct PanelMesh {
   std::vector<std::vector<Index>> edge_points;  // [edge] first to last corner, in the edge's direction
@@ -40,4 +40,4 @@ class PanelMesher {
   std::vector<PanelMesh> meshes_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

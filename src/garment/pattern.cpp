@@ -19,7 +19,7 @@
 #include <numbers>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // An edge with its end points in a fixed order.
@@ -232,4 +232,4 @@ std::vector<Vec2> sample_edge(const Panel& panel, const PanelEdge& edge, int cou
   return points;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

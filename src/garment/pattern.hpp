@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 enum class CurveKind { line, quadratic, cubic, circle };
 
@@ -79,4 +79,4 @@ double edge_length_m(const Panel& panel, const PanelEdge& edge);
 Pattern load_pattern(const std::string& path);
 Pattern parse_pattern(std::string_view text, std::string_view file);
 
-}  // namespace toile
+}  // namespace toile::internal

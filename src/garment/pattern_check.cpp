@@ -20,7 +20,7 @@
 #include <optional>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using Part = PatternFault::Part;
@@ -469,4 +469,4 @@ void check_pattern(const Pattern& pattern) {
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

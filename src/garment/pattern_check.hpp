@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // The limits, all stated in docs/pattern-format.md.
 struct PatternLimits {
@@ -80,4 +80,4 @@ struct PatternSummary {
 // The pattern must be sound.
 PatternSummary summarize(const Pattern& pattern);
 
-}  // namespace toile
+}  // namespace toile::internal

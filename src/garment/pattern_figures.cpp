@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Of 60 random patterns on their own bodies, waists hang 0 to 1.0 cm above the waist and armholes 0.2 to 1.1 cm above the tips of the shoulders;
@@ -186,4 +186,4 @@ std::vector<Misfit> misfits(const Pattern& pattern, const BodyFigures& body) {
   return found;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

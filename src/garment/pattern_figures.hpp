@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // Labels of edges, as GarmentCode gives them.
 namespace edge_label {
@@ -47,4 +47,4 @@ struct Misfit {
 // What says that the pattern is cut for another body, or another pose; nothing where either is not known.
 std::vector<Misfit> misfits(const Pattern& pattern, const BodyFigures& body);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -21,7 +21,7 @@
 #include <numbers>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -450,4 +450,4 @@ Pattern load_pattern(const std::string& path) {
   return PatternReader(root, false).read(path).pattern;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct PanelSource {  // where the parts of a panel stand in the file
   const Json* panel = nullptr;
@@ -34,4 +34,4 @@ PatternReading read_pattern_leniently(const Json& root, std::string_view file);
 const Json& json_of_fault(const PatternFault& fault, const Json& root, const Pattern& pattern,
                           std::span<const PanelSource> panels, const Json& stitches);
 
-}  // namespace toile
+}  // namespace toile::internal

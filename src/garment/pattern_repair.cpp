@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -207,4 +207,4 @@ void PatternRepair::set_units_in_meter(double units) {
   root_->member("properties").member("units_in_meter") = JsonValue(units);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 class PatternRepair {
  public:
@@ -53,4 +53,4 @@ class PatternRepair {
   bool absolute_curves_, centred_panels_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

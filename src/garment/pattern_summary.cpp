@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -85,4 +85,4 @@ PatternSummary summarize(const Pattern& pattern) {
   return summary;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

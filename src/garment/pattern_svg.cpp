@@ -13,7 +13,7 @@
 #include <cmath>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -394,4 +394,4 @@ std::string draw_pattern(const Pattern& pattern, std::span<const LintFinding> fi
   return Drawing(pattern, findings).run();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,9 +8,9 @@
 #include <span>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 // `pattern` may be as broken as the linter reads it.  The same bytes for the same input, in every locale.
 std::string draw_pattern(const Pattern& pattern, std::span<const LintFinding> findings);
 
-}  // namespace toile
+}  // namespace toile::internal

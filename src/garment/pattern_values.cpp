@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double largest_fold_deg = 170;  // at 180 a hinge cannot tell one side from the other
@@ -59,4 +59,4 @@ Index read_index(const Json& json, std::size_t count, const char* what) {
   return static_cast<Index>(value);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // "; did you mean X?", or nothing.
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
@@ -28,4 +28,4 @@ Eigen::Matrix<double, size, 1> read_numbers(const Json& json) {
   return v;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

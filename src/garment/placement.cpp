@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double lowest_m = -0.12, highest_m = 0.16, step_m = 0.01;  // vertical shifts
@@ -128,4 +128,4 @@ void find_blocked(const GarmentMesh& garment, const BodySurface& body, Placement
                                 placement.blocked_seams.end());
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 inline constexpr double legacy_origin = 0.68;  // of the body's height: where y = 0 is in the frame of the 2021 tool
 
@@ -32,4 +32,4 @@ inline Placement place_garment(GarmentMesh& garment, const BodySurface& body) {
   return place_garment(garment, body, body.positions().size());
 }
 
-}  // namespace toile
+}  // namespace toile::internal

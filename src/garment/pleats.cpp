@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double half_laid_rad = 85.0 / 180 * std::numbers::pi;  // layers lie 10 degrees apart
@@ -146,4 +146,4 @@ PleatedPattern resolve_pleats(const Pattern& pattern) {
   return resolved;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Pleat {
   std::size_t over = 0, under = 0, inner = 0;  // stitches: of a, b, c
@@ -43,4 +43,4 @@ PleatedPattern resolve_pleats(const Pattern& pattern);
 // would have to find the order of its layers while its seams close.  Only straight folds are laid.
 void lay_pleats(const ClothMesh& mesh, Index panel, std::span<Vec3> x);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -2,7 +2,7 @@
 
 #include "garment/pattern_check.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -50,4 +50,4 @@ PanelSides panel_sides(const Pattern& pattern) {
   return sides;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // A seam counts as twisted when sewing it the other way round would bring the placed edges this much nearer.  Two edges of the same panel
 // edge-on to each other say nothing; only a clear difference does.
@@ -27,4 +27,4 @@ struct PanelSides {
 };
 PanelSides panel_sides(const Pattern& pattern);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int most_escalations = 3;  // thin layers, then two doublings of the pull
@@ -349,4 +349,4 @@ ClothState weld_state(const GarmentMesh& garment, const WeldedMesh& welded, cons
   return joined;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

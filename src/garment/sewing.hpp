@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct SewingOptions {
   double closing_speed_m_per_s = 0.5;  // of the widest pair
@@ -140,4 +140,4 @@ std::vector<double> weld_thickness(const WeldedMesh& welded, const std::vector<d
 // Layers come back to their fabrics' thickness, a frame of the drape at a time.
 void grow_thickness(std::vector<double>& scale);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double shoulder_from = 0.6, shoulder_to = 1;  // of the way from the body's middle to an arm's root
@@ -96,4 +96,4 @@ std::array<bool, 2> covers_shoulders(const GarmentMesh& garment, const std::arra
   return covers;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <array>
 #include <span>
 
-namespace toile {
+namespace toile::internal {
 
 inline constexpr double near_an_arm =
     0.2;  // of the body's height: how far from an arm's root a sleeve without a label may hang
@@ -27,4 +27,4 @@ std::array<double, 2> hang_sleeves(GarmentMesh& garment, const std::array<ArmLin
 // and strapless tops end below it.
 std::array<bool, 2> covers_shoulders(const GarmentMesh& garment, const std::array<ArmLine, 2>& arms);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Text between tags: what XML reads as a mark is written as a name; a control character is no XML at all.
@@ -112,4 +112,4 @@ void SvgText::text(const Vec2& place, std::string_view words, const SvgFont& fon
   text_.append(">").append(escaped(words)).append("</text>\n");
 }
 
-}  // namespace toile
+}  // namespace toile::internal

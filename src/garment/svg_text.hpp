@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 std::string svg_number(double value);      // at most three digits behind the point
 std::string svg_point(const Vec2& point);  // "x,y"
@@ -40,4 +40,4 @@ class SvgText {
   std::string text_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

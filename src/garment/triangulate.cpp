@@ -13,7 +13,7 @@
 #include <numeric>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -205,4 +205,4 @@ PlanarQuality planar_quality(const PlanarMesh& mesh) {
   return quality;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct PlanarMesh {
   std::vector<Vec2> points;         // the polygon's points first, in order and unchanged, then interior points
@@ -45,4 +45,4 @@ PlanarMesh equilateral_sheet(double width_m, double height_m, double edge_m);
 
 PlanarQuality planar_quality(const PlanarMesh& mesh);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -268,4 +268,4 @@ void smooth(Delaunay& mesh, int sweeps) {
 
 void improve(Delaunay& mesh, double edge) { Improvement(mesh, edge).run(); }
 
-}  // namespace toile
+}  // namespace toile::internal

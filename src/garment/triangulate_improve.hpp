@@ -2,7 +2,7 @@
 #pragma once
 #include "garment/delaunay.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // Moves every inner vertex to the area-weighted mean of the circumcentres around it (optimal Delaunay triangulation,
 // Chen and Holst 2011), `sweeps` times, with flips after each sweep.  A regular lattice is a fixed point.
@@ -13,4 +13,4 @@ void smooth(Delaunay& mesh, int sweeps);
 // better.
 void improve(Delaunay& mesh, double edge);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -199,4 +199,4 @@ std::vector<GridPoint> lattice_inside(std::span<const GridPoint> outline, double
   return points;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

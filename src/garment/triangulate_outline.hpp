@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct GridOutline {
   std::vector<GridPoint> points;  // as many as the outline has, in its order
@@ -29,4 +29,4 @@ std::vector<GridPoint> lattice_inside(std::span<const GridPoint> outline, double
 // The shortest decimal number that reads back as `value`, for error messages.
 std::string shortest_text(double value);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <span>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double m_per_cm = 0.01, rad_per_deg = std::numbers::pi / 180;
@@ -145,4 +145,4 @@ BodyMeasurements parse_measurements(std::string_view text, std::string_view file
   return measured;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

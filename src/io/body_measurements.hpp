@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 struct BodyMeasurements {
   double height_m = 0;                                         // the only one that is needed
@@ -36,4 +36,4 @@ bool holds_measurements(std::string_view text, std::string_view file);
 // person, or lies above the crown or below the floor.
 BodyMeasurements parse_measurements(std::string_view text, std::string_view file);
 
-}  // namespace toile
+}  // namespace toile::internal

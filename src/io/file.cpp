@@ -14,7 +14,7 @@
 #include <system_error>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // "cannot open: No such file or directory"
@@ -260,7 +260,7 @@ void GrowingFile::truncate(std::uint64_t size) {
 }
 
 void GrowingFile::synchronize() const {
-  if (const int error = toile::synchronize(descriptor_)) throw IoError(path_, reason("cannot write", error));
+  if (const int error = toile::internal::synchronize(descriptor_)) throw IoError(path_, reason("cannot write", error));
 }
 
 void remove_file(const std::string& path) {
@@ -284,4 +284,4 @@ void make_directories(const std::string& path) {
   if (error) throw IoError(path, "cannot create the directory: " + error.message());
 }
 
-}  // namespace toile
+}  // namespace toile::internal

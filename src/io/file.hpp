@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 // The whole file.  Throws IoError (cannot open, is a directory, read error) or InputError when larger than `limit`.
 std::string read_file(const std::string& path, std::size_t limit_bytes = std::size_t{1} << 31);
@@ -86,4 +86,4 @@ void synchronize_directory(const std::string& directory);
 // Creates the directory and its parents, as far as they are missing; "" is the current one.  Throws IoError.
 void make_directories(const std::string& path);
 
-}  // namespace toile
+}  // namespace toile::internal

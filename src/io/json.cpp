@@ -7,7 +7,7 @@
 
 #include "io/file.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // How far the parser has read, shared by all copies of the iterator that it makes.
@@ -447,4 +447,4 @@ std::string Json::describe() const {
   return {};
 }
 
-}  // namespace toile
+}  // namespace toile::internal

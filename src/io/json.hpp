@@ -19,7 +19,7 @@
 #include <variant>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class Json {
  public:
@@ -94,4 +94,4 @@ class Json {
   int index_ = -1;  // in the array whose place_ this is; -1 when place_ is this value's own
 };
 
-}  // namespace toile
+}  // namespace toile::internal

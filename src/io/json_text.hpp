@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 class JsonText {
  public:
@@ -116,4 +116,4 @@ class JsonText {
   bool first_ = true, after_key_ = false;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t line_length = 100;  // characters: a corner, an edge or a stitch is one line
@@ -105,4 +105,4 @@ std::string to_text(const JsonValue& value) {
   return text.str() + '\n';
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct JsonValue {
   using Array = std::vector<JsonValue>;
@@ -39,4 +39,4 @@ struct JsonValue {
 // What fits into a line of 100 characters stands on one; ends with a line feed.
 std::string to_text(const JsonValue& value);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct ObjMesh {
   std::vector<Vec3> positions;  // as in the file, no unit conversion
@@ -42,4 +42,4 @@ ObjMesh load_obj(const std::string& path);
 // Throws IoError, and InputError for arrays that do not fit together or a number that is not finite.
 void write_obj(const std::string& path, const ObjMesh& mesh);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include "io/file.hpp"
 #include "io/obj.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Words of a line, with the number of the line on which each one stands.
@@ -307,4 +307,4 @@ ObjMesh parse_obj(std::string_view text, std::string_view file) {
 
 ObjMesh load_obj(const std::string& path) { return parse_obj(read_file(path), path); }
 
-}  // namespace toile
+}  // namespace toile::internal

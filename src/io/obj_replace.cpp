@@ -6,7 +6,7 @@
 #include <charconv>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
@@ -89,4 +89,4 @@ std::string with_positions(std::string_view text, std::span<const Vec3> position
   return out;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 // The text with the k-th `v` line holding positions[k], written so that it reads back to the same double; what follows
 // the three coordinates on such a line (weight, colour) stays.  A position equal to the file's leaves its line as it is.
@@ -17,4 +17,4 @@ namespace toile {
 // not that of the positions.
 std::string with_positions(std::string_view text, std::span<const Vec3> positions, std::string_view file);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include "io/file.hpp"
 #include "io/obj.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // A text on its way to the file, in large pieces.
@@ -177,4 +177,4 @@ void write_obj(const std::string& path, const ObjMesh& mesh) {
   file.commit();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

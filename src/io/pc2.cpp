@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file is little-endian, and so must the machine be");
@@ -181,4 +181,4 @@ void Pc2Reader::read(int frame, std::vector<Vec3>& positions) {
 
 std::uint64_t Pc2Reader::frame_checksum() const { return checksum(buffer_.data(), buffer_.size() * sizeof(float)); }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // Frames are committed as they come: after each append the file under its name is complete, and its header counts what is there.
 class Pc2Writer {
@@ -80,4 +80,4 @@ class Pc2Reader {
   std::vector<float> buffer_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

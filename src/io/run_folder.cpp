@@ -17,7 +17,7 @@
 #include <system_error>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::string_view seal_key = "\"report_hash\": \"";
@@ -261,4 +261,4 @@ bool is_intact(std::string_view text) {
          text.substr(value, hash_digits) == hex_of(checksum(text.data(), value));
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // Every name that Toile may use in the folder of a run.
 inline constexpr std::array<std::string_view, 15> run_file_names = {
@@ -98,4 +98,4 @@ std::string sealed(std::string json_object);
 // Whether it is as it was sealed.
 bool is_intact(std::string_view text);
 
-}  // namespace toile
+}  // namespace toile::internal

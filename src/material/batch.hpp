@@ -6,11 +6,11 @@
 
 #include <array>
 
-namespace toile {
+namespace toile::internal {
 
 inline constexpr std::size_t batch_size = 8;
 using Batched = double[batch_size];  // one number of eight elements; aligned to the whole of it wherever it stands
 
 constexpr std::size_t batches_for(std::size_t elements) { return (elements + batch_size - 1) / batch_size; }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double smallest_sine = 1e-4;       // of an angle between the hinge and a side of its triangles
@@ -140,4 +140,4 @@ double paper_bend_stiffness(const Vec2& along, double k_u, double k_v) {
   return k_u * d.x() * d.x() + k_v * d.y() * d.y();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #pragma once
 #include "core/types.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 struct BendRest {
   double kappa_N_m = 0;  // stiffness of this hinge
@@ -49,4 +49,4 @@ double hinge_rigidity(const Vec2& across, double bend_u_N_m, double bend_v_N_m);
 // The weight of 1998, for `along` the edge itself: (k_u du^2 + k_v dv^2)/(du^2 + dv^2); the mean of both for a zero vector.
 double paper_bend_stiffness(const Vec2& along, double k_u, double k_v);
 
-}  // namespace toile
+}  // namespace toile::internal

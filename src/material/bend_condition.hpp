@@ -7,7 +7,7 @@
 #include "material/bend.hpp"
 #include "material/condition.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 struct BendCondition {
   static constexpr std::string_view name = "bend";
@@ -24,4 +24,4 @@ struct BendCondition {
 };
 static_assert(Condition<BendCondition>);
 
-}  // namespace toile
+}  // namespace toile::internal

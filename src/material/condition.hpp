@@ -19,7 +19,7 @@
 
 #include "core/types.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 template <std::size_t N, std::size_t M>
 struct ConditionValue {
@@ -87,4 +87,4 @@ ConditionForce<N> condition_force(const ConditionValue<N, M>& c, const ElementVe
   return out;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Where each number comes from: docs/theory/fabrics.md.  Cotton is the default member values of Fabric.
@@ -115,4 +115,4 @@ void check_fabric(const Fabric& fabric, std::string_view where, std::string_view
   check("thickness_m", fabric.thickness_m, false);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 struct Fabric {
   std::string name = "cotton";
@@ -37,4 +37,4 @@ const Fabric& fabric_preset(std::string_view name, std::string_view where, std::
 // not be: density, stretch and thickness.
 void check_fabric(const Fabric& fabric, std::string_view where, std::string_view place);
 
-}  // namespace toile
+}  // namespace toile::internal

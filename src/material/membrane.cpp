@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 MembraneRestBatch all_lanes(const MembraneRest& rest, const MembraneStiffness& k) {
@@ -32,4 +32,4 @@ MembraneResponse membrane_response(const MembraneRest& rest, const MembraneStiff
   return membrane_response_of(batch, state, 0, {damping_jacobian, projection});
 }
 
-}  // namespace toile
+}  // namespace toile::internal

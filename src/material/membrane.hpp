@@ -25,7 +25,7 @@
 #pragma once
 #include "core/types.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 struct MembraneStiffness {
   double k_u = 0, k_v = 0, k_shear = 0;   // N/m (N/m^3 with paper scaling)
@@ -71,4 +71,4 @@ MembraneResponse membrane_response(const MembraneRest& rest, const MembraneStiff
                                    DampingJacobian damping_jacobian = DampingJacobian::gauss_newton,
                                    Projection projection = Projection::semidefinite);
 
-}  // namespace toile
+}  // namespace toile::internal

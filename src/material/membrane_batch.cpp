@@ -9,7 +9,7 @@
 #include "material/wide-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace toile::HWY_NAMESPACE {
+namespace toile::internal::HWY_NAMESPACE {
 namespace {
 
 // Below this |w| has no direction that double precision could name; it is 120 orders away from any cloth.
@@ -393,11 +393,11 @@ void response_of(const MembraneRestBatch& rest, const MembraneStateBatch& state,
 }
 
 }  // namespace
-}  // namespace toile::HWY_NAMESPACE
+}  // namespace toile::internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace toile {
+namespace toile::internal {
 namespace {
 HWY_EXPORT(evaluate);
 HWY_EXPORT(forces);
@@ -463,5 +463,5 @@ MembraneResponse membrane_response_of(const MembraneRestBatch& rest, const Membr
   return response;
 }
 
-}  // namespace toile
+}  // namespace toile::internal
 #endif

@@ -9,7 +9,7 @@
 #include "material/batch.hpp"
 #include "material/membrane.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 struct alignas(64) MembraneRestBatch {
   Batched alpha[3], beta[3];  // [corner]
@@ -61,4 +61,4 @@ MembraneResponse membrane_response_of(const MembraneRestBatch& rest, const Membr
 // E at (w_u, w_v) of the state, J.
 void membrane_energies(const MembraneRestBatch& rest, MembraneStateBatch& state);
 
-}  // namespace toile
+}  // namespace toile::internal

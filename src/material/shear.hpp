@@ -8,7 +8,7 @@
 #pragma once
 #include "material/condition.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 struct ShearCondition {
   static constexpr std::string_view name = "shear";
@@ -37,4 +37,4 @@ struct ShearCondition {
 };
 static_assert(Condition<ShearCondition>);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 #pragma once
 #include "material/condition.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 struct StretchCondition {
   static constexpr std::string_view name = "stretch";
@@ -47,4 +47,4 @@ struct StretchCondition {
 };
 static_assert(Condition<StretchCondition>);
 
-}  // namespace toile
+}  // namespace toile::internal

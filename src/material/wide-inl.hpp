@@ -14,7 +14,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace toile::HWY_NAMESPACE {
+namespace toile::internal::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using WideTag = hn::CappedTag<double, batch_size>;
@@ -93,7 +93,7 @@ HWY_INLINE void add_to_diagonal(Wide a, WideMat3& m) {
   m.row[2].z = m.row[2].z + a;
 }
 
-}  // namespace toile::HWY_NAMESPACE
+}  // namespace toile::internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

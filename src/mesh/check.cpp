@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "mesh/half_edges.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Below these fractions of what a well-shaped element of that size has, an area or a volume is rounding noise.
@@ -173,4 +173,4 @@ void check_closed(std::string_view where, std::span<const Vec3> positions, std::
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 // Throws InputError("<where>", "triangle 12", expected, got) at the first: no triangles at all, index out of range,
 // corner used twice, non-finite position, duplicate triangle (in either winding), non-manifold edge, inconsistently
@@ -22,4 +22,4 @@ void check_cloth(std::string_view where, const ClothMesh& mesh, std::span<const 
 // The volume is that of the whole surface: a hollow body, with its inner shell facing inwards, passes.
 void check_closed(std::string_view where, std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -1,6 +1,6 @@
 #include "mesh/cloth_mesh.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 MaterialFrame material_frame(const std::array<Vec2, 3>& uv) {
   const Vec2 edge1 = uv[1] - uv[0];                                // (du1, dv1)
@@ -20,4 +20,4 @@ MaterialFrame material_frame(const std::array<Vec2, 3>& uv) {
   return frame;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct PanelCloth {         // what a panel asks for by itself; a scene may say otherwise
   std::string fabric;       // a preset's name; empty: the garment's
@@ -47,4 +47,4 @@ struct MaterialFrame {
 // Not finite when the triangle has no area in the pattern: check_cloth (mesh/check.hpp) refuses it first.
 MaterialFrame material_frame(const std::array<Vec2, 3>& uv);
 
-}  // namespace toile
+}  // namespace toile::internal

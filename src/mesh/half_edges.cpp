@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 void check_corners(std::string_view where, Index particle_count, std::span<const Triangle> triangles) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -76,4 +76,4 @@ void check_edges(std::string_view where, std::span<const HalfEdge> half_edges) {
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct HalfEdge {
   Index a, b;  // the smaller and the larger particle
@@ -32,4 +32,4 @@ std::size_t edge_end(std::span<const HalfEdge> half_edges, std::size_t first);
 // in the same direction.
 void check_edges(std::string_view where, std::span<const HalfEdge> half_edges);
 
-}  // namespace toile
+}  // namespace toile::internal

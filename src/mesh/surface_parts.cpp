@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -49,4 +49,4 @@ SurfaceParts surface_parts(std::span<const Triangle> triangles, std::span<const 
   return result;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

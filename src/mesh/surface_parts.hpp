@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct SurfacePart {
   double volume_m3 = 0;  // negative when it is turned inside out; means nothing unless closed
@@ -20,4 +20,4 @@ struct SurfaceParts {
 // Through shared vertices.  Corners must be in range.
 SurfaceParts surface_parts(std::span<const Triangle> triangles, std::span<const Vec3> positions);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -2,7 +2,7 @@
 
 #include "mesh/half_edges.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // The corner opposite to side k (corners k, k+1) is corner k+2.
@@ -49,4 +49,4 @@ Topology build_topology(Index particle_count, std::span<const Triangle> triangle
   return topology;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

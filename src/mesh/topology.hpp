@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Edge {
   Index a, b;                     // a < b
@@ -41,4 +41,4 @@ struct Topology {
 // is out of range or used twice.
 Topology build_topology(Index particle_count, std::span<const Triangle> triangles);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -1,7 +1,7 @@
 // preview/bitmap_font.cpp: the dots of the font.
 #include "preview/bitmap_font.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Glyph {
@@ -111,4 +111,4 @@ void draw_text(Image& image, int x, int y, int scale, std::string_view text,
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 constexpr int glyph_width = 5, glyph_height = 7, glyph_advance = 6;  // dots
 
@@ -14,4 +14,4 @@ const std::array<std::uint8_t, 7>& glyph(char character);
 // Draws from the left top corner (x, y) in pixels; a dot is `scale` x `scale` pixels.  Parts outside the image are left out.
 void draw_text(Image& image, int x, int y, int scale, std::string_view text, const std::array<std::uint8_t, 3>& colour);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double frame_share = 0.92;        // of the picture's half width and height that the box may fill
@@ -94,4 +94,4 @@ Vec3 project(const Camera& camera, int width, int height, const Vec3& point) {
           0.5 * height * (1 - p.dot(axes.up) / (depth * axes.tan_y)), depth};
 }
 
-}  // namespace toile
+}  // namespace toile::internal

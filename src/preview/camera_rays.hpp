@@ -3,7 +3,7 @@
 #include "preview/preview.hpp"
 #include "preview/vec3f.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // Unit axes: right and up in the picture, forward into it; tangents of half the field of view.
 struct CameraAxes {
@@ -26,4 +26,4 @@ struct CameraRays {
   Vec3f direction(float x, float y) const { return forward + (x * step_x - 1.0f) * right + (1.0f - y * step_y) * up; }
 };
 
-}  // namespace toile
+}  // namespace toile::internal

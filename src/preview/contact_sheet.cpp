@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::array<std::uint8_t, 3> paper{246, 246, 245}, ink{52, 54, 58};
@@ -61,4 +61,4 @@ Image contact_sheet(std::span<const Image> images, std::span<const std::string> 
   return sheet;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

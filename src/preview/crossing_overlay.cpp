@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double radius_m = 0.0012, smallest_radius_px = 1.6;
@@ -78,4 +78,4 @@ void draw_crossings(Image& image, const Camera& camera, std::span<const std::arr
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int passes = 4;
@@ -85,4 +85,4 @@ std::vector<Vec3f> denoised_radiance(const std::vector<PixelLight>& pixels, int 
   return radiance;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,11 +9,11 @@
 
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // The radiance of every pixel, changed by the smoothed light of its larger layer.
 // `metre_per_pixel` is a pixel's size at the subject.
 std::vector<Vec3f> denoised_radiance(const std::vector<PixelLight>& pixels, int width, int height,
                                      float metre_per_pixel);
 
-}  // namespace toile
+}  // namespace toile::internal

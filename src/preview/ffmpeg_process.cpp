@@ -22,7 +22,7 @@
 
 extern char** environ;
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int film_descriptor = 3;           // of the child
@@ -254,4 +254,4 @@ void FfmpegProcess::finish(const std::function<bool()>& stop) {
   fail(WIFSIGNALED(status) ? "was ended by signal " + std::to_string(WTERMSIG(status)) : "failed");
 }
 
-}  // namespace toile
+}  // namespace toile::internal

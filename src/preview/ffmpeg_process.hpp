@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 // The first executable file `ffmpeg` in PATH.  Throws IoError, with advice, when there is none.
 std::string find_ffmpeg();
@@ -41,4 +41,4 @@ class FfmpegProcess {
   int errors_ = -1;  // our end of the child's standard error
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <optional>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::string size_of(const Image& image) { return std::to_string(image.width) + " x " + std::to_string(image.height); }
@@ -47,4 +47,4 @@ void write_mp4(const std::string& path, int count, double fps, const std::functi
   film.commit();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr float key_azimuth = 0.85f, key_elevation = 0.82f;  // rad, left of the camera and above the horizon
@@ -69,4 +69,4 @@ Vec3f LightRig::sky(const Vec3f& d) const {
   return light;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

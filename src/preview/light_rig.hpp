@@ -6,7 +6,7 @@
 #pragma once
 #include "preview/vec3f.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 class LightRig {
  public:
@@ -32,4 +32,4 @@ class LightRig {
   Vec3f sun_, ground_from_sun_, ground_from_sky_, ambient_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

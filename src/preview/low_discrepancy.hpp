@@ -12,7 +12,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace toile {
+namespace toile::internal {
 
 inline std::uint32_t mix_bits(std::uint32_t x) {
   x ^= x >> 16;
@@ -82,4 +82,4 @@ inline Vec3f cosine_direction(const Vec3f& n, const Vec2f& u) {
   return along_normal(n, radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::max(0.0f, 1.0f - u.x())));
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int bounces_of_a_path = 2;   // surfaces after the first
@@ -257,4 +257,4 @@ PixelLight PathTracer::trace(int x, int y) const {
   return pixel;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -14,7 +14,7 @@
 #include "preview/ray_scene.hpp"
 #include "preview/vec3f.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // What a pixel's samples found.  All but `radiance` are of the pixel's larger layer alone, the surfaces or the ground with the
 // background, so that an outline neither blurs nor keeps its noise.
@@ -60,4 +60,4 @@ class PathTracer {
   Vec3f centre_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

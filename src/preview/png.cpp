@@ -7,7 +7,7 @@
 
 #include <png.h>
 
-namespace toile {
+namespace toile::internal {
 
 void write_png(const std::string& path, const Image& image) {
   const auto pixels =
@@ -35,4 +35,4 @@ void write_png(const std::string& path, const Image& image) {
   file.commit();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Image {
   int width = 0, height = 0;
@@ -108,4 +108,4 @@ void write_png(const std::string& path, const Image& image);
 void write_mp4(const std::string& path, int count, double fps, const std::function<Image(int)>& picture,
                const std::function<bool()>& stop = {});
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -14,7 +14,7 @@
 #include <limits>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Neutral clay.
@@ -262,4 +262,4 @@ bool RayScene::occluded(const Vec3f& origin, const Vec3f& direction) const {
   return ray.tfar < 0;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

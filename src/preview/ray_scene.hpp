@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct RayMesh {
   std::vector<Vec3f> positions;               // one unused entry at the end: the ray tracer reads 16 bytes per vertex
@@ -54,4 +54,4 @@ class RayScene {
   bool empty_ = true;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

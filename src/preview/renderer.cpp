@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int largest_side = 16384;
@@ -162,4 +162,4 @@ Image turntable_sheet(const PreviewScene& scene, const RenderOptions& options, c
   return contact_sheet(images, captions, static_cast<int>(views.size()));
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 
 using Vec2f = Eigen::Vector2f;
 using Vec3f = Eigen::Vector3f;
@@ -22,4 +22,4 @@ inline float smoothstep(float low, float high, float x) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

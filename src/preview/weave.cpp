@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr float line_share = 0.075f, line_depth = 0.34f;  // width as a share of the grid, and how much darker it is
@@ -40,4 +40,4 @@ float weave_mean(float grid_m) {
   return along * along;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 //
 // Mind: extents are in metres of cloth, not of space: under stretch a pixel covers less cloth, and lines grow apart and wider.
 #pragma once
-namespace toile {
+namespace toile::internal {
 
 // The share, in [0, 1], of the interval [x - extent/2, x + extent/2] covered by bands of width `band` centred on the multiples
 // of `period`.  All in the same unit; period > 0, 0 <= band <= period, extent >= 0.
@@ -19,4 +19,4 @@ float weave_shade(float u, float v, float extent_u, float extent_v, float grid_m
 // Its mean over the cloth: for light that bounced, where the pixel's extent is not known.
 float weave_mean(float grid_m);
 
-}  // namespace toile
+}  // namespace toile::internal

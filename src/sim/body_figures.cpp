@@ -14,7 +14,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace toile {
+namespace toile::internal {
 
 namespace {
 
@@ -95,4 +95,4 @@ std::string odd_pose(const BodyMeasurements& measured, const BodyFigures& figure
       measured.file, *figures.arm_down_deg, said_deg);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 // Of an upright person, measured on the surface; what is not found is 0.  A tape knows better where a waist is, and has what no surface shows:
 // what `measured` has goes before.
@@ -19,4 +19,4 @@ void add_arms(BodyFigures& figures, const Arms& arms);
 // A sentence when the file is about another pose than the mesh's; empty when not.
 std::string odd_pose(const BodyMeasurements& measured, const BodyFigures& figures);
 
-}  // namespace toile
+}  // namespace toile::internal

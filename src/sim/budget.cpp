@@ -18,7 +18,7 @@
 #include <numbers>
 #include <system_error>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Memory, measured as the peak of whole runs (bench/notes.md, "What a run takes").
@@ -354,4 +354,4 @@ void check_budget(const Budget& budget, const BudgetLimits& limits) {
                      largest_items(budget)));
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct BudgetItem {
   std::string what;  // `cloth "skirt", panel "front"`, "body woman", "solid 2 (sphere)"
@@ -58,4 +58,4 @@ inline void require_budget(const Scene& scene, const TextSource& read, const Bud
   check_budget(estimate_budget(scene, read), limits);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

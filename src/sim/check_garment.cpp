@@ -2,7 +2,7 @@
 
 #include "mesh/check.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -38,4 +38,4 @@ void throw_within(const std::string& where, const InputError& error) {
   throw Error(error.code(), what.starts_with(where) ? what : where + ": " + what);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

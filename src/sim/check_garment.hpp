@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 // Throws InputError whose place begins with `where` (a file, or a file's line and a pointer) for panels that check_cloth refuses, as they lie and as
 // their seams will weld them.
@@ -14,4 +14,4 @@ void check_garment(const std::string& where, const GarmentMesh& garment);
 // The error with `where` before its message, unless it names that place itself.
 [[noreturn]] void throw_within(const std::string& where, const InputError& error);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 #include <system_error>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file is little-endian, and so must the machine be");
@@ -113,4 +113,4 @@ std::optional<std::string> read_checkpoint(const std::string& path, std::uint64_
   return state;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

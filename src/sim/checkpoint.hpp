@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 struct CheckpointOptions {
   double every_s = 1;    // of wall time
@@ -48,4 +48,4 @@ class Checkpoints {
 // The state in the folder; empty when there is none.  Throws InputError when it is not whole, of another version, or of other inputs.
 std::optional<std::string> read_checkpoint(const std::string& path, std::uint64_t input_hash);
 
-}  // namespace toile
+}  // namespace toile::internal

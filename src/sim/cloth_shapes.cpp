@@ -14,7 +14,7 @@
 #include <limits>
 #include <numbers>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -220,4 +220,4 @@ GarmentMesh shaped_cloth(const SceneCloth& cloth) {
   return make_grid(cloth);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

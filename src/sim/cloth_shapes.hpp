@@ -3,7 +3,7 @@
 #include "garment/garment_mesh.hpp"
 #include "sim/scene.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // The cloth's grid, tube or ribbon, placed; one panel with the cloth's name.
 //   grid    in the plane z = 0, facing +z
@@ -14,4 +14,4 @@ namespace toile {
 // Lengths in the drawing are those of the curve, so that only bending is strained at the start.
 GarmentMesh shaped_cloth(const SceneCloth& cloth);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double push_share = 0.6;    // of the mean edge
@@ -78,4 +78,4 @@ void mark_particles(const SurfaceCrossing& crossing, std::span<const Triangle> t
   for (const Index i : triangles[at(crossing.triangle)]) marked[at(i)] = 1;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // `all`: triangles of the cloth, and of a body behind them (contact/intersection_contours.hpp).  All are kept by reference.
 class ContourPush {
@@ -42,4 +42,4 @@ LinearSpring spring_along(const ContourPull& point, const Vec3& move_m);
 // Marks the particles of a crossing's edge and triangle.
 void mark_particles(const SurfaceCrossing& crossing, std::span<const Triangle> triangles, std::vector<char>& marked);
 
-}  // namespace toile
+}  // namespace toile::internal

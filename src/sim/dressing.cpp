@@ -7,7 +7,7 @@
 
 #include <numeric>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // The garment's part, fabrics and elastic behind those of the outfit; its mesh is not there yet.
@@ -134,4 +134,4 @@ Outfit Dressing::worn(const GarmentMesh& panels) const {
 
 LabelSprings Dressing::labels() const { return LabelSprings(panels_, options_.label_heights).welded(particle_of()); }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 // What sewing the garment onto the outfit leads to, but for where it is: mesh, parts, fabrics, all at rest in the origin.  Returns the springs of
 // the labels that hold the new garment.
@@ -62,4 +62,4 @@ class Dressing {
       std::numeric_limits<std::size_t>::max();  // pairs and crossings, of all times that cloth was taken apart
 };
 
-}  // namespace toile
+}  // namespace toile::internal

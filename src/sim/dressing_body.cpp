@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // From the weld: it waits; arms come out; they are lowered, and are down before the body is full.
@@ -98,4 +98,4 @@ void DressingBody::at(double t_s, std::span<Vec3> x) const {
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <array>
 #include <span>
 
-namespace toile {
+namespace toile::internal {
 
 class DressingBody {
  public:
@@ -62,4 +62,4 @@ class DressingBody {
   Vec3s standing_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

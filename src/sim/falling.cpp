@@ -11,7 +11,7 @@
 #include <limits>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -162,4 +162,4 @@ std::optional<LostGarment> slid_down(std::span<const OutfitPart> parts, std::spa
   return lost;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // Of what falls, the way sideways: trimmed paper planes have 4 to 8, and need a shape that cloth does not keep.  More is on the safe side: a
 // garment that is far beside the body is found out later.
@@ -87,4 +87,4 @@ std::optional<LostGarment> slid_down(std::span<const OutfitPart> parts, std::spa
                                      std::span<const Vec3> cloth, std::span<const Vec3> person,
                                      std::span<const Triangle> triangles);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -18,7 +18,7 @@
 #include <variant>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -145,7 +145,7 @@ SolidMesh shape_of(const SceneSolid& solid, Hash& inputs) {
     SolidMesh operator()(const SceneSolid::Sphere& sphere) const { return ball(sphere.radius_m, solid.edge_m); }
     SolidMesh operator()(const SceneSolid::Box& box) const { return block(box.size_m); }
     SolidMesh operator()(const SceneSolid::Revolved& revolved) const {
-      return toile::revolved(revolved.profile_m, solid.edge_m);
+      return toile::internal::revolved(revolved.profile_m, solid.edge_m);
     }
     SolidMesh operator()(const SceneSolid::Mesh& mesh) const {
       const std::string text = read_file(mesh.path), file = printable(mesh.path);
@@ -228,4 +228,4 @@ void add_solids(std::span<const SceneSolid> solids, LoadedBody& body, Hash& inpu
   body.movement = std::move(whole);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -42,4 +42,4 @@ ClothModel model_as_it_is(std::span<const Triangle> triangles, std::span<const V
   return model;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

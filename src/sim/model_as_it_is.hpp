@@ -8,9 +8,9 @@
 
 #include <span>
 
-namespace toile {
+namespace toile::internal {
 
 // Without gravity.  No triangle may be without area.
 ClothModel model_as_it_is(std::span<const Triangle> triangles, std::span<const Vec3> x, const Fabric& fabric);
 
-}  // namespace toile
+}  // namespace toile::internal

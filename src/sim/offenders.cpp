@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -90,4 +90,4 @@ ObjMesh offenders_obj(const ClothMesh& mesh, std::span<const Vec3> x, std::span<
   return obj;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 // "3 triangles of front (120, 121, 122), 1 of back (500)": at most eight numbers per panel.  Empty for no triangle.
 std::string name_triangles(const ClothMesh& mesh, std::span<const Index> triangles);
@@ -16,4 +16,4 @@ std::string name_triangles(const ClothMesh& mesh, std::span<const Index> triangl
 ObjMesh offenders_obj(const ClothMesh& mesh, std::span<const Vec3> x, std::span<const Index> triangles,
                       std::span<const Triangle> body, std::span<const Vec3> body_x, double near_m = 0.02);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 
 Index Outfit::part_of_panel(Index panel) const {
   const auto after = std::upper_bound(parts.begin(), parts.end(), panel,
@@ -67,4 +67,4 @@ void put_behind(Outfit& outfit, const GarmentMesh& garment, std::span<const Fabr
   outfit.seams += static_cast<int>(garment.seams.size());
 }
 
-}  // namespace toile
+}  // namespace toile::internal

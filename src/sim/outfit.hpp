@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct OutfitPart {  // one garment, or a grid
   std::string name;
@@ -47,4 +47,4 @@ void put_behind(Outfit& outfit, const GarmentMesh& garment, std::span<const Fabr
 // those of the outfit are welded already.
 GarmentMesh over(const Outfit& outfit, const GarmentMesh& garment);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double weightless_s = 0.2, ramp_s = 0.3;  // after the weld
@@ -168,4 +168,4 @@ FrameReport OutfitRun::frame() {
   return report;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -17,7 +17,7 @@
 #include <optional>
 #include <span>
 
-namespace toile {
+namespace toile::internal {
 
 struct Settling {            // of a garment that has just been sewn
   bool sewn = false;         // false: nothing to settle (a grid, or a drape that is taken up again)
@@ -114,4 +114,4 @@ class OutfitRun {
   std::optional<AdaptiveStep> stepper_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 
 void add_frame(PhaseReport& phase, const FrameReport& frame) {
   ++phase.frames;
@@ -41,4 +41,4 @@ void set_seconds(PhaseReport& phase, const PhaseSeconds& seconds, const PhaseSec
   phase.body = seconds.body - before.body;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -3,11 +3,11 @@
 #include "sim/report.hpp"
 #include "step/adaptive_step.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 void add_frame(PhaseReport& phase, const FrameReport& frame);
 void add_seconds(PhaseReport& phase, const PhaseSeconds& seconds);
 // Of what happened since `before`.
 void set_seconds(PhaseReport& phase, const PhaseSeconds& seconds, const PhaseSeconds& before = {});
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Take {  // one cache and the surface that it moves
@@ -286,4 +286,4 @@ void picture_crossings(const std::string& directory, int frame, const std::strin
   write_png(png, three_views(scene, ends.empty() ? x : ends, 0.05, options));
 }
 
-}  // namespace toile
+}  // namespace toile::internal

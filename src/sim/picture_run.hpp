@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct PictureOptions {
   int sheet_width = 400, sheet_height = 560, sheet_samples = 12;  // of one view
@@ -27,4 +27,4 @@ void picture_run(const std::string& directory, const PictureOptions& options,
 // The crossings of one frame in red, from three sides, as near as shows all of them.  Throws as picture_run.
 void picture_crossings(const std::string& directory, int frame, const std::string& png);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double at_rest_mm_per_s = 2, rest_s = 0.5;  // when a drape may stop
@@ -97,4 +97,4 @@ bool Recorder::at_rest() const {
                      [](double v) { return v <= at_rest_mm_per_s; });
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class Recorder {
  public:
@@ -35,4 +35,4 @@ class Recorder {
   std::deque<double> speeds_;  // p99 of each frame of the last second, mm/s
 };
 
-}  // namespace toile
+}  // namespace toile::internal

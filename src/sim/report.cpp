@@ -7,7 +7,7 @@
 #error "TOILE_VERSION comes from the build"
 #endif
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 void add(JsonText& text, std::string_view key, const PenetrationCount& count) {
@@ -377,4 +377,4 @@ std::string to_json(const Report& report, int indent) {
   return text.str();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class JsonText;
 
@@ -137,4 +137,4 @@ std::string judgement_details(const Verdict& verdict);
 // The program's version, from the build.
 std::string_view toile_version();
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace toile {
+namespace toile::internal {
 
 // The same convention as a panel's, and by the same code.
 Mat3 rotation_from_degrees(const Vec3& rotation_deg) {
@@ -64,4 +64,4 @@ Vec3 RigidPath::place(double t_s, const Vec3& x) const {
   return placed;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

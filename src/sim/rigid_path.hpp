@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // Nothing that a scene leads is faster: contacts are found along straight ways within a step.
 inline constexpr double most_led_m_per_s = 100;
@@ -59,4 +59,4 @@ class RigidPath {
   Vec3 centre_{0, 0, 0};
 };
 
-}  // namespace toile
+}  // namespace toile::internal

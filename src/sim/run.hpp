@@ -29,7 +29,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 enum class RunPhase : std::uint8_t { sewing, growth, inner_drape, drape, motion };
 
@@ -203,4 +203,4 @@ void Run::keep(Phase& phase) {
   checkpoints_->save(archive.take());
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double rest_s = 0.5;  // after a garment has settled, before it may be said to be still
@@ -201,4 +201,4 @@ void Run::close(OutfitRun& run) {
   report_.layer_gap = run.layer_gap();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -16,7 +16,7 @@
 #include <numeric>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double sewing_film_fps = 30;
@@ -430,4 +430,4 @@ bool Run::drape_inner(std::size_t k) {
   return true;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Equal vt of one panel are one vt: a seam has one per panel, everything else one per particle.
@@ -140,4 +140,4 @@ void RunWriter::finish(const std::function<std::string(const std::vector<Written
   folder_->finish(goes_on);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

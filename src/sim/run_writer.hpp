@@ -23,7 +23,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 // How far the caches have come: where a run that is taken up again goes on.
 struct WrittenFrames {
@@ -74,4 +74,4 @@ class RunWriter {
 // The cloth as it stands in cloth.obj: vt in place of (u, v).  What is audited, too.
 ClothMesh drawn_mesh(const ClothMesh& mesh);
 
-}  // namespace toile
+}  // namespace toile::internal

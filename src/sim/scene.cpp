@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 bool is_given(const Json& scene, std::string_view group, std::string_view key) {
@@ -48,4 +48,4 @@ Scene parse_scene(std::string_view text, const std::string& file) {
 
 std::string read_text_file(const std::string& path) { return read_file(path, Json::text_limit); }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -31,7 +31,7 @@
 #include <variant>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // The panel's (b_u, b_v) in time, ascending; straight in between: a cloth that shrinks while it is simulated.
 struct RestStretchKey {
@@ -217,4 +217,4 @@ Scene parse_scene(std::string_view text, const std::string& file);
 using TextSource = std::function<std::string(const std::string& path)>;
 std::string read_text_file(const std::string& path);
 
-}  // namespace toile
+}  // namespace toile::internal

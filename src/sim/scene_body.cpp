@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 
 void settle(const Json& value, SceneMotion& motion) {
   motion.where = value.where();
@@ -36,4 +36,4 @@ void settle(const Json& value, SceneSolid& solid) {
   if (const Json* moves = value.find("moves")) check_ascending(*moves, solid.moves.keys());
 }
 
-}  // namespace toile
+}  // namespace toile::internal

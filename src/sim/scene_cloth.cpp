@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 void check_speed_along(const Json& path, const std::vector<ScenePin::Key>& keys) {
@@ -132,4 +132,4 @@ void settle(const Json& value, SceneCloth& cloth) {
     vertices->fail("a pattern beside it: other shapes have an edge_m", "a number of vertices");
 }
 
-}  // namespace toile
+}  // namespace toile::internal

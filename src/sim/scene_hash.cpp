@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 class SettingsHash {
@@ -146,4 +146,4 @@ void add_to_hash(const Scene& scene, Hash& hash) {
   describe(settings, asked);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

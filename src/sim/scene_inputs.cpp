@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <set>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,4 +56,4 @@ std::vector<InputFile> checksums_of_inputs(std::span<const std::string> paths, c
   return inputs;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 std::vector<std::string> input_paths(const Scene& scene);
 
@@ -15,4 +15,4 @@ std::vector<std::string> input_paths(const Scene& scene);
 // With the checksum of what they hold now, and their paths as seen from `directory`.  What is neither is left out.  Throws IoError.
 std::vector<InputFile> checksums_of_inputs(std::span<const std::string> paths, const std::string& directory);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile::scene_reading {
+namespace toile::internal::scene_reading {
 
 // The keys of an object, and which of them exclude each other.
 class KeyVisitor {
@@ -286,4 +286,4 @@ class SceneReader {
   std::string_view only_key_;  // the object is written as the value of this key
 };
 
-}  // namespace toile::scene_reading
+}  // namespace toile::internal::scene_reading

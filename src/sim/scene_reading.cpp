@@ -8,7 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
-namespace toile::scene_reading {
+namespace toile::internal::scene_reading {
 namespace {
 
 std::string in_words(const Range& range) {
@@ -108,4 +108,4 @@ void SceneReader::box(const Setting& s, const Range& each, std::optional<std::ar
   x = {a.cwiseMin(b), a.cwiseMax(b)};
 }
 
-}  // namespace toile::scene_reading
+}  // namespace toile::internal::scene_reading

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile::scene_reading {
+namespace toile::internal::scene_reading {
 
 // As it stands in the file: units are the caller's.
 double number_in(const Json& value, const Range& range);
@@ -26,4 +26,4 @@ std::string resolve(const std::string& scene_file, const Json& value);
 // Throws for an array of fewer elements.
 void check_least(const Json& array, std::size_t least, std::string_view element);
 
-}  // namespace toile::scene_reading
+}  // namespace toile::internal::scene_reading

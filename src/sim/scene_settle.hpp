@@ -5,7 +5,7 @@
 #include "io/json.hpp"
 #include "sim/scene.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 template <class T>
 void settle(const Json&, T&) {}  // nothing: every key stands for itself
@@ -24,4 +24,4 @@ void settle(const Json& value, Scene& scene);
 // Throws at the time of the first of the keys that `moves` gave which does not come after the one before.
 void check_ascending(const Json& moves, const std::vector<RigidKey>& keys);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -22,7 +22,7 @@
 #include <string_view>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 
 struct Setting {
   std::string_view key;
@@ -76,4 +76,4 @@ inline constexpr std::string_view shared_name = {};
 // "m" of "width_m", "m/s2" of "gravity_m_per_s2", "" of "friction".
 std::string unit_of(std::string_view key);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 
 // A string is a motion by name, unless it looks like a file; of a mesh, unless it is no motion's name.
 inline Shorthand motion_by_name(bool mannequin) {
@@ -124,4 +124,4 @@ void describe(V& v, SceneSolid& solid) {
          1);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using Kind = SettingNode::Kind;
@@ -204,4 +204,4 @@ std::size_t count_settings(const SettingNode& scene) {
   return count(count, scene);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct SettingNode {
   enum class Kind {
@@ -74,4 +74,4 @@ inline constexpr std::string_view settings_begin = "<!-- settings: made by `make
                                   settings_end = "<!-- settings: end -->";
 std::string settings_table(const SettingNode& scene);
 
-}  // namespace toile
+}  // namespace toile::internal

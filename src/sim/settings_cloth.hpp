@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 inline constexpr double most_seconds = 3600, most_fps = 1000;
 inline constexpr double farthest_m = 1e4;  // from the origin
@@ -177,4 +177,4 @@ void describe(V& v, SceneCloth& cloth) {
   v.list({"pins", "what is held, of a cloth that is not sewn", "none"}, cloth.pins);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

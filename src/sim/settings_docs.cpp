@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using Kind = SettingNode::Kind;
@@ -125,4 +125,4 @@ std::string settings_table(const SettingNode& scene) {
   return text;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

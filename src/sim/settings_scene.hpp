@@ -2,7 +2,7 @@
 #pragma once
 #include "sim/settings_body.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 template <class V>
 void describe(V& v, PairFriction& pair) {  // a row
@@ -127,4 +127,4 @@ void describe(V& v, Scene& scene) {
   v.group({"output", "what is written besides"}, [&](auto& of) { describe_output(of, scene); });
 }
 
-}  // namespace toile
+}  // namespace toile::internal

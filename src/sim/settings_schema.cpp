@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using Kind = SettingNode::Kind;
@@ -259,4 +259,4 @@ class Schema {
 
 std::string scene_schema(const SettingNode& scene) { return Schema().of(scene); }
 
-}  // namespace toile
+}  // namespace toile::internal

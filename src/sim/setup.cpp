@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -260,4 +260,4 @@ StepOptions step_options(const Scene& scene, const Fabric& fabric, double edge_m
   return step;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct BodyMovement {
   BodyAt at;  // since it began to move; at 0 s the body is where it stands
@@ -75,4 +75,4 @@ StepOptions step_options(const Scene& scene, const Fabric& fabric, double edge_m
 // Every number of the scene that changes the result; not its name, output or number of threads.
 void add_to_hash(const Scene& scene, Hash& hash);
 
-}  // namespace toile
+}  // namespace toile::internal

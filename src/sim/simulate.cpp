@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 double peak_memory_mb() {
@@ -199,4 +199,4 @@ ExitCode exit_code(const Report& report) {
   return report.verdict.pass ? ExitCode::ok : ExitCode::simulation_failed;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Progress {
   std::string_view phase;    // "meshing", "placing", "sewing", "untangling", "fitting", "draping" ...
@@ -59,4 +59,4 @@ Report simulate(const Scene& scene, const RunOptions& options);
 // ok, simulation_failed or interrupted.
 ExitCode exit_code(const Report& report);
 
-}  // namespace toile
+}  // namespace toile::internal

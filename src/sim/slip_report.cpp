@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 
 void add_slip(JsonText& text, const SlipStatistics& slip) {
   text.key("slip");
@@ -67,4 +67,4 @@ std::string slip_line(const SlipStatistics& slip) {
   return line.empty() ? "" : line + '\n';
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -18,7 +18,7 @@
 #include <limits>
 #include <optional>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double farthest_drawing_m =
@@ -201,4 +201,4 @@ Outfit start_from(const std::string& directory, std::span<const LoadedCloth> clo
   return outfit;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 // The cloth of this scene, welded, as the run in `directory` had draped it (its last frame, or the last before its body moved), at rest.  The run may be coarser or finer: positions
 // are carried over by panel name and pattern coordinates, linearly within its triangles (exact, but for float32, on the same mesh).
@@ -16,4 +16,4 @@ Outfit start_from(const std::string& directory, std::span<const LoadedCloth> clo
 // Adds what a start from `directory` is made of: drawing, and the positions in which it is draped.  Throws as above.
 void add_start(const std::string& directory, Hash& inputs);
 
-}  // namespace toile
+}  // namespace toile::internal

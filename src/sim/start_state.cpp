@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -81,4 +81,4 @@ UntangledStart untangle_start(Outfit& outfit, std::span<const Triangle> body, st
   return {report.iterations, 1e3 * report.largest_move, far_moves(outfit, before)};
 }
 
-}  // namespace toile
+}  // namespace toile::internal

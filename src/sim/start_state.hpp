@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct StartCrossings {  // edges
   int cloth_cloth = 0, cloth_body = 0;
@@ -39,4 +39,4 @@ UntangledStart untangle_start(Outfit& outfit, std::span<const Triangle> body, st
 // Of what sewing leaves: what has not come apart by then comes apart as the body grows, or not at all.
 inline constexpr int sewn_in_vain = 60;
 
-}  // namespace toile
+}  // namespace toile::internal

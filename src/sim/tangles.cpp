@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double guarded_again = 0.1;                   // from here the thickness grows
@@ -82,4 +82,4 @@ void Tangles::append_springs(std::vector<LinearSpring>& springs) const {
   springs.insert(springs.end(), springs_.begin(), springs_.end());
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class Tangles {
  public:
@@ -63,4 +63,4 @@ class Tangles {
   int waited_ = 0;          // looks since then
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -16,7 +16,7 @@
 #include <limits>
 #include <optional>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double edge_m = 0.01;  // mean edge of the cloth as it is scaled here, about
@@ -429,4 +429,4 @@ UntangleReport untangle(std::span<const Triangle> cloth, Vec3s& x, std::span<con
   return report;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

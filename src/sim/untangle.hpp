@@ -22,7 +22,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct UntangleOptions {
   int most_iterations = 0;  // trials; 0: 600, and fewer for more than 1,170 particles
@@ -57,4 +57,4 @@ UntangleReport untangle(std::span<const Triangle> cloth, Vec3s& x, std::span<con
                         std::span<const Vec3> body_x, const UntangleOptions& options = {},
                         const std::function<bool(int iteration, int crossings)>& keep_going = {});
 
-}  // namespace toile
+}  // namespace toile::internal

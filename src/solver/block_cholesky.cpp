@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t entries = BlockCholesky::side * BlockCholesky::side;
@@ -83,4 +83,4 @@ void BlockCholesky::solve(std::span<double> x) const {
   substitute_blocks({static_cast<std::size_t>(blocks_), row_begin_.data(), column_.data(), value_.data()}, x.data());
 }
 
-}  // namespace toile
+}  // namespace toile::internal

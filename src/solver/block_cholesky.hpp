@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class BlockCholesky {
  public:
@@ -43,4 +43,4 @@ class BlockCholesky {
   std::vector<double> value_;                        // [slot] side * side each: of E, then of U
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 HWY_BEFORE_NAMESPACE();
-namespace toile::HWY_NAMESPACE {
+namespace toile::internal::HWY_NAMESPACE {
 namespace {
 
 constexpr std::size_t side = 9, entries = side * side;
@@ -110,11 +110,11 @@ void substitute(const BlockFactor& factor, double* x) {
 }
 
 }  // namespace
-}  // namespace toile::HWY_NAMESPACE
+}  // namespace toile::internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace toile {
+namespace toile::internal {
 namespace {
 HWY_EXPORT(finish);
 HWY_EXPORT(product);
@@ -125,5 +125,5 @@ void finish_row(double* blocks, std::size_t count, double least) { HWY_DYNAMIC_D
 void subtract_product(const double* A, const double* B, double* C) { HWY_DYNAMIC_DISPATCH(product)(A, B, C); }
 void substitute_blocks(const BlockFactor& factor, double* x) { HWY_DYNAMIC_DISPATCH(substitute)(factor, x); }
 
-}  // namespace toile
+}  // namespace toile::internal
 #endif

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace toile {
+namespace toile::internal {
 
 // U by rows of 9 x 9 blocks, each by rows; a row's first block is its diagonal one, of which the upper triangle counts, with the
 // reciprocals of the pivots on its diagonal: 0 where a direction is dead.
@@ -25,4 +25,4 @@ void subtract_product(const double* A, const double* B, double* C);
 // x <- (U^T U)^-1 x, zero where a direction is dead
 void substitute_blocks(const BlockFactor& factor, double* x);
 
-}  // namespace toile
+}  // namespace toile::internal

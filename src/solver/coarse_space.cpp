@@ -10,7 +10,7 @@
 #include <cmath>
 #include <type_traits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Of the whole cloth.  Twice as many save a tenth of the iterations, whose time they take.
@@ -474,4 +474,4 @@ void CoarseSpace<T>::correct(const LinearSystem<T>& system, std::span<const Vec3
 template class CoarseSpace<float>;
 template class CoarseSpace<double>;
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -18,7 +18,7 @@
 
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 template <class T>
 class CoarseSpace {
@@ -97,4 +97,4 @@ class CoarseSpace {
 extern template class CoarseSpace<float>;
 extern template class CoarseSpace<double>;
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t held_per_block = 256;
@@ -193,4 +193,4 @@ Eigen::MatrixXd LinearSystem<T>::to_dense() const {
 template class LinearSystem<float>;
 template class LinearSystem<double>;
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 template <class T>
 class LinearSystem {
@@ -78,4 +78,4 @@ class LinearSystem {
 extern template class LinearSystem<float>;
 extern template class LinearSystem<double>;
 
-}  // namespace toile
+}  // namespace toile::internal

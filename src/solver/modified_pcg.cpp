@@ -11,7 +11,7 @@
 #include <cmath>
 #include <functional>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Of |b'|: what the rounding of A' leaves reachable.
@@ -200,7 +200,7 @@ void ModifiedPcg<T>::correct_coarse_modes(const LinearSystem<T>& system, Share& 
 template <class T>
 double ModifiedPcg<T>::residual_norm2(const LinearSystem<T>& system, Share& share) {
   return sum_over_domains(share, [&](Index begin, Index end) {
-    return toile::residual_norm2(begin, end, system.filtered_inverses_by_place().data(), r_.data());
+    return toile::internal::residual_norm2(begin, end, system.filtered_inverses_by_place().data(), r_.data());
   });
 }
 
@@ -362,4 +362,4 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
 template class ModifiedPcg<float>;
 template class ModifiedPcg<double>;
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -20,7 +20,7 @@
 #include <optional>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 enum class Preconditioner { diagonal, block_jacobi, block_ssor, block_ssor_coarse };
 std::string_view to_string(Preconditioner preconditioner);
@@ -116,4 +116,4 @@ class ModifiedPcg {
 extern template class ModifiedPcg<float>;
 extern template class ModifiedPcg<double>;
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // a_k / D_kk or a_k D_kk
@@ -86,4 +86,4 @@ template PcgReport paper_pcg(const LinearSystem<float>&, std::span<const Vec3>, 
 template PcgReport paper_pcg(const LinearSystem<double>&, std::span<const Vec3>, const PcgOptions&, PaperReading,
                              std::span<Vec3>);
 
-}  // namespace toile
+}  // namespace toile::internal

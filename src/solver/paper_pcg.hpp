@@ -17,7 +17,7 @@
 #pragma once
 #include "solver/modified_pcg.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // eps is options.tolerance (times options.loosen), the cap options.max_iterations; the preconditioner is always the diagonal.
 // dv: out only, the listing has no use for a guess.  In the report, residual, initial_residual and target are roots of delta,
@@ -31,4 +31,4 @@ extern template PcgReport paper_pcg(const LinearSystem<float>&, std::span<const 
 extern template PcgReport paper_pcg(const LinearSystem<double>&, std::span<const Vec3>, const PcgOptions&, PaperReading,
                                     std::span<Vec3>);
 
-}  // namespace toile
+}  // namespace toile::internal

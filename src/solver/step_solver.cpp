@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double rounding = 0x1p-24;
@@ -51,4 +51,4 @@ void StepSolver::held_residual(std::span<const Vec3> x, std::span<const Vec3> b,
   in_double_ ? double_->system.held_residual(x, b, e) : single_.system.held_residual(x, b, e);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -14,7 +14,7 @@
 #include <span>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 
 class StepSolver {
  public:
@@ -62,4 +62,4 @@ class StepSolver {
   bool in_double_ = false;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

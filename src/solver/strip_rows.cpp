@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -159,4 +159,4 @@ void StripRows::backward(const BlockMatrix<double>& A, Index begin, Index end, s
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class StripRows {
  public:
@@ -54,4 +54,4 @@ class StripRows {
   std::vector<StripBlock> block_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <type_traits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -273,4 +273,4 @@ void SweepDomains<T>::filter(const LinearSystem<T>& system, std::size_t domain, 
 template class SweepDomains<float>;
 template class SweepDomains<double>;
 
-}  // namespace toile
+}  // namespace toile::internal

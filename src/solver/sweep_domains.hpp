@@ -14,7 +14,7 @@
 #include <array>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 template <class T>
 class SweepDomains {
@@ -89,4 +89,4 @@ class SweepDomains {
 extern template class SweepDomains<float>;
 extern template class SweepDomains<double>;
 
-}  // namespace toile
+}  // namespace toile::internal

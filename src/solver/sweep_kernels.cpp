@@ -11,7 +11,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace toile::HWY_NAMESPACE {
+namespace toile::internal::HWY_NAMESPACE {
 namespace {
 
 // Lanes of two particles: three numbers and a zero each.  Nothing crosses from one to the other.
@@ -248,11 +248,11 @@ void add_columns(const CoarseColumns& coarse, Index begin, Index end, const Lane
 }
 
 }  // namespace
-}  // namespace toile::HWY_NAMESPACE
+}  // namespace toile::internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace toile {
+namespace toile::internal {
 namespace {
 HWY_EXPORT(forward);
 HWY_EXPORT(backward);
@@ -274,5 +274,5 @@ void add_coarse_columns(const CoarseColumns& coarse, Index begin, Index end, con
   HWY_DYNAMIC_DISPATCH(add_columns)(coarse, begin, end, Zy, t, At);
 }
 
-}  // namespace toile
+}  // namespace toile::internal
 #endif

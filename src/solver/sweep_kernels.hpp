@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace toile {
+namespace toile::internal {
 
 // Rows of as many strips are swept side by side: lanes of each fill the widest registers.
 constexpr std::size_t strips_at_once = 4;
@@ -48,4 +48,4 @@ struct CoarseColumns {
 void add_coarse_columns(const CoarseColumns& coarse, Index begin, Index end, const Lane<float>* Zy, Lane<float>* t,
                         Lane<float>* At);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -14,7 +14,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 HWY_BEFORE_NAMESPACE();
-namespace toile::HWY_NAMESPACE {
+namespace toile::internal::HWY_NAMESPACE {
 namespace {
 
 // Lanes of two particles; the compiler cuts them into what the instruction set has.
@@ -170,11 +170,11 @@ void moments(Index begin, Index end, const Lane<float>* r, const Lane<float>* At
 }
 
 }  // namespace
-}  // namespace toile::HWY_NAMESPACE
+}  // namespace toile::internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace toile {
+namespace toile::internal {
 namespace {
 HWY_EXPORT(dot);
 HWY_EXPORT(direction);
@@ -244,5 +244,5 @@ void add_moments(Index begin, Index end, const Lane<double>* r, const Lane<doubl
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal
 #endif

@@ -5,7 +5,7 @@
 #pragma once
 #include "assembly/lane.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // a.b
 double dot_lanes(Index begin, Index end, const Lane<float>* a, const Lane<float>* b);
@@ -32,4 +32,4 @@ double residual_norm2(Index begin, Index end, const Block<double>* G, const Lane
 void add_moments(Index begin, Index end, const Lane<double>* r, const Lane<double>* At, const Vec3* basis,
                  const Index* aggregate, double* sum);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int longest_wait = 40;  // accepted steps before a failed increase is tried again [BW98 7]
@@ -141,4 +141,4 @@ std::string AdaptiveStep::diagnose(const ClothState& state, const StepReport& re
   return words;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct AdaptiveOptions {
   double step_max_s = 1.0 / 30;
@@ -83,4 +83,4 @@ class AdaptiveStep {
   bool growing_ = false;  // the present h is the first try after a doubling
 };
 
-}  // namespace toile
+}  // namespace toile::internal

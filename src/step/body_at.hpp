@@ -14,7 +14,7 @@
 #include <span>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 
 class BodyAt {
  public:
@@ -45,4 +45,4 @@ class BodyAt {
   Function function_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double static_over_kinetic = 1.02;  // hysteresis, so that stick and slip do not alternate at the cone
@@ -358,4 +358,4 @@ int BodyConstraints::touching() const {
       std::count_if(near_.begin(), near_.end(), [](const Near& near) { return near.touch != Touch::none; }));
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -34,7 +34,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct BodyContactOptions {
   double offset_m = 2.5e-3;             // r: where cloth rests above the body
@@ -165,4 +165,4 @@ class BodyConstraints {
   std::vector<double> loose_s_;   // [particle] for how long it slides on, however slowly
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -2,7 +2,7 @@
 
 #include "step/tangents.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int most_turns = 2;  // slip and stick do not alternate without end
@@ -66,4 +66,4 @@ void Bristle::append_springs(const LinearSpring& contact, const Vec3& travel_m, 
     add(t, -stiffness_N_per_m_ * t.dot(stretch_m_), stiffness_N_per_m_, damping_s * stiffness_N_per_m_);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

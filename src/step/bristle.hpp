@@ -15,7 +15,7 @@
 
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class Bristle {
  public:
@@ -50,4 +50,4 @@ class Bristle {
   double cone_N_ = 0, way_m_ = 0;  // mu lambda, |d|
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t pair_grain = 64;
@@ -388,4 +388,4 @@ int ContactRows::active() const {
   return static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& pair) { return pair.active; }));
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -23,7 +23,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct ContactRowOptions {
   bool cloth_cloth = true;
@@ -162,4 +162,4 @@ class ContactRows {
   double h_s_ = 0;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

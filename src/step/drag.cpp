@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 
 void append_springs(const Drag& drag, const ClothState& state, double t_s, double h_s,
                     std::vector<LinearSpring>& springs) {
@@ -28,4 +28,4 @@ void append_springs(const Drag& drag, const ClothState& state, double t_s, doubl
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 #include <limits>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Drag {
   std::array<Index, 3> particle{-1, -1, -1};  // corners of a triangle, or one particle; -1: unused
@@ -30,4 +30,4 @@ struct Drag {
 void append_springs(const Drag& drag, const ClothState& state, double t_s, double h_s,
                     std::vector<LinearSpring>& springs);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int power_iterations = 200;
@@ -136,4 +136,4 @@ double ExplicitReference::energy_J(const ClothState& state) {
   return energy;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

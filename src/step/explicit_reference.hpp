@@ -12,7 +12,7 @@
 
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 enum class ExplicitScheme { symplectic_euler, runge_kutta_4 };
 
@@ -46,4 +46,4 @@ class ExplicitReference {
   ClothState stage_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double begins_below = 2;                    // r
@@ -108,4 +108,4 @@ void Flypaper::apply(const ClothState& state, const StepFormula& step, ParticleC
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

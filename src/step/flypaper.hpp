@@ -27,7 +27,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class Flypaper {
  public:
@@ -80,4 +80,4 @@ class Flypaper {
   long steps_without_room_ = 0;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double loose_passes = 3;  // times the residual at which the last pass stops
@@ -277,7 +277,7 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
       if (options_.position_alteration == PositionAlteration::in_solve) y_known_ = y_;
       rows_.append_springs(springs_);
       swallowed_.append_springs(springs_);
-      for (const Drag& drag : world_->drags) toile::append_springs(drag, state, t_s, step.h_s, springs_);
+      for (const Drag& drag : world_->drags) toile::internal::append_springs(drag, state, t_s, step.h_s, springs_);
       if (world_->springs) world_->springs(state, t_s + step.h_s, step.h_s, springs_);
       const bool drifts = !step.drift_m.empty();
       if (drifts) {
@@ -448,4 +448,4 @@ PhaseSeconds ImplicitEuler::seconds() const {
   return total;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -26,7 +26,7 @@
 #include <optional>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // A particle held by the user.
 struct Pin {
@@ -167,4 +167,4 @@ class ImplicitEuler {
   PhaseSeconds seconds_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double rest_share = 0.45;      // of the shortest rest edge: pairs that are neighbours at rest do not repel
@@ -139,4 +139,4 @@ LayerDistance::Between LayerDistance::between(ContactKind kind, const std::array
   return far;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class LayerDistance {
  public:
@@ -49,4 +49,4 @@ class LayerDistance {
   double largest_m_ = 0;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 double median(std::vector<double>& values) {
@@ -45,4 +45,4 @@ LayerGap measure_layer_gap(std::span<const ClothContact> contacts, const LayerDi
   return result;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

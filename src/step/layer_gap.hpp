@@ -9,7 +9,7 @@
 
 #include <span>
 
-namespace toile {
+namespace toile::internal {
 
 struct LayerGap {
   int pairs = 0;                          // of features nearer than 2 r; 0: no layer lies on another, and all else is 0
@@ -24,4 +24,4 @@ inline constexpr double layer_gap_reach = 2;  // in r: what is farther does not 
 LayerGap measure_layer_gap(std::span<const ClothContact> contacts, const LayerDistance& distance,
                            std::size_t particles);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int most_rounds = 4, sweeps = 3;
@@ -191,4 +191,4 @@ void SafeFilter::cut_short(const ClothTopology& cloth, TriangleTree& tree, std::
   report.left = 0;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -23,7 +23,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct FilterReport {
   int impacts = 0;        // on the way to the candidate
@@ -78,4 +78,4 @@ class SafeFilter {
   Vec3s whole_;  // the candidate before zones were cut
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -1,6 +1,6 @@
 #include "step/step_formula.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double largest_ratio = 2.4;  // of two steps: beyond 1 + sqrt 2 BDF2 is not even zero-stable
@@ -31,4 +31,4 @@ StepFormula MotionHistory::formula(double h_s) {
   return {h_s, h_s * (1 + w) / (1 + 2 * w), drift_};
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 
 #include <span>
 
-namespace toile {
+namespace toile::internal {
 
 enum class Integrator { backward_euler, bdf2 };
 
@@ -55,4 +55,4 @@ class MotionHistory {
   ClothState end_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -2,7 +2,7 @@
 
 #include <fmt/printf.h>
 
-namespace toile {
+namespace toile::internal {
 
 std::string_view to_string(StepStatus status) {
   switch (status) {
@@ -54,4 +54,4 @@ std::string StepReport::explain() const {
   return "";
 }
 
-}  // namespace toile
+}  // namespace toile::internal

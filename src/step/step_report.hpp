@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 
 // Time per phase, for reports; s.
 struct PhaseSeconds {
@@ -38,4 +38,4 @@ struct StepReport {  // what happened, in numbers a log can plot
   std::string explain() const;  // one sentence for a person
 };
 
-}  // namespace toile
+}  // namespace toile::internal

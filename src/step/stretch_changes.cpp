@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t grain = 1024;
@@ -68,4 +68,4 @@ StretchChange StretchChanges::largest_of(std::size_t begin, std::size_t end) con
   return largest;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

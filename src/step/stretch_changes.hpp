@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct StretchChange {
   double change = 0;
@@ -37,4 +37,4 @@ class StretchChanges {
   std::vector<StretchChange> of_blocks_;  // [block of triangles]
 };
 
-}  // namespace toile
+}  // namespace toile::internal

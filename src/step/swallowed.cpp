@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double farthest_in_m = 0.3;  // deeper than any limb
@@ -58,4 +58,4 @@ void Swallowed::append_springs(std::vector<LinearSpring>& springs) const {
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class Swallowed {
  public:
@@ -41,4 +41,4 @@ class Swallowed {
   bool any_ = false;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

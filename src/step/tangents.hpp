@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 
 // Two unit vectors across n, chosen without a decision that could flip between machines.
 inline std::array<Vec3, 2> tangents(const Vec3& n) {
@@ -17,4 +17,4 @@ inline std::array<Vec3, 2> tangents(const Vec3& n) {
   return {t, n.cross(t)};
 }
 
-}  // namespace toile
+}  // namespace toile::internal

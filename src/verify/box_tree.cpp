@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // About the median of the centres along the longest side of their box: the first is a multiple of four, so that leaves are full.
@@ -80,4 +80,4 @@ void BoxTree::refit(std::span<const Triangle> triangles, std::span<const Vec3> x
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct ExactBox {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -171,4 +171,4 @@ class BoxTree {
   std::vector<Node> nodes_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using EdgeEnds = std::array<Index, 2>;
@@ -147,4 +147,4 @@ int count_edges(std::span<const Crossing> crossings) {
   return count;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

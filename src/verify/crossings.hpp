@@ -20,7 +20,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Crossing {
   std::array<Index, 2> edge;  // particles, smaller first
@@ -62,4 +62,4 @@ class CrossingSearch {
 // How many different edges a list sorted as above names: what report.json counts.
 int count_edges(std::span<const Crossing> crossings);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 
 GapStatistics measure_gap(std::span<const Vec3> x, std::span<const Triangle> body, std::span<const Vec3> body_x) {
   check_surface("cloth", {}, x);
@@ -43,4 +43,4 @@ GapStatistics measure_gap(std::span<const Vec3> x, std::span<const Triangle> bod
   return result;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

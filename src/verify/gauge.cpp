@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -144,4 +144,4 @@ ClothRing cloth_ring(const ClothMesh& mesh, std::span<const Vec3> x, Index trian
   return Walk(mesh, x, triangle, normal).ring();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 constexpr double gauge_m = 0.025;
 
@@ -28,4 +28,4 @@ struct ClothRing {
 // Through the middle of a triangle, along the plane with this normal.  Follows the cloth over its seams.
 ClothRing cloth_ring(const ClothMesh& mesh, std::span<const Vec3> x, Index triangle, const Vec3& normal);
 
-}  // namespace toile
+}  // namespace toile::internal

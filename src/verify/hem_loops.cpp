@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace toile {
+namespace toile::internal {
 
 std::vector<Side> hem_sides(std::span<const Triangle> triangles) {
   std::vector<Side> sides, reversed;
@@ -39,4 +39,4 @@ std::vector<std::vector<Index>> hem_loops(std::span<const Triangle> triangles) {
   return loops;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

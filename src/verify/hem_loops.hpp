@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 using Side = std::array<Index, 2>;
 
@@ -17,4 +17,4 @@ std::vector<Side> hem_sides(std::span<const Triangle> triangles);
 // following the lower one first.  Corners must be in range, and every edge have at most two triangles, which walk it in opposite directions.
 std::vector<std::vector<Index>> hem_loops(std::span<const Triangle> triangles);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::string join(const std::string& directory, std::string_view name) {
@@ -89,4 +89,4 @@ void Integrity::check_cache(const std::string& directory, std::string_view name)
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

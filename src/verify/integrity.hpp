@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 class Integrity {
  public:
@@ -40,4 +40,4 @@ class Integrity {
   std::vector<std::string> changes_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

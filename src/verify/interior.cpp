@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -45,4 +45,4 @@ int Interior::depth(const Vec3& p) const {
   return (solids_ ? solids_->winding_number(p) : 0) + (rooms_ && rooms_->winding_number(p) == 0 ? 1 : 0);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace toile {
+namespace toile::internal {
 
 // A closed part that faces inwards and lies within no other is a room: its inside is free, and all around it is solid.
 // One within another is that one's hollow.
@@ -21,4 +21,4 @@ class Interior {
   std::optional<ClosedSurface> solids_, rooms_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

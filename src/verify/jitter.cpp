@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Differences of first order, then the filter's: together a fifth difference over 16.
@@ -124,4 +124,4 @@ JitterStatistics JitterMeter::statistics() const {
   return result;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // Cloth farther from the body than this is not carried by it: its velocity is taken as it is.
 constexpr double jitter_reach_m = 0.05;
@@ -70,4 +70,4 @@ class JitterMeter {
   JitterStatistics worst_;  // windows and max so far
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 
 // Where on ab, 0 at a and 1 at b.
 inline double nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -62,4 +62,4 @@ inline Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const V
   return {s, 0, 1 - s};
 }
 
-}  // namespace toile
+}  // namespace toile::internal

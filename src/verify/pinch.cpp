@@ -10,7 +10,7 @@
 #include <iterator>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double opposite = -0.5;  // n . n'
@@ -103,4 +103,4 @@ std::vector<Crossing> outside_pinches(std::span<const Crossing> crossings, std::
   return outside;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

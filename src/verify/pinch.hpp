@@ -9,7 +9,7 @@
 #pragma once
 #include "verify/crossings.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 inline constexpr double pinch_m = 5e-3;  // two of the offsets that runs have by themselves
 
@@ -18,4 +18,4 @@ std::vector<Crossing> outside_pinches(std::span<const Crossing> crossings, std::
                                       std::span<const Vec3> x, std::span<const Triangle> body,
                                       std::span<const Vec3> body_x);
 
-}  // namespace toile
+}  // namespace toile::internal

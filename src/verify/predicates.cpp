@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Pair {
@@ -229,4 +229,4 @@ bool segment_crosses_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const
                                   RankedPoint{c, 4});
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -16,7 +16,7 @@
 #pragma once
 #include "core/types.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // Sign (-1, 0, +1) of the determinant above, exactly: +1 when d is below the plane of a, b, c seen counter-clockwise
 // from above.  0 means exactly coplanar.
@@ -43,4 +43,4 @@ bool segment_crosses_triangle(RankedPoint p, RankedPoint q, RankedPoint a, Ranke
 // For a single pair: ranks in the order of the arguments.
 bool segment_crosses_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
 
-}  // namespace toile
+}  // namespace toile::internal

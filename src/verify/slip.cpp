@@ -16,7 +16,7 @@
 #include <optional>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double half_band_m = 0.025;  // two rows of triangles of 2 cm at least
@@ -294,4 +294,4 @@ void SlipMeter::measure(std::span<const Vec3> x, std::span<const Vec3> body_x) {
     note(statistics_.shoulders, std::max(mean(shoulders_[0], x, body_x), mean(shoulders_[1], x, body_x)), frames_);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -30,7 +30,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 constexpr double slip_reach_m = 0.05;  // as that of jitter: what is farther away is not carried by the body
 constexpr double slip_lies_m = 0.01;   // four times the offset at which cloth rests: two layers, and a fold
@@ -99,4 +99,4 @@ class SlipMeter {
   std::array<Followed, 2> shoulders_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 double nearest_rank(std::vector<double>& values, int percent) {
   if (values.empty()) return 0;
@@ -104,4 +104,4 @@ double speed_p99_mm_per_s(std::span<const Vec3> x_before, std::span<const Vec3> 
   return nearest_rank(speed, 99);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // The smallest of `values` that at least `percent` % of them do not exceed (percent in 1..100); 0 when there are none.
 // Reorders `values`.
@@ -61,4 +61,4 @@ GapStatistics measure_gap(std::span<const Vec3> x, std::span<const Triangle> bod
 // The p99 over vertices of |x - x_before| fps, in mm/s.  Sizes must agree.
 double speed_p99_mm_per_s(std::span<const Vec3> x_before, std::span<const Vec3> x, double fps);
 
-}  // namespace toile
+}  // namespace toile::internal

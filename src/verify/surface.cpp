@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 
 void check_surface(std::string_view name, std::span<const Triangle> triangles, std::span<const Vec3> x) {
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -22,4 +22,4 @@ void check_surface(std::string_view name, std::span<const Triangle> triangles, s
   }
 }
 
-}  // namespace toile
+}  // namespace toile::internal

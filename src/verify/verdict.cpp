@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::string percent(double fraction) { return fmt::sprintf("%.3g %%", 100 * fraction); }
@@ -122,4 +122,4 @@ Verdict judge(const VerifyReport& report, const Limits& limits) {
   return verdict;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Limits {
   int cloth_body_edges = 0, cloth_cloth_edges = 0;  // of the last frame
@@ -51,4 +51,4 @@ struct Verdict {
 // A value that is not finite hides everything measured after it: then the codes that need the last frame are left out.
 Verdict judge(const VerifyReport& report, const Limits& limits = {});
 
-}  // namespace toile
+}  // namespace toile::internal

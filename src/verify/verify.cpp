@@ -18,7 +18,7 @@
 #include <optional>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 bool all_finite(std::span<const Vec3> x) {
@@ -299,4 +299,4 @@ VerifyReport verify_directory(const std::string& directory) {
   return result;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -25,7 +25,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 struct Reason {
   std::string code;
@@ -109,4 +109,4 @@ class RunAudit {
 // other), naming the file, what was expected and what it has.
 VerifyReport verify_directory(const std::string& directory);
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Triangles and positions.
@@ -65,4 +65,4 @@ int ClosedSurface::winding_number(const Vec3& p) const {
   return winding;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 
 // A surface without boundary: that of `triangles`, and a fan around the middle of each hole.
 class ClosedSurface {
@@ -26,4 +26,4 @@ class ClosedSurface {
   ExactBox bounds_;
 };
 
-}  // namespace toile
+}  // namespace toile::internal

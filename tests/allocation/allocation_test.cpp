@@ -51,7 +51,7 @@ void free(void* memory) noexcept {
 }
 }
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -146,5 +146,5 @@ TEST(Allocation, AFineSheetOverABallTakesNoMoreThanItDid) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal
 #endif

@@ -9,7 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 const AirOptions thick_air{{0, 0, 0}, 1.2, 1.2, 0.1};
@@ -122,4 +122,4 @@ TEST(Air, ATriangleWithoutAreaFeelsNone) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

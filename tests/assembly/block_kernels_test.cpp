@@ -9,7 +9,7 @@
 #include "support/fabrics.hpp"
 #include "support/sheets.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Assembled {
@@ -88,4 +88,4 @@ TEST(BlockKernels, AgreeWithTheMatrixInDouble) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

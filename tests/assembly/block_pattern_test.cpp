@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using Links = std::vector<std::pair<Index, Index>>;
@@ -91,4 +91,4 @@ TEST(BlockPattern, GivesPiecesAndRowsWithoutBlocksPlacesToo) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 
 #include <cstring>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::Sheet;
@@ -347,4 +347,4 @@ TEST(ClothModel, MassIsDensityTimesArea) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

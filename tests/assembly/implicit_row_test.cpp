@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 TEST(ImplicitRow, IsTheForceOfItsSpringAtTheEndOfTheStep) {
@@ -46,4 +46,4 @@ TEST(ImplicitRow, IsTheForceOfItsSpringAtTheEndOfTheStep) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

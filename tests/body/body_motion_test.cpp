@@ -16,7 +16,7 @@
 #include <functional>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -372,4 +372,4 @@ TEST(BodyMotion, SelectsTheBodyOfMakeHumansBaseMeshFromEachSample) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

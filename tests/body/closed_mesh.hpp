@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -110,4 +110,4 @@ class Obstacle {
   TriangleTree tree_;
 };
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

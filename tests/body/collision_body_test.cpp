@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Adds a closed box with corners low and high to a group; `faces` of its 12 triangles.
@@ -149,4 +149,4 @@ TEST(CollisionBody, ReadsTheBodyOfGarmentCode) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

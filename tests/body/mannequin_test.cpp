@@ -15,7 +15,7 @@
 #include <map>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::at;
@@ -257,4 +257,4 @@ TEST(Mannequin, HasTheSameBitsEverywhere) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <map>
 #include <string_view>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 inline const Mannequin& mannequin_of(MannequinKind kind) {
   static std::map<MannequinKind, Mannequin> made;
@@ -20,4 +20,4 @@ inline std::size_t joint(const Mannequin& m, std::string_view name) {
       m.joints.begin());
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

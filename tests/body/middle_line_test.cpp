@@ -15,7 +15,7 @@
 #include <cmath>
 #include <filesystem>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::at;
@@ -234,4 +234,4 @@ TEST(MiddleLine, GivesTheSameBitsOnAnyNumberOfThreadsAndTellsMotionsApart) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

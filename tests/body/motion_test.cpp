@@ -12,7 +12,7 @@
 #include <map>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::joint;
@@ -346,4 +346,4 @@ TEST(Motion, HasTheSameBitsEverywhere) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -16,7 +16,7 @@
 #include <set>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::at;
@@ -257,4 +257,4 @@ TEST(Skirt, SitsOnTheWaistAndCannotPassTheHips) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::joint;
@@ -259,4 +259,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, PosedBody, testing::Values(MannequinKind::dancer
                          [](const auto& kind) { return std::string(to_string(kind.param)); });
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::at;
@@ -209,4 +209,4 @@ TEST(TapeMeasure, DoesNotFollowHollowsAndTakesTheCurveAsked) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -141,4 +141,4 @@ TEST(SolidShapes, AFileIsTakenWhole) {  // parts that a body would not have too
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

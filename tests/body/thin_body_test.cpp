@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Of a cylinder the flow is known: L_0 of a coordinate across the axis is A_0 x / r_0^2 and M goes with the radius, so a step of dt leads from
@@ -78,4 +78,4 @@ TEST(Arms, OfWhatIsNoPersonAreNone) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::Ended;
@@ -408,4 +408,4 @@ TEST(CheckAndDress, SayWhyAMeshIsNoBodyInTheSameWords) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

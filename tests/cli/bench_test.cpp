@@ -10,7 +10,7 @@
 #include <map>
 #include <sstream>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::Ended;
@@ -302,4 +302,4 @@ TEST(Bench, OptionsThatMeanNothingAreUsageErrors) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::Ended;
@@ -137,4 +137,4 @@ TEST(Budget, CheckSaysWhatARunWillTake) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 #include <random>
 #include <thread>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::Ended;
@@ -206,4 +206,4 @@ TEST(Folder, ADiskThatIsFullLosesNothing) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using namespace std::chrono_literals;
@@ -177,4 +177,4 @@ TEST(RefusedThreads, AreFewerAndAWarning) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

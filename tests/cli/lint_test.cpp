@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::Ended;
@@ -179,4 +179,4 @@ TEST(CheckPattern, TellsWhomAPatternIsCutForByTheBodysMeasurements) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 struct Ended {
   int exit_code = -1, signal = 0;
@@ -55,4 +55,4 @@ inline Ended run_toile(const Scratch& scratch, std::vector<std::string> words) {
   return run_toile(scratch, std::move(words), [](pid_t) {});
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

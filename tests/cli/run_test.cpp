@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <thread>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::Ended;
@@ -246,4 +246,4 @@ TEST(Demo, ListsWhatItHas) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

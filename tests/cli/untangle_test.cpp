@@ -9,7 +9,7 @@
 
 #include <filesystem>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::Ended;
@@ -134,4 +134,4 @@ TEST(UntangleCommand, WrongInputIsRefusedInOneLine) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 
 #include "support/sheets.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::Random;
@@ -210,4 +210,4 @@ TEST(ParticleConstraints, TheFilterIsAnOrthogonalProjection) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

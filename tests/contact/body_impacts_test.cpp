@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::Random;
@@ -156,4 +156,4 @@ TEST(BodyImpacts, StopWhereThereAreMoreThanAreWorthCorrecting) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

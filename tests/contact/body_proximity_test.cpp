@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <map>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using contact_test::Mesh;
@@ -253,4 +253,4 @@ TEST(BodyContacts, TheListDoesNotDependOnTheNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using contact_test::Mesh;
@@ -365,4 +365,4 @@ TEST(BodySurface, KnowsInsideFromOutsideOnARealBody) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <string>
 
-namespace toile::ccd_test {
+namespace toile::internal::ccd_test {
 
 using exact::Touch;
 using exact::touch_of;
@@ -67,4 +67,4 @@ struct Count {
   }
 };
 
-}  // namespace toile::ccd_test
+}  // namespace toile::internal::ccd_test

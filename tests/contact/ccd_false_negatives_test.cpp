@@ -6,7 +6,7 @@
 
 #include <iostream>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using namespace ccd_test;
@@ -51,4 +51,4 @@ TEST(CcdFalseNegatives, ThereAreNoneInAHundredThousand) { expect_none_missed(375
 TEST(CcdFalseNegativesLong, ThereAreNoneInTenMillion) { expect_none_missed(360'000, 2); }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using namespace ccd_test;
@@ -85,4 +85,4 @@ TEST(CcdPublicQueries, NoneIsMissedAndTheOracleAgreesWithTheirGroundTruth) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

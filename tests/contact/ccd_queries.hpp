@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-namespace toile::ccd_test {
+namespace toile::internal::ccd_test {
 
 using exact::Features;
 using exact::Motion;
@@ -275,4 +275,4 @@ inline Motion motion_of(Random& random, Features features, Kind kind) {
   return motion;
 }
 
-}  // namespace toile::ccd_test
+}  // namespace toile::internal::ccd_test

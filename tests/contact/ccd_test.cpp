@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using contact_test::Random;
@@ -136,4 +136,4 @@ TEST(Ccd, ParallelEdgesThatSlideThroughEachOtherMeet) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

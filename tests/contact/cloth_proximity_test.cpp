@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using contact_test::Mesh;
@@ -481,4 +481,4 @@ TEST(ClothContacts, SaysWhenThePositionsAreNotThoseOfTheCloth) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

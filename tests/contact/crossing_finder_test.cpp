@@ -10,7 +10,7 @@
 
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using exact::Random;
@@ -184,4 +184,4 @@ TEST(CrossingFinder, RefusesWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

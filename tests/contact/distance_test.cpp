@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using contact_test::Random;
@@ -169,4 +169,4 @@ TEST(Distance, ScaleDoesNotChangeTheRegion) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

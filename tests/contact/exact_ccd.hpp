@@ -22,7 +22,7 @@
 
 #include <vector>
 
-namespace toile::exact {
+namespace toile::internal::exact {
 
 enum class Features { vertex_face, edge_edge };
 
@@ -146,4 +146,4 @@ class ExactTouch {
   TouchConditions<Whole> conditions_;
 };
 
-}  // namespace toile::exact
+}  // namespace toile::internal::exact

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using namespace ccd_test;
@@ -167,4 +167,4 @@ TEST(ExactTouch, DoesNotDependOnTheWayItIsAsked) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using contact_test::Mesh;
@@ -207,4 +207,4 @@ TEST(FeaturePairs, ClothWithoutParticlesHasNone) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

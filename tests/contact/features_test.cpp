@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <map>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using contact_test::Mesh;
@@ -84,4 +84,4 @@ TEST(Features, NamesAMergedParticleThatDoesNotExist) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

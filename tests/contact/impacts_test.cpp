@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <set>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using contact_test::add_sheet;
@@ -220,4 +220,4 @@ TEST(Impacts, AWorkspaceOfAnotherClothIsAsGoodAsANewOne) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

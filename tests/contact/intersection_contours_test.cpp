@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using contact_test::Mesh;
@@ -326,4 +326,4 @@ TEST(ContourMotion, TheSweepMakesWhatIsCutOffSmaller) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

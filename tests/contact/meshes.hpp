@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace toile::contact_test {
+namespace toile::internal::contact_test {
 
 inline constexpr double pi = 3.14159265358979324;
 
@@ -129,4 +129,4 @@ inline double winding_number(const Mesh& mesh, const Vec3& p) {
   return angle / (4 * pi);
 }
 
-}  // namespace toile::contact_test
+}  // namespace toile::internal::contact_test

@@ -8,7 +8,7 @@
 
 #include <optional>
 
-namespace toile::exact {
+namespace toile::internal::exact {
 
 class IntervalTouch {
  public:
@@ -103,4 +103,4 @@ inline Touch touch_of(const Motion& motion) {
   return quick ? Touch{*quick, false} : Touch{ExactTouch(motion).touches(), true};
 }
 
-}  // namespace toile::exact
+}  // namespace toile::internal::exact

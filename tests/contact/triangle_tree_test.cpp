@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using contact_test::Mesh;
@@ -255,4 +255,4 @@ TEST(TriangleTree, TrianglesThatAllLieInOnePlaceStillMakeATree) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <cfenv>
 #include <cstdint>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Of 10^-20 with itself, 10^-40, and of 10^-40 with 10^20.  Volatile: by the processor, not the compiler.  Bits: a comparison would take
@@ -60,4 +60,4 @@ TEST(DenormalsAreZero, LeavesAllOtherNumbersAlone) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 TEST(DisjointSets, TheSmallestStandsForAllWhateverTheOrder) {
@@ -22,4 +22,4 @@ TEST(DisjointSets, TheSmallestStandsForAllWhateverTheOrder) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

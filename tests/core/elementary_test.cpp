@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -162,4 +162,4 @@ TEST(Elementary, HasTheSameBitsOnEveryMachine) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::string_view nearest(std::string_view name, const std::vector<std::string_view>& names) {
@@ -81,4 +81,4 @@ TEST(Printable, IsUtf8WhateverTheBytes) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::uint64_t hash_of(std::string_view text) {
@@ -49,4 +49,4 @@ TEST(Hash, SeesTheBitsOfNumbers) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

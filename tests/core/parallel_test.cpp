@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int thread_counts[] = {1, 2, 5};
@@ -120,4 +120,4 @@ TEST(WithThreads, TakesZeroForOnePerCore) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

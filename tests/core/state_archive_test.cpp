@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 enum class Mode : std::uint8_t { one, two };
@@ -106,4 +106,4 @@ TEST(StateArchive, KeepsTheLengthThatFollowsFromTheScene) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 
 #include <numeric>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 TEST(Team, EveryMemberThatIsPresentWorksOnceInEachRun) {
@@ -93,4 +93,4 @@ TEST(Team, WhatWasWrittenBeforeABarrierIsSeenByAllAfterIt) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -3,7 +3,7 @@
 #include "support/sheets.hpp"
 #include "support/strip_rigidity.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::realised_rigidity;
@@ -73,4 +73,4 @@ TEST(BendRatio, IsRealisedAlongBothThreadsHoweverTheTrianglesLie) {
 TEST(BendRatio, OfTenToOneIsRealisedWithinAFifth) { expect_ratio(10, 0.20); }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile::test {
+namespace toile::internal::test {
 namespace {
 
 constexpr Severity error = Severity::error, warning = Severity::warning, note = Severity::note;
@@ -271,4 +271,4 @@ std::vector<BrokenPattern> broken_patterns() {
   return all;
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

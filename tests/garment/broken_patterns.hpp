@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 // A pattern file that can be broken.
 class PatternFile {
@@ -116,4 +116,4 @@ struct BrokenPattern {
 
 std::vector<BrokenPattern> broken_patterns();
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 class Random {
@@ -196,4 +196,4 @@ TEST(Delaunay, RefusesAMoveThatWouldTurnATriangleOver) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

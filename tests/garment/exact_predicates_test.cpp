@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::int32_t end = (1 << 25) - 1;
@@ -74,4 +74,4 @@ TEST(ExactPredicates, DoNotDependOnTheOrderOfTheCorners) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

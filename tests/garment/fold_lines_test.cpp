@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -135,4 +135,4 @@ TEST(FoldLines, CrossingLinesAndSidesOfTheOutlineAreRefusedByNumber) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

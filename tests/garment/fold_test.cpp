@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::at;
@@ -179,4 +179,4 @@ TEST(Fold, ThatCannotBeMeshedIsNamedWithItsPanel) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

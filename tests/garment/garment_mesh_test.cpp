@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <tuple>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::at;
@@ -348,4 +348,4 @@ TEST(PanelMesher, KeepsWhatIsAskedForAgainAndNamesTheFirstPanelThatFails) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

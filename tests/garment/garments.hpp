@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -68,4 +68,4 @@ inline Vec3 normal_of(const Vec3s& x, const Triangle& t) {
   return (x[at(t[1])] - x[at(t[0])]).cross(x[at(t[2])] - x[at(t[0])]);
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

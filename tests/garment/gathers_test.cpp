@@ -13,7 +13,7 @@
 #include <numeric>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::at;
@@ -129,4 +129,4 @@ TEST(Gathers, AModelRestsAsItIsGathered) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

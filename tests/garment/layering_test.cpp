@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::at;
@@ -77,4 +77,4 @@ TEST(Layers, WhatIsDrawnInAnOrderKeepsIt) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::BrokenPattern;
@@ -238,4 +238,4 @@ TEST(LintBroken, AFileThatIsNoPatternIsToldWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

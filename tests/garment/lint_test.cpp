@@ -12,7 +12,7 @@
 #include <clocale>
 #include <filesystem>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::string list(const LintReport& report) {
@@ -233,4 +233,4 @@ TEST(PatternSvg, NamesAreTextAndNumbersHaveAPointInEveryLocale) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::at;
@@ -168,4 +168,4 @@ TEST(MeshToCount, GivesTheSameBitsTwice) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

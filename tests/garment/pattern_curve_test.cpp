@@ -12,7 +12,7 @@
 #include <numbers>
 #include <random>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -250,4 +250,4 @@ TEST(PatternPlacement, IsARotation) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

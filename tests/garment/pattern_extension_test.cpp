@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using namespace pattern_text;
@@ -74,4 +74,4 @@ TEST(PatternExtension, IsRefusedWhereItCannotBeMeant) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using namespace pattern_text;
@@ -324,4 +324,4 @@ TEST(PatternInMemory, ListsAtMostAHundredFaults) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

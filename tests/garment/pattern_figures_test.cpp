@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <numbers>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // A person 1.7 m tall whose waist is at 1.07 m and 80 cm round, her shoulders at 1.38 m, her arms 45 degrees down.
@@ -194,4 +194,4 @@ TEST(PatternFigures, RandomPatternsAreKnownForTheirOwnBodies) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using namespace pattern_text;
@@ -217,4 +217,4 @@ TEST(PatternSummary, BoxHoldsThePlacedPanelsWithTheirCurves) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::string sample_path(const std::string& name) { return std::string(TOILE_SHARED_DATA) + "/patterns/" + name; }
@@ -99,4 +99,4 @@ TEST(PatternSampleErrors, TemplateWithCommentsIsNoJsonAndSaysWhere) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

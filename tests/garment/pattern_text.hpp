@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace toile::pattern_text {
+namespace toile::internal::pattern_text {
 
 // A panel of 40 x 60 cm, counter-clockwise: edges 0 bottom, 1 right, 2 top, 3 left.
 inline const std::string square_corners = "[[0, 0], [40, 0], [40, 60], [0, 60]]";
@@ -65,4 +65,4 @@ inline void expect_error(const std::string& text, const std::vector<std::string>
   }
 }
 
-}  // namespace toile::pattern_text
+}  // namespace toile::internal::pattern_text

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // A box with half sizes `half` around `centre`.
@@ -161,4 +161,4 @@ TEST(Placement, DoesNotDependOnTheThreads) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::at;
@@ -88,4 +88,4 @@ TEST(Pleats, AreLaidAndWeldedToASurface) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -16,7 +16,7 @@
 #include <cstring>
 #include <iterator>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::at;
@@ -463,4 +463,4 @@ TEST(Sewing, ThinnedLayersComeBackToTheFabricsThicknessAndNoFurther) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -104,4 +104,4 @@ TEST(Sleeves, AShirtCoversTheShouldersAndASkirtDoesNot) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using Outline = std::vector<Vec2>;
@@ -452,4 +452,4 @@ TEST(PlanarQuality, MeasuresAKnownPairOfTriangles) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 Object BodyPart::body() const {
   Object body;
@@ -111,4 +111,4 @@ std::vector<std::string> BodyPart::solids() const {
   return all;
 }
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

@@ -12,7 +12,7 @@
 #include <iterator>
 #include <thread>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 std::string Ended::text() const {
   if (hung) return "still running at the time limit";
@@ -63,4 +63,4 @@ Ended run_program(const std::string& directory, const std::string& log, int limi
   });
 }
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

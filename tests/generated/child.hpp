@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 struct Ended {
   int exit_code = -1;
@@ -22,4 +22,4 @@ Ended run_child(const std::string& log, int limit_s, const std::function<int()>&
 Ended run_program(const std::string& directory, const std::string& log, int limit_s, std::vector<std::string> words,
                   std::vector<std::string> environment = {});
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

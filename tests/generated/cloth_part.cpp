@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 std::string ClothPart::fabric() const {
   if (is("fabric", "numbers"))
@@ -194,4 +194,4 @@ std::string ClothPart::cloths() const {
   return list(all);
 }
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

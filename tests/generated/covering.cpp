@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 namespace {
 
 constexpr std::size_t unset = static_cast<std::size_t>(-1);
@@ -188,4 +188,4 @@ std::vector<ValuePair> missing_pairs(const Space& space, const std::vector<Value
   return missing;
 }
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

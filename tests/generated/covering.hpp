@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 struct Axis {
   std::string_view name;
@@ -64,4 +64,4 @@ std::vector<Choice> covering_rows(const Space& space);
 std::vector<ValuePair> missing_pairs(const Space& space, const std::vector<ValuePair>& possible,
                                      const std::vector<Choice>& rows);
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

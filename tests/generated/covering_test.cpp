@@ -7,7 +7,7 @@
 #include <array>
 #include <set>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 namespace {
 
 constexpr std::uint64_t in_make_test = 150;
@@ -67,4 +67,4 @@ TEST(Covering, RowsHaveAllPairsThatCanMeetAndNoOther) {
 }
 
 }  // namespace
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

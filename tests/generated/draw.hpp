@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 class Draw {
  public:
@@ -30,4 +30,4 @@ class Draw {
   std::uint64_t seed_;
 };
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 namespace {
 
 constexpr const char* usage =
@@ -148,6 +148,6 @@ int main(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace toile::generated
+}  // namespace toile::internal::generated
 
-int main(int argc, char** argv) { return toile::generated::main(argc, argv); }
+int main(int argc, char** argv) { return toile::internal::generated::main(argc, argv); }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 inline std::string number(double value) {
   char text[32];
@@ -50,4 +50,4 @@ class Object {
   std::vector<std::pair<std::string, std::string>> members_;
 };
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

@@ -1,7 +1,7 @@
 // tests/generated/number_part.cpp: the numbers of a generated scene.
 #include "generated/scene_parts.hpp"
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 Object NumberPart::world() const {
   Object world;
@@ -84,4 +84,4 @@ Object NumberPart::contact() const {
   return contact;
 }
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

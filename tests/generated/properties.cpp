@@ -16,7 +16,7 @@
 #include <map>
 #include <new>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 namespace {
 
 namespace fs = std::filesystem;
@@ -201,4 +201,4 @@ class Checker {
 
 Checked check_properties(const GeneratedScene& scene, const CheckOptions& options) { return Checker(scene, options)(); }
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 struct CheckOptions {
   std::string program;                 // toile
@@ -27,4 +27,4 @@ struct Checked {
 
 Checked check_properties(const GeneratedScene& scene, const CheckOptions& options);
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <numbers>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 namespace {
 
 using Point = std::array<double, 3>;
@@ -152,4 +152,4 @@ TextFile pattern_file(const Draw& draw, std::string_view drawing, bool outer, bo
   return {outer ? "outer.json" : "pattern.json", file.text() + '\n'};
 }
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 // A closed egg of 50 vertices, 1.2 m high from y = 0; coordinates in metres, or a hundred times that.
 TextFile body_file(const Draw& draw, bool in_cm);
@@ -22,4 +22,4 @@ TextFile solid_file(double scale);
 inline constexpr int counted_vertices = 80;
 TextFile pattern_file(const Draw& draw, std::string_view drawing, bool outer, bool counted);
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

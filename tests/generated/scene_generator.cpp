@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 SceneParts::SceneParts(const Choice& choice, const Draw& draw, const Variant& variant)
     : choice_(choice), draw_(draw), variant_(variant) {
@@ -129,4 +129,4 @@ std::string describe(const Choice& choice) {
   return text;
 }
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 struct TextFile {
   std::string name, bytes;  // names with '/' go into folders
@@ -34,4 +34,4 @@ std::string describe(const Choice& choice);
 // Features of scene `number`.
 Choice choice_of(std::uint64_t number);
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 struct Place {
   double x, y, z;
@@ -88,4 +88,4 @@ class NumberPart : public SceneParts {
   std::string other_fabric() const;
 };
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

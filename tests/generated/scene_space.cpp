@@ -1,6 +1,6 @@
 #include "generated/scene_space.hpp"
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 const Space& scene_space() {
   static const Space space(
@@ -85,4 +85,4 @@ const Space& scene_space() {
   return space;
 }
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

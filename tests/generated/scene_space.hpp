@@ -2,8 +2,8 @@
 #pragma once
 #include "generated/covering.hpp"
 
-namespace toile::generated {
+namespace toile::internal::generated {
 
 const Space& scene_space();
 
-}  // namespace toile::generated
+}  // namespace toile::internal::generated

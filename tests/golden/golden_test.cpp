@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // Two panels of 28 x 16 cm, sewn at both sides.
@@ -102,4 +102,4 @@ TEST(Golden, AStiffFlagInTheWind) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

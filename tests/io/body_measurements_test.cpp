@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 const std::string body_text =
@@ -112,4 +112,4 @@ TEST(BodyMeasurements, AliasesDoNotExplode) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

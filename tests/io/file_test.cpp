@@ -14,7 +14,7 @@
 
 #include "io/scratch.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using namespace std::string_literals;
@@ -277,4 +277,4 @@ TEST(MakeDirectories, NamesThePathAndTheReason) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

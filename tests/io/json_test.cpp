@@ -9,7 +9,7 @@
 
 #include "io/scratch.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using namespace std::string_literals;
@@ -381,4 +381,4 @@ TEST(JsonFile, IsReadWithItsPathInMessages) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 const std::string cube_corner =
@@ -42,4 +42,4 @@ TEST(ObjReplace, RefusesAnotherNumberOfVertices) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

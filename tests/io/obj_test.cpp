@@ -14,7 +14,7 @@
 #include "io/scratch.hpp"
 #include "mesh/check.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using namespace std::string_literals;
@@ -436,4 +436,4 @@ TEST(ObjOfOthers, TheMakehumanBaseKeepsGroupsAndTextureCoordinates) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

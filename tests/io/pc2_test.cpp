@@ -11,7 +11,7 @@
 
 #include "io/scratch.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 Vec3s random_positions(std::uint64_t seed, std::size_t count) {
@@ -254,4 +254,4 @@ TEST(Pc2, NamesAFileThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 const RunFolder::Owner owner{"toile run s.json", {"run", "s.json"}, "0.1.0"};
@@ -149,4 +149,4 @@ TEST(Seal, NoticesEveryBit) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

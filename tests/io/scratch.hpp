@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // Gone with everything in it at the end of the test.
 class Scratch {
@@ -86,4 +86,4 @@ std::string message_of(Call&& call) {
   return "none";
 }
 
-}  // namespace toile
+}  // namespace toile::internal

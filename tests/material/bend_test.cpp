@@ -10,7 +10,7 @@
 #include "material/random_elements.hpp"
 #include "support/finite_difference.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int configurations = 1000;
@@ -252,4 +252,4 @@ TEST(Bend, AGridWithOneDiagonalIsFourTimesStifferInOneDirection) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include "material/membrane_derivatives.hpp"
 #include "material/random_elements.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 const std::array<Vec3, 3> at_rest = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
@@ -77,4 +77,4 @@ TEST(Compression, RatiosBeyondOneOrAtZeroAreRefused) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include "material/stretch.hpp"
 #include "support/finite_difference.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int configurations = 1000;
@@ -202,4 +202,4 @@ TYPED_TEST(Conditions, RigidVelocityIsNotDamped) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

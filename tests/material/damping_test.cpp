@@ -5,7 +5,7 @@
 #include "material/membrane.hpp"
 #include "material/random_elements.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 TEST(Damping, AStretchedClothMayTurnFreely) {
@@ -98,4 +98,4 @@ TEST(Damping, RelaxationTimeSetsTheRateOfDecay) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

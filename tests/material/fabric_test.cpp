@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::string message_of(const Fabric& fabric) {
@@ -121,4 +121,4 @@ TEST(Fabric, AnUnknownNameIsAnsweredWithTheNearest) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include "material/random_elements.hpp"
 #include "support/every_target.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::size_t batches = 40, triangles = batches * batch_size, particles = 200;
@@ -154,4 +154,4 @@ TEST(MembraneBatch, EveryLaneIsATriangleOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include "material/random_elements.hpp"
 #include "support/finite_difference.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // `length`: on which the energy is smooth.  At rest, and with the true Hessian.
 inline void expect_derivatives_of_the_energy(const RestTriangle& t, const MembraneStiffness& k,
@@ -29,4 +29,4 @@ inline void expect_derivatives_of_the_energy(const RestTriangle& t, const Membra
   EXPECT_LT(relative_error(expand(t, r.K), -finite_difference(force, flat(x), length).derivative), tolerance);
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include "material/stretch.hpp"
 #include "support/finite_difference.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int configurations = 1000;
@@ -415,4 +415,4 @@ TEST(Membrane, ACollapsedTriangleGivesNumbers) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include "material/condition.hpp"
 #include "material/membrane.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 // The same numbers on every platform: std::uniform_real_distribution does not promise that.
 class Random {
@@ -228,4 +228,4 @@ void expect_no_net_force(const std::array<Vec3, N>& x, const std::array<Vec3, N>
   EXPECT_LE(moment.norm(), 1e-10 * moment_size) << what;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include "material/membrane_derivatives.hpp"
 #include "material/random_elements.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 const std::array<Vec3, 3> at_rest = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
@@ -89,4 +89,4 @@ TEST(StrainLimit, ElementMatricesStaySemidefinite) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

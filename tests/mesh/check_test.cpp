@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -32,7 +32,7 @@ struct Square {
   std::vector<Triangle> triangles = {{0, 1, 2}, {0, 2, 3}};
 
   std::string complaint() const {
-    return toile::complaint([&] { check_triangles("m.obj", x, triangles); });
+    return toile::internal::complaint([&] { check_triangles("m.obj", x, triangles); });
   }
 };
 
@@ -134,7 +134,7 @@ struct Cloth : Square {
     mesh.panel_names = {"front", "back"};
   }
   std::string complaint() const {
-    return toile::complaint([&] { check_cloth("shirt", mesh, x); });
+    return toile::internal::complaint([&] { check_cloth("shirt", mesh, x); });
   }
 };
 
@@ -211,7 +211,7 @@ struct Tetrahedron {
   std::vector<Triangle> triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
   std::string complaint() const {
-    return toile::complaint([&] { check_closed("body.obj", x, triangles); });
+    return toile::internal::complaint([&] { check_closed("body.obj", x, triangles); });
   }
 };
 
@@ -259,4 +259,4 @@ TEST(CheckClosed, ChecksTheSurfaceToo) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 double uniform(std::mt19937_64& random, double low, double high) {
@@ -75,4 +75,4 @@ TEST(MaterialFrame, OfAFlippedTriangleHasNegativeArea) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // A box of the given edge, its smallest corner at `low`; inside out if asked.
@@ -54,4 +54,4 @@ TEST(SurfaceParts, AFlippedTriangleOrASecondOneIsNotClosed) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

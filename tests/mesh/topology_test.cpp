@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // An n by m grid of squares, each cut in two.
@@ -188,4 +188,4 @@ TEST(Topology, NamesTheTriangleWithABadCorner) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include "preview/pictures.hpp"
 #include "preview/preview.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 TEST(Camera, FramesAllCornersOfABoxWithAMarginAndNoMoreThanThat) {
@@ -69,4 +69,4 @@ TEST(Camera, RefusesWhatCannotBeFramed) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 #include "preview/bitmap_font.hpp"
 #include "preview/pictures.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 Image plain(int width, int height, std::uint8_t value) {
@@ -85,4 +85,4 @@ TEST(BitmapFont, CutsTextAtTheEdgesOfTheImage) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

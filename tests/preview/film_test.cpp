@@ -9,7 +9,7 @@
 #include "io/scratch.hpp"
 #include "preview/preview.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // While it lives, PATH is something else.
@@ -201,4 +201,4 @@ TEST(Film, RefusesCountsRatesAndPicturesThatMakeNoFilm) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // A (0, m, 2)-net: one of 16 points in each box of area 1/16, for every shape of box with sides 2^-a.
@@ -49,4 +49,4 @@ TEST(LowDiscrepancy, CosineDirectionsAreUnitAboutTheirNormalAndTheirMeanCosineIs
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -6,7 +6,7 @@
 
 #include "preview/preview.hpp"
 
-namespace toile {
+namespace toile::internal {
 
 struct Sheet {
   std::vector<Triangle> triangles;
@@ -77,4 +77,4 @@ inline std::vector<double> dark_lines(const Image& image, int y, int x0, int x1,
   return lines;
 }
 
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include "io/scratch.hpp"
 #include "preview/preview.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 Image pattern(int width, int height) {
@@ -64,4 +64,4 @@ TEST(Png, RefusesAnImageWhoseBytesDoNotFitItsSize) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

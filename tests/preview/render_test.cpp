@@ -9,7 +9,7 @@
 #include "preview/pictures.hpp"
 #include "preview/preview.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 RenderOptions small(int width = 96, int height = 96, int samples = 8) {
@@ -325,4 +325,4 @@ TEST(Render, TurntableSheetHoldsThreeViews) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

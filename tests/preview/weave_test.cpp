@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 double uniform(std::mt19937_64& bits) { return static_cast<double>(bits() >> 11) * 0x1p-53; }
@@ -51,4 +51,4 @@ TEST(Weave, IsAbsentWithoutAGridWidth) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

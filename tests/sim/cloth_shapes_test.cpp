@@ -13,7 +13,7 @@
 #include <numbers>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 SceneCloth cloth(const std::string& shape) {
@@ -115,4 +115,4 @@ TEST(ClothShapes, AClosedRibbonMeetsItselfWhateverItsTurns) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

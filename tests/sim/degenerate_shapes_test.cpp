@@ -10,7 +10,7 @@
 #include <random>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // What a scene of one object is refused with; empty: it is a shape.
@@ -161,4 +161,4 @@ TEST(DegenerateShapes, AreRefusedAtTheirPlaceWhateverTheNumbers) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

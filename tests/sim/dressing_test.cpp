@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // A tube in the air, and a loose strip between both sides of both its seams, as a fold would be caught.
@@ -85,4 +85,4 @@ TEST(DressingBody, WhatFallsFirstFallsAroundAThinBody) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using exact::Random;
@@ -120,4 +120,4 @@ TEST(Finders, AgreeOnTangledStarts) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

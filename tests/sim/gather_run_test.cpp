@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double most = 0.03;
@@ -153,4 +153,4 @@ TEST(GatherRunLong, UpToFiveToOneOnThreeMeshes) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 
 #include <type_traits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 template <class... T>
@@ -45,4 +45,4 @@ static_assert(!std::is_constructible_v<Elements, ClothModel>);
 static_assert(!std::is_constructible_v<LinearSystem<float>, BlockMatrix<float>>);
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // As simulate() makes it.
@@ -102,4 +102,4 @@ TEST(InputHash, SecondsThatAreGivenCount) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::string text_of(const std::string& path) {
@@ -95,4 +95,4 @@ TEST(JitterOfARun, RisesWhenItsFilesTremble) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -16,7 +16,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 Report run(const Scratch& scratch, const Scene& scene) {
@@ -340,4 +340,4 @@ TEST(Judging, WhereAGarmentBelongsIsReadFromItsLabels) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

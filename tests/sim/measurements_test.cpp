@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // The woman as somebody's file, and where her waist is found on it.
@@ -203,4 +203,4 @@ TEST(Measurements, ATemplateOf2021IsRaisedToTheBodyAndTheReportSaysBy) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

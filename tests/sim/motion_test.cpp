@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 Report run(const std::string& directory, const Scene& scene) {
@@ -266,4 +266,4 @@ TEST(Events, AClothThatShrinksDuringTheRunIsJudgedByWhatItBecame) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Frames {
@@ -172,4 +172,4 @@ TEST(MovingThings, WhatIsTakenLaterMovesFromWhereItIs) {  // whatever its moves 
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

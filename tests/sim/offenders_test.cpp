@@ -11,7 +11,7 @@
 #include <numeric>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 ClothMesh strip(int triangles) {
@@ -84,4 +84,4 @@ TEST(Offenders, OfAStepThatCollapsedAreInAFile) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // A sheet of 20 cm that counts as sewn, and hangs by two of its corners.
@@ -113,4 +113,4 @@ TEST(OutfitRun, AGarmentThatWaitsHasWeightUnlessItIsToHaveNone) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 
 #include <map>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 BodySurface& body(MannequinKind kind) {
@@ -117,4 +117,4 @@ TEST(OwnGarmentsTogether, AScenesPanelKeepsWhatItDoesNotName) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 TEST(Pinch, ASleeveComesOutOfAnElbowAsItWentIn) {
@@ -50,4 +50,4 @@ TEST(Pinch, ASleeveComesOutOfAnElbowAsItWentIn) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

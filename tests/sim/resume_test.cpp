@@ -12,7 +12,7 @@
 #include <map>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 RunOptions options_of(const std::string& directory) {
@@ -218,4 +218,4 @@ TEST(Resume, RefusesOtherInputsAndADamagedState) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 RigidPath turning_and_growing() {
@@ -60,4 +60,4 @@ TEST(RigidPath, NoPointIsFasterThanTheFastestPieceSays) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

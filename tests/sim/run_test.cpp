@@ -26,7 +26,7 @@
 #include <fstream>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 Report run(const Scratch& scratch, const Scene& scene, const std::function<bool()>& stop = {}) {
@@ -423,4 +423,4 @@ TEST(Run, DressingEndsAtItsTimeLimitWithWhatThereIs) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 std::string refusal(const std::string& text) {
@@ -195,4 +195,4 @@ TEST(Scene, TakesTheLineOfTheValueThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using Kind = SettingNode::Kind;
@@ -353,4 +353,4 @@ TEST(Settings, ThePlaceOfTheOutputIsKept) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -14,7 +14,7 @@
 #include <cstdio>
 #include <string>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 enum class Under { floor, sphere };
@@ -139,4 +139,4 @@ TEST(Stack, LosesEnergyInEveryFrameInStepsOf8Milliseconds) { expect_rises_below(
 TEST(Stack, GainsLittleInAnyFrameInStepsOf20Milliseconds) { expect_rises_below(0.04, 20e-3); }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

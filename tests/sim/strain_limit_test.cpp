@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Result {
@@ -117,4 +117,4 @@ TEST(StrainLimitRun, ContradictingPinsAreDiagnosed) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

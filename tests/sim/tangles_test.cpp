@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 TEST(Tangles, AreLeftAloneUntilTheyAreGone) {
@@ -86,4 +86,4 @@ TEST(Tangles, EveryParticleOfACrossingIsLeftAloneHoweverLongItsEdges) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

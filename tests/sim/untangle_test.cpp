@@ -13,7 +13,7 @@
 
 #include <cstdio>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::TangledStart;
@@ -215,4 +215,4 @@ TEST(UntangleLong, FiftyStarts) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

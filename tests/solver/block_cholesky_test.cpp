@@ -10,7 +10,7 @@
 #include "support/every_target.hpp"
 #include "support/sheets.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr Eigen::Index side = BlockCholesky::side;
@@ -137,4 +137,4 @@ TEST(BlockCholesky, GivesTheSameBitsOnEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 // A crumpled cloth's system with contact-like rows, and constraints of every kind with z different from zero.
 template <class T>
@@ -76,4 +76,4 @@ double error_against_dense(Problem<T>& p, const Vec3s& dv) {
   return std::sqrt(sum) / exact.norm();
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr std::array all = {Preconditioner::diagonal, Preconditioner::block_jacobi, Preconditioner::block_ssor,
@@ -451,4 +451,4 @@ TEST(LinearSystem, ItsDiagonalBlocksAreThoseOfTheDenseMatrixRowsIncluded) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::error_against_dense;
@@ -185,4 +185,4 @@ TEST(PaperPcg, SaysWhenItCannotGoOn) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

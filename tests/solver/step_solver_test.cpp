@@ -9,7 +9,7 @@
 
 #include <array>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // A nearly flat sheet with edges of 5 mm, `times` as stiff as cotton, in a step of 1/30 s.  Nothing pulls it, as it does in crumpled_problem.hpp: with as
@@ -97,4 +97,4 @@ TEST(StepSolver, StiffClothIsSolvedInDouble) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -12,7 +12,7 @@
 #include <map>
 #include <numeric>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::Problem;
@@ -313,4 +313,4 @@ TEST(SweepDomains, GiveTheSameBitsOnEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include "support/every_target.hpp"
 #include "support/sheets.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 template <class T>
@@ -88,4 +88,4 @@ TEST(VectorKernels, GiveTheSameBitsOnEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

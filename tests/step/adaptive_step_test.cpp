@@ -6,7 +6,7 @@
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -243,4 +243,4 @@ TEST(Golden, StateHashesOfThreeScenes) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -1,7 +1,7 @@
 // Cloth in air: falling against closed forms, and in wind.
 #include "support/run_cloth.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -119,4 +119,4 @@ TEST(Air, WithoutDensityThereIsNone) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 const BodyAt moves_the_first = [](double t_s, std::span<Vec3> x) { x[0] = Vec3(t_s, 0, 0); };
@@ -54,4 +54,4 @@ TEST(BodyAtDeathTest, WhatNobodyFilledIsNotANumber) {
 #endif
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -2,7 +2,7 @@
 #include "support/bodies.hpp"
 #include "support/run_cloth.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -405,4 +405,4 @@ TEST(BodyContact, ABallThatSpinsUnderClothDoesNotDrawItIn) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double k = 100;  // N/m
@@ -112,4 +112,4 @@ TEST(Bristle, WithoutALoadDoesNothing) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

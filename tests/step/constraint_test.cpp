@@ -2,7 +2,7 @@
 #include "support/bodies.hpp"
 #include "support/run_cloth.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -152,4 +152,4 @@ TEST(Friction, OfASlidingSheetIsMuNWhateverItsSpeedAndStopsIt) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include <map>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -455,4 +455,4 @@ TEST(ContactRows, WhatIsPressedNearlyFlatHardensUntilItBearsTheLoad) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

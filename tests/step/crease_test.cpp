@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -131,4 +131,4 @@ TEST(Crease, BetweenWallsLessThanTwoOffsetsApartItStaysInTheMiddle) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

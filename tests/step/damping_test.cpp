@@ -4,7 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -138,4 +138,4 @@ TEST(DampingInMotion, BothJacobiansGiveTheSameMotionWithinTheErrorOfTheStep) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -146,4 +146,4 @@ TEST(StepWorld, ItsSpringsAreAskedForTheEndOfEveryStep) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

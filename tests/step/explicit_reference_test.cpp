@@ -3,7 +3,7 @@
 
 #include "support/run_cloth.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -75,4 +75,4 @@ TEST(ExplicitReference, RungeKuttaIsOfFourthOrderAndKeepsTheEnergy) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

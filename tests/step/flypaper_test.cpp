@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -271,4 +271,4 @@ TEST(NearestFacing, IsTheNearestOfTheFacesThatLookThatWay) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

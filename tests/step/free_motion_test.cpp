@@ -1,7 +1,7 @@
 // Motion without contact: what gravity, momentum and rigid motion demand of a solver that stops early.
 #include "support/run_cloth.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -137,4 +137,4 @@ TEST(FreeMotion, DragBrakesARigidMotionAsBackwardEulerDoes) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

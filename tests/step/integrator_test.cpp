@@ -3,7 +3,7 @@
 #include "support/bodies.hpp"
 #include "support/run_cloth.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -282,4 +282,4 @@ TEST(Newton, ARefusedAttemptLeavesNothingBehind) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 #include <cstdio>
 #include <numbers>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -164,4 +164,4 @@ TEST(LayerFriction, StopsWhatSlidesAndLeavesItThere) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <array>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::Sheet;
@@ -99,4 +99,4 @@ TEST(LayerGap, OfASingleSheetThereIsNone) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

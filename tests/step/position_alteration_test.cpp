@@ -2,7 +2,7 @@
 #include "support/bodies.hpp"
 #include "support/run_cloth.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -77,4 +77,4 @@ TEST(PositionAlteration, BothEndAtTheOffset) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -304,4 +304,4 @@ TEST(StrainLimitStep, AThreadBeyondItsLimitIsRefusedFromWhereverItComes) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

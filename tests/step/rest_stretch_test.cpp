@@ -2,7 +2,7 @@
 #include "core/error.hpp"
 #include "support/run_cloth.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -117,4 +117,4 @@ TEST(RestStretch, NonsenseIsRefused) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

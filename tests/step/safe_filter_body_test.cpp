@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -83,4 +83,4 @@ TEST(SafeFilterBody, WhatIsThroughAtTheStartMayLeave) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 
 #include <cstring>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -472,4 +472,4 @@ TEST(SafeFilter, GivesUpWhereThereIsTooMuchToCorrect) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -99,4 +99,4 @@ TEST(Swallowed, WhereTwoPartsAreWithinEachOtherThereIsNoWayOutUntilTheyPart) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -3,7 +3,7 @@
 #pragma once
 #include "step/implicit_euler.hpp"
 
-namespace toile::test {
+namespace toile::internal::test {
 
 inline StepOptions bare_step() {
   StepOptions options;
@@ -20,4 +20,4 @@ inline StepWorld vacuum() {
   return world;
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <map>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 // A box with the given half sizes, turned by `angle_deg` about z, its top face through the origin's height before turning.
 inline BodySurface tilted_slab(double half_width_m, double thickness_m, double angle_deg) {
@@ -46,4 +46,4 @@ inline BodySurface sphere(const Vec3& centre, double radius_m, int levels) {
   return BodySurface(std::move(x), triangles);
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

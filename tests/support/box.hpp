@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 inline constexpr std::array<Triangle, 12> box_triangles = {{{4, 6, 5},
                                                             {5, 6, 7},
@@ -19,4 +19,4 @@ inline constexpr std::array<Triangle, 12> box_triangles = {{{4, 6, 5},
                                                             {1, 5, 3},
                                                             {3, 5, 7}}};
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

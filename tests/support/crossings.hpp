@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 // Edges of the mesh that pass through one of its triangles, by trying all of them against all: the plain definition.
 inline int crossings_of(const Vec3s& x, const std::vector<Triangle>& triangles) {
@@ -30,4 +30,4 @@ inline int crossings_of(const Vec3s& x, const std::vector<Triangle>& triangles) 
   return count;
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

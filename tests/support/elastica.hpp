@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 struct Elastica {
   double H, W;     // drop and reach of the tip, in units of the length
@@ -60,4 +60,4 @@ inline double gamma_of_chord(double H_over_W) {
   return std::exp(0.5 * (low + high));
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 inline bool is_asked_for(const std::string& target) {
   const char* const only = std::getenv("TOILE_TEST_TARGETS");
@@ -39,4 +39,4 @@ int on_every_target(const Work& work) {
   return count;
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

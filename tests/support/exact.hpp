@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace toile::exact {
+namespace toile::internal::exact {
 
 class Whole {
  public:
@@ -174,4 +174,4 @@ class Random {
   std::mt19937_64 bits_;
 };
 
-}  // namespace toile::exact
+}  // namespace toile::internal::exact

@@ -2,7 +2,7 @@
 #pragma once
 #include "material/fabric.hpp"
 
-namespace toile::test {
+namespace toile::internal::test {
 
 // As stiff in compression as in tension: orders of accuracy, modes and momenta are stated for an energy without a kink.
 inline Fabric linear_cotton() {
@@ -11,4 +11,4 @@ inline Fabric linear_cotton() {
   return fabric;
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

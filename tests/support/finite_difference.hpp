@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 
 struct FiniteDifference {
   Eigen::MatrixXd derivative;                               // [component of f][component of x]
@@ -53,4 +53,4 @@ double relative_error(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>&
   return size > 0 ? (a - b).norm() / size : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace toile
+}  // namespace toile::internal

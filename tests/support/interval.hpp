@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace toile::exact {
+namespace toile::internal::exact {
 
 struct Interval {
   double low = 0, high = 0;
@@ -28,4 +28,4 @@ struct Interval {
   }
 };
 
-}  // namespace toile::exact
+}  // namespace toile::internal::exact

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 class JsonSchema {
  public:
@@ -84,4 +84,4 @@ class JsonSchema {
   const Json* root_;
 };
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile::exact {
+namespace toile::internal::exact {
 
 // Coefficients, lowest power first; a Coefficient has + - * and is 0 when default-constructed.
 template <class Coefficient>
@@ -183,4 +183,4 @@ class UnitRoots {
   std::vector<RootInterval> found_;
 };
 
-}  // namespace toile::exact
+}  // namespace toile::internal::exact

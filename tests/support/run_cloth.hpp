@@ -9,7 +9,7 @@
 
 #include <optional>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 inline ModelOptions weightless() {
   ModelOptions options;
@@ -55,4 +55,4 @@ struct ClothRun {
   double time_s = 0;
 };
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 // None of the values is its key's default.
 inline constexpr std::array<std::string_view, 5> scenes_with_every_setting = {
@@ -101,4 +101,4 @@ inline std::string with(const Json& json, std::string_view pointer, std::string_
   return text.str();
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

@@ -2,7 +2,7 @@
 #pragma once
 #include "support/run_cloth.hpp"
 
-namespace toile::test {
+namespace toile::internal::test {
 
 // Frames of `frame_s` until nothing is faster than `speed_m_per_s`; at least `least` of them.  Returns how many; fails the test where
 // `most` are not enough or a step collapses.  Long frames are deliberate: backward Euler takes energy out of what it does not resolve,
@@ -18,4 +18,4 @@ inline int settle(ClothRun& run, double frame_s, double speed_m_per_s, int least
   return most;
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 struct Sheet {
   ClothMesh mesh;
@@ -114,4 +114,4 @@ inline Vec3s crumpled(const Vec3s& x, double size_m, std::uint64_t seed) {
   return out;
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 enum class StripAlong { u, v };
 
@@ -69,4 +69,4 @@ inline double realised_rigidity(const ClothMesh& mesh, StripAlong along, double 
   return 1e-5 * end_deflection(build_model(mesh, {&fabric, 1}), along, length_m, held_m) / w;
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 struct TangledStart {
   std::string name;
@@ -228,4 +228,4 @@ inline TangledStart tangled_start(int kind, int seed) {
   return start;
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

@@ -1,7 +1,7 @@
 // tests/support/tube_pattern.hpp: two rectangles of 50 by 20 cm, 50 cm apart, sewn at both sides: a tube of 1 m around.
 #pragma once
 
-namespace toile::test {
+namespace toile::internal::test {
 
 inline constexpr const char* tube_pattern_text = R"({"pattern": {"panels": {
     "front": {"translation": [0, 0, 25], "rotation": [0, 0, 0], "vertices": [[-25,0],[25,0],[25,20],[-25,20]],
@@ -11,4 +11,4 @@ inline constexpr const char* tube_pattern_text = R"({"pattern": {"panels": {
     "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
     "properties": {"units_in_meter": 100}})";
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

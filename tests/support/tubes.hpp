@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 struct Tube {
   Vec3s x;
@@ -37,4 +37,4 @@ inline Tube tube(double radius_m, double low_m, double high_m, Index around, Ind
   return tube;
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

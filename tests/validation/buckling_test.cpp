@@ -10,7 +10,7 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -95,4 +95,4 @@ TEST(LateralBuckling, ComesAtTheLoadOfAPlateWithNuMinusAThird) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 enum class StripMesh { rows_across, rows_along, mesher, mesher_15, mesher_30 };
 inline const char* to_string(StripMesh mesh) {
@@ -141,4 +141,4 @@ inline Sag sag(const Strip& strip, const Fabric& fabric) {
 // where its own membrane forbids that.
 inline constexpr double strip_rigidity_low = 8.0 / 9, strip_rigidity_middle = 17.0 / 18;
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

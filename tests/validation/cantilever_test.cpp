@@ -4,7 +4,7 @@
 //   graphics"; ASTM D1388: at a chord of 41.5 degrees the bending length is half the overhang, D = rho g (L/2)^3
 #include "validation/cantilever.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::clamped_strip;
@@ -142,4 +142,4 @@ TEST(CantileverLong, MeasuresTheFabricsAsALaboratoryWould) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

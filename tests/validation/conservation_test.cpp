@@ -9,7 +9,7 @@
 #include "support/run_cloth.hpp"
 #include "validation/figures.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -140,4 +140,4 @@ TEST(Conservation, AFreeSheetKeepsItsLinearMomentumAndLosesLessOfItsTurnInShorte
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

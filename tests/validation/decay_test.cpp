@@ -8,7 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -102,4 +102,4 @@ TEST(Decay, ASmallModeDiesAsBackwardEulerSays) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 struct CusickSizes {
   double specimen_m = 0.15, disc_m = 0.09;  // radii
@@ -168,4 +168,4 @@ inline int fold_count(const Disc& disc, std::span<const Vec3> x) {
   return folds;
 }
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

@@ -5,7 +5,7 @@
 #include "validation/drape.hpp"
 #include "validation/figures.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -138,4 +138,4 @@ TEST(DrapeLong, DependsLittleOnWhereTheFoldsBegin) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include <limits>
 #include <string>
 
-namespace toile::test {
+namespace toile::internal::test {
 
 class Figures {
  public:
@@ -37,4 +37,4 @@ class Figures {
   std::ofstream file_;
 };
 
-}  // namespace toile::test
+}  // namespace toile::internal::test

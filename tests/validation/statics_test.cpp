@@ -2,7 +2,7 @@
 #include "support/run_cloth.hpp"
 #include "validation/figures.hpp"
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::ClothRun;
@@ -97,4 +97,4 @@ TEST(PureShear, ForcePerWidthFollowsFromTheEnergy) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Soup {
@@ -95,4 +95,4 @@ TEST(BoxTree, LooksAtFewOfManyTriangles) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -16,7 +16,7 @@
 #include <set>
 #include <tuple>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using exact::Random;
@@ -368,4 +368,4 @@ TEST(Crossings, OfARealBodyWithItselfAreConfirmedByExactArithmetic) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

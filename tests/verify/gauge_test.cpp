@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 // A flat sheet of `columns` x `rows` squares of `edge` m, in two triangles each.
@@ -86,4 +86,4 @@ TEST(Gauge, TheRingOfATubeComesRoundAndIsItsGirth) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

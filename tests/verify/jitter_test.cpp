@@ -14,7 +14,7 @@
 #include <numbers>
 #include <random>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr double pi = std::numbers::pi, mm = 1e-3;
@@ -310,4 +310,4 @@ TEST(RunAudit, MeasuresJitterFromSixFramesOn) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

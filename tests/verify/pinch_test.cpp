@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 struct Solid {
@@ -162,4 +162,4 @@ TEST(Interior, OfARoomIsItsWallAndOfAHollowItsShell) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using exact::Random;
@@ -166,4 +166,4 @@ TEST(Planted, DefeatArithmeticInDouble) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -8,7 +8,7 @@
 #include <map>
 #include <numeric>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using exact::Random;
@@ -217,4 +217,4 @@ TEST(SegmentCrossesTriangle, DoesNotDependOnTheOrderOfItsPoints) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <functional>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using test::Tube;
@@ -272,4 +272,4 @@ TEST(Slip, OfAYokeIsAlongTheSurfaceOfTheShoulders) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 using exact::Random;
@@ -240,4 +240,4 @@ TEST(Speed, IsTheNinetyNinthPercentileOfTheVertices) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 VerifyReport good() {
@@ -125,4 +125,4 @@ TEST(Verdict, UsesTheLimitsGivenAndReturnsThem) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal

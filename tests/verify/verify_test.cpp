@@ -17,7 +17,7 @@
 #include <limits>
 #include <sstream>
 
-namespace toile {
+namespace toile::internal {
 namespace {
 
 constexpr int columns = 8, rows = 6, last_frame = 40;
@@ -361,4 +361,4 @@ TEST(RunAudit, TakesTheLargestSpeedOfTheLastSecondOnly) {
 }
 
 }  // namespace
-}  // namespace toile
+}  // namespace toile::internal
