@@ -69,6 +69,14 @@ class Checkers(unittest.TestCase):
         self.refuses(tool, {"src/material/a.cpp": '#include "util/a.hpp"\n'}, "unknown module 'util'")
         self.refuses(tool, {"src/util/a.cpp": "\n"}, "module 'util' is not in src/layers.txt")
 
+    def test_public_headers_are_for_the_highest_module(self):
+        tool = "check_layers.py"
+        tree = {"src/layers.txt": sound_tree["src/layers.txt"] + "api\n",
+                "src/CMakeLists.txt": sound_tree["src/CMakeLists.txt"] + "toile_module(api DEPENDS io)\n",
+                "src/api/a.cpp": '#include "toile/cloth.hpp"\n'}
+        self.accepts(tool, tree)
+        self.refuses(tool, {**tree, "src/io/a.cpp": '\n#include "toile/cloth.hpp"\n'}, "src/io/a.cpp:2: 'io' may not include a public header")
+
     def test_a_module_that_is_kept_for_some_files(self):
         tool = "check_layers.py"
         tree = {"src/layers.txt": sound_tree["src/layers.txt"] + "only io mesh obj.cpp\n",

@@ -1,0 +1,9 @@
+#include "toile/version.hpp"
+
+#include "sim/report.hpp"
+
+namespace toile {
+
+const char* version() { return internal::toile_version().data(); }  // of a literal, so it ends with a zero
+
+}  // namespace toile
