@@ -51,7 +51,11 @@ foreach(package ${toile_packages})
 endforeach()
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/toileConfig.cmake.in ${PROJECT_BINARY_DIR}/toileConfig.cmake
   INSTALL_DESTINATION ${config_dir} NO_SET_AND_CHECK_MACRO)
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/toileConfigVersion.cmake VERSION ${toile_VERSION} COMPATIBILITY SameMinorVersion)
+set(fits SameMajorVersion)
+if(toile_VERSION VERSION_LESS 1.0)
+  set(fits SameMinorVersion)
+endif()
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/toileConfigVersion.cmake VERSION ${toile_VERSION} COMPATIBILITY ${fits})
 install(FILES ${PROJECT_BINARY_DIR}/toileConfig.cmake ${PROJECT_BINARY_DIR}/toileConfigVersion.cmake DESTINATION ${config_dir} COMPONENT development)
 
 set(requires_private ${toile_pc_requires})

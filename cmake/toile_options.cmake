@@ -18,6 +18,9 @@ add_library(toile_rules INTERFACE)
 # Same source, same bits: no contraction of a*b+c, no reassociation.  They come behind CMAKE_CXX_FLAGS, and so win over what a parent or a
 # packager has put there.  (docs/conventions.md#determinism)
 target_compile_options(toile_rules INTERFACE -ffp-contract=off -fno-fast-math)
+# For some clangs -fno-fast-math is the default again, with contraction: the last word is ours.  (SHELL: or CMake drops what it has
+# seen before.)
+target_compile_options(toile_rules INTERFACE $<$<CXX_COMPILER_ID:Clang,AppleClang>:SHELL:-ffp-contract=off>)
 target_compile_options(toile_rules INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-qual
                                              $<$<BOOL:${TOILE_WERROR}>:-Werror>)
 target_compile_options(toile_rules INTERFACE -fvisibility=hidden)  # what is public says TOILE_EXPORT (include/toile/export.hpp)

@@ -109,11 +109,15 @@ class Others:
         expect(run(program) == f"toile {self.options.version}\n", "the program made with toile.pc says something else")
 
     def refuses_other_versions(self, prefix):
-        """Below 1.0 a minor version may change what is public."""
+        """Below 1.0 a minor version may change what is public, and an earlier one is another."""
         major, minor, _ = self.options.version.split(".")
+        earlier_fits = int(major) > 0
         folder = self.scratch / "asks"
         folder.mkdir()
-        for asked, fits in [(f"{major}.{minor}", True), (f"{major}.{int(minor) + 1}", False), (f"{int(major) + 1}", False)]:
+        asked_of = [(f"{major}.{minor}", True), (f"{major}.{int(minor) + 1}", False), (f"{int(major) + 1}", False)]
+        if int(minor) > 0:
+            asked_of.append((f"{major}.{int(minor) - 1}", earlier_fits))
+        for asked, fits in asked_of:
             (folder / "CMakeLists.txt").write_text(
                 f"cmake_minimum_required(VERSION 3.16)\nproject(asks LANGUAGES CXX)\nfind_package(toile {asked})\n"
                 f"if(NOT toile_FOUND STREQUAL \"{int(fits)}\")\n  message(FATAL_ERROR \"toile {asked}: found ${{toile_FOUND}}\")\nendif()\n")
