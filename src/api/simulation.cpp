@@ -90,6 +90,7 @@ void Simulation::Implementation::begin() {
     scene_pins = run.events().pins.size();
     scene_drags = run.events().drags.size();
     tell(run);
+    if (interaction.moves) lead_body(run);
   });
   begun = true;
   flat = {};
@@ -184,9 +185,17 @@ DressReport Simulation::run() {
   return translated([&] {
     Implementation& own = *implementation_;
     if (own.begun && own.engine->live().time_s() > 0) misuse("run: time has gone on already; reset() takes it back");
-    own.make();
+    own.make_engine();
     own.recipe->in_threads([&] { own.engine->run(); });
     own.begun = own.engine->has_begun();
+    if (own.begun) {
+      own.scene_pins = own.engine->live().events().pins.size();
+      own.scene_drags = own.engine->live().events().drags.size();
+      own.interaction.moves = own.engine->report().motion_first_frame >= 0;
+      own.interaction.moves_from_s = own.interaction.moves ? own.engine->motion_from_s() : 0;
+    } else {
+      own.make();  // it was stopped before anything was on
+    }
     own.update_body();
     return own.report();
   });
