@@ -3,6 +3,7 @@
 JOBS ?= $(shell nproc)
 
 configure: packages
+	@tools/python_environment.sh build/release
 	@cmake --preset release >/dev/null
 
 build: configure
