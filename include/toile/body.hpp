@@ -15,9 +15,10 @@ enum class LengthUnit { automatic, m, dm, cm };  // automatic: metres, or an err
 
 struct BodyFileOptions {
   LengthUnit unit = LengthUnit::automatic;
-  std::string motion;  // a .pc2, a folder of OBJ files, or the name of a motion for upright meshes; empty: it stands
-  double fps = 30;     // of the files of the motion
-  std::string measurements;  // a YAML file; empty: the one beside the mesh, if there is one
+  std::string motion =
+      {};           // a .pc2, a folder of OBJ files, or the name of a motion for upright meshes; empty: it stands
+  double fps = 30;  // of the files of the motion
+  std::string measurements = {};  // a YAML file; empty: the one beside the mesh, if there is one
 };
 struct CylinderOptions {  // upright, with rounded rims
   double radius_m = 0.2, height_m = 0.5;

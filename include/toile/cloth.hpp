@@ -20,12 +20,12 @@ struct GridOptions {
 
 // Cloth from arrays.  Of n vertices and f faces:
 struct ClothArrays {
-  std::span<const Point> vertices_m;  // [n] where it starts
-  std::span<const Face> faces;        // [f]
+  std::span<const Point> vertices_m = {};  // [n] where it starts
+  std::span<const Face> faces = {};        // [f]
   // [f] How it was cut.  Empty: it was cut as it starts, its warp as upright as each face allows.
-  std::span<const CornerUvs> uv_m;
-  std::span<const std::int32_t> panel;       // [f] a number below panel_names.size(); empty: one panel
-  std::span<const std::string> panel_names;  // empty: the cloth's name
+  std::span<const CornerUvs> uv_m = {};
+  std::span<const std::int32_t> panel = {};       // [f] a number below panel_names.size(); empty: one panel
+  std::span<const std::string> panel_names = {};  // empty: the cloth's name
 };
 
 // A value: a copy is independent.

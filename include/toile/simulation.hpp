@@ -34,11 +34,11 @@ struct Progress {
 struct SimulationOptions {
   Point gravity_m_per_s2{0, -9.81, 0};
   Point wind_m_per_s{0, 0, 0};
-  double air_density_kg_per_m3 = 0;  // 0: cloth moves as in a vacuum
-  int threads = 0;                   // 0: one per core; the bits do not depend on it
-  // Asked while it works; true ends the call, and what it was doing can be gone on with.
-  std::function<bool()> cancelled;
-  std::function<void(const Progress&)> progress;
+  double air_density_kg_per_m3 = 1.2;  // 0: cloth moves as in a vacuum
+  int threads = 0;                     // 0: one per core; the bits do not depend on it
+  // Asked while it works; true ends the call.  A simulation whose dressing was cancelled is as it was before.
+  std::function<bool()> cancelled = {};
+  std::function<void(const Progress&)> progress = {};
 };
 
 struct Reason {
@@ -60,7 +60,7 @@ struct DressReport {
 // One advance().
 struct StepReport {
   bool ok() const { return reached; }
-  bool reached = true;  // false: the cloth stays where the last good step left it
+  bool reached = true;  // false: the cloth stays where the last good step left it, and time where it was
   bool cancelled = false;
   int steps = 0, rejected = 0;
   double step_min_s = 0, step_max_s = 0;
@@ -104,6 +104,8 @@ class Simulation {
   // Sews the patterns around the body, and lets them hang until they are at rest, or for longest_s.  Of cloth that is no pattern: lets it come to
   // rest.  `time_limit_s` is wall time; 0: any.
   DressReport dress(double longest_s = 20, double time_limit_s = 0);
+  // Of a scene: all that it says, to its end, as the program does.
+  DressReport run();
   // By exactly h_s.  A body with a motion begins it at the first call.
   StepReport advance(double h_s);
   // Since everything is on: after dress() it is how long the cloth hung.

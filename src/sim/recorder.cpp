@@ -6,14 +6,13 @@
 #include <optional>
 
 namespace toile::internal {
-namespace {
 
-RunDescription describe(const Outfit& outfit, std::span<const Vec2> rest_stretch, double fps,
+RunDescription describe(const ClothMesh& mesh, std::span<const Vec2> rest_stretch, double fps,
                         std::span<const Triangle> body, std::size_t body_vertices) {
   RunDescription run;
-  run.mesh = drawn_mesh(outfit.mesh);
+  run.mesh = drawn_mesh(mesh);
   if (std::any_of(rest_stretch.begin(), rest_stretch.end(), [](const Vec2& b) { return b != Vec2(1, 1); })) {
-    for (const Index panel : outfit.mesh.panel) {
+    for (const Index panel : mesh.panel) {
       const Vec2& b = rest_stretch[static_cast<std::size_t>(panel)];
       run.b.emplace_back(b.y(), b.x());  // the first axis of vt is the weft: run_writer.hpp
     }
@@ -24,11 +23,9 @@ RunDescription describe(const Outfit& outfit, std::span<const Vec2> rest_stretch
   return run;
 }
 
-}  // namespace
-
 Recorder::Recorder(RunWriter& writer, const Outfit& outfit, std::span<const Vec2> rest_stretch, double fps,
                    std::span<const Triangle> body, std::span<const Vec3> body_x)
-    : writer_(&writer), audit_(describe(outfit, rest_stretch, fps, body, body_x.size())) {
+    : writer_(&writer), audit_(describe(outfit.mesh, rest_stretch, fps, body, body_x.size())) {
   std::vector<Index> garment_of_panel;
   for (std::size_t p = 0; p < outfit.mesh.panel_names.size(); ++p)
     garment_of_panel.push_back(outfit.part_of_panel(static_cast<Index>(p)));
@@ -40,7 +37,7 @@ Recorder::Recorder(RunWriter& writer, const Outfit& outfit, std::span<const Vec2
 
 Recorder::Recorder(RunWriter& writer, const Outfit& outfit, std::span<const Vec2> rest_stretch, double fps,
                    std::span<const Triangle> body, std::size_t body_vertices, const WrittenFrames& written)
-    : writer_(&writer), audit_(describe(outfit, rest_stretch, fps, body, body_vertices)) {
+    : writer_(&writer), audit_(describe(outfit.mesh, rest_stretch, fps, body, body_vertices)) {
   Pc2Reader cloth(writer.path("cloth.pc2"));
   std::optional<Pc2Reader> bodies;
   if (written.has_body) bodies.emplace(writer.path("body.pc2"));

@@ -9,6 +9,10 @@
 
 namespace toile::internal {
 
+// Of what hangs, for the judge: the drawing of the outfit, and what each panel ends with.
+RunDescription describe(const ClothMesh& mesh, std::span<const Vec2> rest_stretch, double fps,
+                        std::span<const Triangle> body, std::size_t body_vertices);
+
 class Recorder {
  public:
   // Writes frame 0.  `rest_stretch` is what each panel ends with, by which the last frame is judged.  `body` may be empty.

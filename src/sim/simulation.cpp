@@ -63,10 +63,21 @@ void Simulation::run() {
   const std::string put_on_ended = failure_.empty() ? "" : failure_.front().code;
   begin();
   if (!stopped_short_ && (place_.phase == RunPhase::motion || drape()) && motion_) animate();
-  if (report_.ended == "time" && failure_.empty()) judge_end();
-  if (failure_.empty()) find_slid_down();
+  judge_worn();
   if (!put_on_ended.empty() && report_.ended != reason::interrupted) report_.ended = put_on_ended;
   close();
+}
+
+void Simulation::limit_dressing(double longest_s, double time_limit_s) {
+  scene_.until_still = true;
+  scene_.seconds = scene_.drape_seconds = longest_s;
+  options_.time_limit_s = time_limit_s;
+  options_.watch = {};
+}
+
+void Simulation::judge_worn() {
+  if (report_.ended == "time" && failure_.empty()) judge_end();
+  if (failure_.empty()) find_slid_down();
 }
 
 // Where it was left.
@@ -79,6 +90,14 @@ void Simulation::take_up(StateReader& archive) {
   taken_up_ = &archive;
   wear_again();
   archive(outfit_);
+}
+
+std::string Simulation::state() {
+  StateWriter archive;
+  remember(archive);
+  archive(outfit_);
+  run_->remember(archive);
+  return archive.take();
 }
 
 // A phase ends before its end.  False: the user wants it so, and it can be taken up again.  True: the time that it was given is over, and what

@@ -64,8 +64,14 @@ class Simulation {
 
   // The same in parts.  Puts on what is to be worn; false: it was stopped, or ended before anything was on.
   bool put_on();
-  // Once, after put_on(): the first frame of what hangs.
-  void begin();
+  // Once, after put_on(): the first frame of what hangs.  `prepare` is called before a state is read back that it was taken up from: what happens
+  // to the cloth, and how the body moves, has to be known by then.
+  void begin(const std::function<void(OutfitRun&)>& prepare = {});
+  bool has_begun() const { return run_.has_value(); }
+  // Of dressing, from now on: how long the drape may be, in simulated and in wall time (0: any).
+  void limit_dressing(double longest_s, double time_limit_s);
+  // Of a drape that is over: is it worn, as far as that can be told without measuring?
+  void judge_worn();
   // Until it is at rest, where that is awaited, or its time is over.  False: it ended for a bad reason, which failure() has.
   bool drape();
   // From here on frames are the caller's.
@@ -82,6 +88,11 @@ class Simulation {
   std::span<const Triangle> body_triangles() const { return body_triangles_; }
   Index particles_of_first_panels() const { return cloth_.front().garment.mesh.particle_count; }
   bool body_moves() const { return motion_.has_value(); }
+  const std::optional<BodyMovement>& motion() const { return motion_; }
+  const GarmentMesh& panels(std::size_t cloth) const { return cloth_[cloth].garment; }  // until it has begun
+  std::size_t cloths() const { return cloth_.size(); }
+  // Of a simulation that has begun.
+  std::string state();
   Report& report() { return report_; }
   const Report& report() const { return report_; }
   const std::vector<Reason>& failure() const { return failure_; }

@@ -14,10 +14,11 @@ constexpr double rest_s = 0.5;  // after a garment has settled, before it may be
 
 }  // namespace
 
-void Simulation::begin() {
+void Simulation::begin(const std::function<void(OutfitRun&)>& prepare) {
   const bool resumed = resumes();
   run_.emplace(scene_, outfit_, body(), step_, settling_, stop());
   run_->set_events(events_of(outfit_, cloth_));
+  if (prepare) prepare(*run_);
   rest_.begin(outfit_.state.x, scene_.fps);
   show_first();
   watch_falling();

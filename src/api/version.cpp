@@ -1,0 +1,9 @@
+#include "toile/version.hpp"
+
+#include "sim/report.hpp"
+
+namespace toile {
+
+const char* version() noexcept { return internal::toile_version().data(); }
+
+}  // namespace toile
