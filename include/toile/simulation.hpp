@@ -14,6 +14,7 @@
 #include "toile/cloth.hpp"
 #include "toile/error.hpp"
 #include "toile/types.hpp"
+#include "toile/verify.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -41,11 +42,6 @@ struct SimulationOptions {
   std::function<void(const Progress&)> progress = {};
 };
 
-struct Reason {
-  std::string code;    // one word of docs/reason-codes.md
-  std::string detail;  // what was measured, and where
-};
-
 // What dress() came to.
 struct DressReport {
   bool ok() const { return reasons.empty(); }
@@ -67,11 +63,6 @@ struct StepReport {
   int cg_iterations = 0;
   std::string diagnosis;  // of a step that could not be made however short: which triangles, and why
   std::string explain() const;
-};
-
-// What is wrong with a state, by exact tests on float32 positions.
-struct Crossings {
-  int cloth_body_edges = 0, cloth_cloth_edges = 0;  // edges that pass through a triangle
 };
 
 // All that decides how a simulation goes on, between two frames.
@@ -155,9 +146,12 @@ class Simulation {
   // Of the bits of all positions and velocities: 16 hexadecimal digits, as in report.json.
   std::string state_hash() const;
 
+  // Of the positions as float32, as files hold them.
   Crossings crossings() const;
 
   struct Implementation;
+
+  const Implementation& implementation() const { return *implementation_; }  // for the library itself
 
  private:
   explicit Simulation(std::unique_ptr<Implementation> implementation);
