@@ -1,21 +1,24 @@
 # The commands of the README.  Everything real happens in CMake; this file only says what is run.
-.PHONY: configure build demo test test-golden test-clang test-sanitizers test-long bench settings tidy format clean packages
+.PHONY: configure build demo test test-golden test-clang test-sanitizers test-long bench settings tidy format symbols clean packages
 JOBS ?= $(shell nproc)
 
-configure: packages
-	@tools/python_environment.sh build/release
-	@cmake --preset release >/dev/null
+# Prerequisites one after the other, with -j too: `packages` comes before what needs them.
+.NOTPARALLEL:
+
+# Where it fails, what is missing is named.  Nothing is installed by `make build`.
+configure:
+	@cmake --preset release >/dev/null || { tools/install_packages.sh --check; exit 1; }
 
 build: configure
 	@cmake --build --preset release -j $(JOBS)
 
-# Without the tests, which are nearly half of what there is to build.
-demo: configure
+# `demo` and `test` also set up a fresh machine.  Without the tests, which are nearly half of what there is to build.
+demo: packages configure
 	@cmake --build --preset release --target toile -j $(JOBS)
 	build/release/toile demo
 
 # And the program by clang, its hashes and its lower modules.
-test: build test-golden
+test: packages build test-golden
 	ctest --preset release -LE long -j $(JOBS)
 
 # The scenes whose last state is known to the bit, and the modules whose arithmetic everything else rests on, by clang.
@@ -55,6 +58,11 @@ bench: build
 settings: configure
 	@cmake --build --preset release --target settings -j $(JOBS)
 
+# The list of what libtoile shows, after a change of include/toile.
+symbols: configure
+	@cmake --build --preset release --target toile_library -j $(JOBS)
+	tools/public_symbols.py --write tests/api/symbols.txt build/release/lib/libtoile.a
+
 # These need clang's tools, which `packages` does not install.
 tidy: build
 	tools/run_clang_tidy.sh
@@ -63,6 +71,7 @@ format:
 
 packages:
 	@tools/install_packages.sh
+	@tools/python_environment.sh build/release
 
 clean:
 	rm -rf build

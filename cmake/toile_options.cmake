@@ -1,4 +1,5 @@
-# Rules that hold for every target.
+# Rules for our own targets.  None of them reaches a project that takes Toile in: variables set here end with this folder, and the flags are
+# requirements of `toile_rules`, which only targets of ours are linked with.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -10,28 +11,37 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 
-# Same source, same bits: no contraction of a*b+c, no reassociation.  (docs/conventions.md#determinism)
-add_compile_options(-ffp-contract=off -fno-fast-math)
-add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-qual -Werror)
-add_compile_options(-fvisibility=hidden)
-add_compile_definitions(EIGEN_MPL2_ONLY EIGEN_DONT_PARALLELIZE)
-# Eigen leaves vectors unfilled, resize() too.  With assertions they hold NaN until something is written, so that what reads them is seen.
-add_compile_definitions($<$<CONFIG:Debug>:EIGEN_INITIALIZE_MATRICES_BY_NAN>)
-
+option(TOILE_WERROR "a warning ends the build: for those who work on Toile; the presets say so" OFF)
 set(TOILE_SANITIZE "" CACHE STRING "`address` (with undefined behaviour) or `thread`; empty: none")
+
+add_library(toile_rules INTERFACE)
+# Same source, same bits: no contraction of a*b+c, no reassociation.  They come behind CMAKE_CXX_FLAGS, and so win over what a parent or a
+# packager has put there.  (docs/conventions.md#determinism)
+target_compile_options(toile_rules INTERFACE -ffp-contract=off -fno-fast-math)
+# For some clangs -fno-fast-math is the default again, with contraction: the last word is ours.  (SHELL: or CMake drops what it has
+# seen before.)
+target_compile_options(toile_rules INTERFACE $<$<CXX_COMPILER_ID:Clang,AppleClang>:SHELL:-ffp-contract=off>)
+target_compile_options(toile_rules INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-qual
+                                             $<$<BOOL:${TOILE_WERROR}>:-Werror>)
+target_compile_options(toile_rules INTERFACE -fvisibility=hidden)  # what is public says TOILE_EXPORT (include/toile/export.hpp)
+target_compile_definitions(toile_rules INTERFACE EIGEN_MPL2_ONLY EIGEN_DONT_PARALLELIZE)
+# Eigen leaves vectors unfilled, resize() too.  With assertions they hold NaN until something is written, so that what reads them is seen.
+target_compile_definitions(toile_rules INTERFACE $<$<CONFIG:Debug>:EIGEN_INITIALIZE_MATRICES_BY_NAN>)
+
 if(TOILE_SANITIZE STREQUAL "address")
-  add_compile_options(-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  add_compile_definitions(_GLIBCXX_ASSERTIONS)  # an index beyond a span or vector, wherever its memory ends
-  add_link_options(-fsanitize=address,undefined)
+  target_compile_options(toile_rules INTERFACE
+    -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_definitions(toile_rules INTERFACE _GLIBCXX_ASSERTIONS)  # an index beyond a span or vector, wherever its memory ends
+  target_link_options(toile_rules INTERFACE -fsanitize=address,undefined)
 elseif(TOILE_SANITIZE STREQUAL "thread")
-  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
-  add_compile_definitions(TOILE_THREAD_SANITIZER)
-  add_link_options(-fsanitize=thread)
+  target_compile_options(toile_rules INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+  target_compile_definitions(toile_rules INTERFACE TOILE_THREAD_SANITIZER)
+  target_link_options(toile_rules INTERFACE -fsanitize=thread)
 elseif(TOILE_SANITIZE)
   message(FATAL_ERROR "TOILE_SANITIZE is `${TOILE_SANITIZE}`; expected `address`, `thread` or nothing")
 endif()
 
-find_program(CCACHE_PROGRAM ccache)
-if(CCACHE_PROGRAM)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+find_program(TOILE_CCACHE ccache)
+if(TOILE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${TOILE_CCACHE})
 endif()

@@ -19,10 +19,10 @@ import pathlib
 import re
 import sys
 
-source_folders = ["src", "apps", "include", "tests", "cmake", "tools", "bench", "scenes", "patterns", ".ci"]
+source_folders = ["src", "apps", "include", "examples", "tests", "cmake", "tools", "bench", "scenes", "patterns", ".ci"]
 source_files = ["CMakeLists.txt", "Makefile", "CMakePresets.json"]
 source_suffixes = {".hpp", ".cpp", ".txt", ".cmake", ".py", ".sh", ".json", ""}
-code_path = re.compile(r"`((?:src|tests|tools|apps|cmake|patterns|scenes|bench|include|docs)/[^\s`:]+)`")
+code_path = re.compile(r"`((?:src|tests|tools|apps|cmake|patterns|scenes|bench|include|examples|docs)/[^\s`:]+)`")
 test_name = re.compile(r"`([A-Z]\w+)\.([A-Z]\w+)`")
 constant = re.compile(r"`([a-z]\w+) = (-?[\d.]+(?:e-?\d+)?)`")
 link = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")

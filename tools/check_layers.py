@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Fails when a module of src/ includes one that is not below it in src/layers.txt, or one that it is not linked with, or when a file uses one
-that a line `only` keeps for others.
+that a line `only` keeps for others.  The public headers, include/toile, belong to the highest module alone.
 
 Usage: check_layers.py [SOURCE_ROOT]      prints every offence as file:line: ...; exit 1 if there is any.
 """
@@ -65,6 +65,11 @@ def read_links(cmake):
     return reached
 
 
+def public_offence(module, layer, place):
+    top = max(layer, key=layer.get)
+    return f"{place}: '{module}' may not include a public header: they are above all modules but '{top}'" if module != top else None
+
+
 def offences(root):
     layer = read_layers((root / "src/layers.txt").read_text())
     links = read_links((root / "src/CMakeLists.txt").read_text())
@@ -78,7 +83,10 @@ def offences(root):
             if not found or found.group(1) == module:
                 continue
             other = found.group(1)
-            if other not in layer:
+            if other == "toile":
+                if offence := public_offence(module, layer, f"{place}:{number}"):
+                    yield offence
+            elif other not in layer:
                 yield f"{place}:{number}: includes unknown module '{other}'"
             elif layer[other] >= layer[module]:
                 yield f"{place}:{number}: '{module}' may not include '{other}'"

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that building, testing and running Toile need.  Does nothing when all are there.
+# `--check` installs nothing: it says which are missing, and exits with 1 when any is.
 set -euo pipefail
 
 packages=(
@@ -19,6 +20,12 @@ for package in "${packages[@]}"; do
   [ "$status" = "install ok installed" ] || missing+=("$package")
 done
 [ ${#missing[@]} -eq 0 ] && exit 0
+
+if [ "${1:-}" = "--check" ]; then
+  echo "toile: of the Debian 12 packages that it is built with, these are not installed: ${missing[*]}" >&2
+  echo "toile: \`make packages\` installs them, as root or with sudo" >&2
+  exit 1
+fi
 
 if ! command -v apt-get >/dev/null; then
   echo "toile: needs these Debian 12 packages, and there is no apt-get to install them: ${missing[*]}" >&2

@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "io/json_text.hpp"
 #include "io/run_folder.hpp"
+#include "preview/preview.hpp"
 #include "sim/picture_run.hpp"
 #include "sim/report.hpp"
 #include "terminal.hpp"
@@ -163,6 +164,7 @@ std::string as_text(const std::string& directory, const VerifyReport& audit, con
 }  // namespace
 
 ExitCode verify_command(const CommandLine& line) {
+  if (line.picture) require_pictures();
   const std::string& directory = line.inputs.front();
   const VerifyReport audit = verify_directory(directory);
   Limits limits;
@@ -184,6 +186,7 @@ ExitCode verify_command(const CommandLine& line) {
 }
 
 ExitCode preview_command(const CommandLine& line) {
+  require_pictures();
   const std::string& directory = line.inputs.front();
   const RunFolder folder(directory, RunFolder::Use::pictures, {}, {});
   ProgressBar bar(line);

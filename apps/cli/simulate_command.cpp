@@ -9,6 +9,7 @@
 #include "io/json_text.hpp"
 #include "io/run_folder.hpp"
 #include "output_folder.hpp"
+#include "preview/preview.hpp"
 #include "sim/picture_run.hpp"
 #include "sim/simulate.hpp"
 #include "terminal.hpp"
@@ -188,6 +189,21 @@ Scene scene_of(const CommandLine& line) {
   return scene;
 }
 
+// A scene file of the user's own that asks for pictures is refused by a build that makes none, before hours are spent on it; `demo` and `dress`
+// make them unasked, and do without.
+bool wants_pictures(const CommandLine& line, const Scene& scene) {
+  const bool asked = line.command == CommandLine::Command::run;
+  const bool wanted = scene.preview.value_or(!asked) && !line.no_preview;
+  if (!wanted || can_draw()) return wanted;
+  if (asked)
+    throw Error(ExitCode::usage,
+                "/output/preview of the scene asks for pictures, and this Toile is built without "
+                "pictures (--no-preview runs the scene without)");
+  if (!line.quiet)
+    std::fprintf(stderr, "toile: built without pictures: there will be no preview.png and preview.mp4\n");
+  return false;
+}
+
 // Of `dress`: what nobody watches may not run for a quarter of an hour.
 constexpr double default_time_limit_s = 300;
 
@@ -219,6 +235,7 @@ ExitCode simulate_command(const CommandLine& line) {
   const Stopwatch since_start;
   if (line.list) return list_demos(line);
   const Scene scene = scene_of(line);
+  const bool pictures_wanted = wants_pictures(line, scene);
   ProgressBar bar(line);
   RunOptions options;
   options.directory = output_folder(line, scene);
@@ -240,9 +257,8 @@ ExitCode simulate_command(const CommandLine& line) {
   const Report report = simulate(scene, options);
   ExitCode code = exit_code(report);
 
-  const bool wanted = scene.preview.value_or(line.command != CommandLine::Command::run) && !line.no_preview;
   std::string picture_error;
-  if (wanted && code != ExitCode::interrupted) {
+  if (pictures_wanted && code != ExitCode::interrupted) {
     // The run is complete without its pictures; what goes wrong here is told, and does not take the result away.
     try {
       const RunFolder folder(options.directory, RunFolder::Use::pictures, {}, {});

@@ -1,5 +1,6 @@
 // toile/body.hpp: what cloth collides with: a person, or another closed surface, that may move.
 #pragma once
+#include "toile/export.hpp"
 #include "toile/types.hpp"
 
 #include <memory>
@@ -26,7 +27,7 @@ struct CylinderOptions {  // upright, with rounded rims
 };
 
 // A value: a copy is independent.
-class Body {
+class TOILE_EXPORT Body {
  public:
   static Body none();
   // "woman", "man" or "dancer"; `motion` is one of motion_names(), or a file as above; empty: it stands.

@@ -1,5 +1,6 @@
 // toile/cloth.hpp: a garment or a piece of cloth, as it is before anything moves.
 #pragma once
+#include "toile/export.hpp"
 #include "toile/fabric.hpp"
 #include "toile/types.hpp"
 
@@ -29,7 +30,7 @@ struct ClothArrays {
 };
 
 // A value: a copy is independent.
-class Cloth {
+class TOILE_EXPORT Cloth {
  public:
   // The panels of a sewing pattern (GarmentCode's JSON), which are sewn around the body by Simulation::dress.
   static Cloth from_pattern(const std::string& path, const PatternOptions& options = {});

@@ -3,6 +3,8 @@
 // Input that cannot be meant throws; physics that goes badly does not: it comes back in a report, in words (simulation.hpp).  A call that
 // throws has changed nothing.
 #pragma once
+#include "toile/export.hpp"
+
 #include <stdexcept>
 #include <string>
 
@@ -18,7 +20,7 @@ enum class ErrorCode {
   internal = 9,        // a bug of Toile
 };
 
-class Error : public std::runtime_error {
+class TOILE_EXPORT Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
   ErrorCode code() const noexcept { return code_; }
@@ -28,13 +30,13 @@ class Error : public std::runtime_error {
 };
 
 // "<file>[:<line>]: <place>: expected <expected>, got <got>"
-class InputError : public Error {
+class TOILE_EXPORT InputError : public Error {
  public:
   explicit InputError(const std::string& message) : Error(ErrorCode::bad_input, message) {}
 };
 
 // Names the path and the system's reason.
-class IoError : public Error {
+class TOILE_EXPORT IoError : public Error {
  public:
   explicit IoError(const std::string& message) : Error(ErrorCode::input_output, message) {}
 };

@@ -1,5 +1,7 @@
 // toile/fabric.hpp: what cloth is made of.                                              sources of the presets: docs/theory/fabrics.md
 #pragma once
+#include "toile/export.hpp"
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +23,7 @@ struct Fabric {
 };
 
 // Of the presets silk, cotton, wool, denim and knit.  Throws InputError with the nearest name for any other.
-Fabric fabric(std::string_view name);
-std::vector<std::string> fabric_names();
+TOILE_EXPORT Fabric fabric(std::string_view name);
+TOILE_EXPORT std::vector<std::string> fabric_names();
 
 }  // namespace toile

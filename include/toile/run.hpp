@@ -1,5 +1,6 @@
 // toile/run.hpp: runs as folders: what the program writes, from a simulation or from a scene, and pictures of it.    docs/reports.md
 #pragma once
+#include "toile/export.hpp"
 #include "toile/simulation.hpp"
 #include "toile/verify.hpp"
 
@@ -10,7 +11,7 @@
 namespace toile {
 
 // Writes frames of a simulation as files that other programs read: cloth.obj, cloth.pc2, body.obj, body.pc2 and report.json.
-class RunWriter {
+class TOILE_EXPORT RunWriter {
  public:
   // Makes the folder, or replaces a run of Toile's there, and writes frame 0: the simulation as it is now.  `fps` is how many frames a second has.
   // Throws IoError for files there that are not Toile's, and when another process writes there.
@@ -39,9 +40,9 @@ struct RunOptions {
 };
 
 // A scene file from beginning to end, into a folder.  A run that is cancelled can be resumed by the program.
-Verdict run_scene(const std::string& path, const std::string& folder, const RunOptions& options = {});
+TOILE_EXPORT Verdict run_scene(const std::string& path, const std::string& folder, const RunOptions& options = {});
 
 // preview.png and preview.mp4 of a run's folder.  Throws Error(usage) when the library was built without pictures.
-void preview(const std::string& folder);
+TOILE_EXPORT void preview(const std::string& folder);
 
 }  // namespace toile

@@ -13,6 +13,7 @@
 #include "toile/body.hpp"
 #include "toile/cloth.hpp"
 #include "toile/error.hpp"
+#include "toile/export.hpp"
 #include "toile/types.hpp"
 #include "toile/verify.hpp"
 
@@ -51,7 +52,7 @@ struct DressReport {
   std::vector<std::string> warnings;
   double simulated_s = 0;
   // One line for each.
-  std::string explain() const;
+  TOILE_EXPORT std::string explain() const;
 };
 
 // One advance().
@@ -63,11 +64,11 @@ struct StepReport {
   double step_min_s = 0, step_max_s = 0;
   int cg_iterations = 0;
   std::string diagnosis;  // of a step that could not be made however short: which triangles, and why
-  std::string explain() const;
+  TOILE_EXPORT std::string explain() const;
 };
 
 // All that decides how a simulation goes on, between two frames.
-class State {
+class TOILE_EXPORT State {
  public:
   State() = default;
   // Bytes of another process or machine.  They are checked when they are used.
@@ -80,7 +81,7 @@ class State {
   std::string bytes_;
 };
 
-class Simulation {
+class TOILE_EXPORT Simulation {
  public:
   // Cloth that is no pattern hangs at once where it starts; what begins through itself or the body is taken apart first.  Of several cloths the
   // inner ones come first.

@@ -2,6 +2,8 @@
 //
 // The judge measures positions and shares no code with the solver and its contact.                        docs/reason-codes.md
 #pragma once
+#include "toile/export.hpp"
+
 #include <string>
 #include <vector>
 
@@ -21,14 +23,14 @@ struct Verdict {
   std::vector<Reason> reasons;         // empty when and only when it passes
   std::vector<Reason> qualifications;  // reservations that take nothing from a pass
   int frames = 0;
-  Crossings last, most;                     // of the last frame; of any
-  double stretch_p99 = 0, stretch_max = 0;  // of the last frame, as they are judged: 0.05 is 5 % longer than cut
-  double still_mm_per_s_p99 = 0;            // of the last second
-  std::string explain() const;              // a line for each of all this
+  Crossings last, most;                      // of the last frame; of any
+  double stretch_p99 = 0, stretch_max = 0;   // of the last frame, as they are judged: 0.05 is 5 % longer than cut
+  double still_mm_per_s_p99 = 0;             // of the last second
+  TOILE_EXPORT std::string explain() const;  // a line for each of all this
 };
 
 // Reads and measures every frame of a run's folder.  Throws IoError and InputError for files that are missing or not what they should be.
-Verdict verify(const std::string& folder);
+TOILE_EXPORT Verdict verify(const std::string& folder);
 
 struct Finding {
   std::string code;
@@ -43,10 +45,10 @@ struct CheckReport {
   std::vector<Finding> findings;
   bool usable = false;      // as it is, or mended
   std::string mended_text;  // the pattern with all that could be mended; empty when nothing was
-  std::string explain() const;
+  TOILE_EXPORT std::string explain() const;
 };
 
 // What is wrong with a sewing pattern (GarmentCode's JSON), or probably not meant; simulates nothing.  Throws IoError.
-CheckReport check_pattern(const std::string& path);
+TOILE_EXPORT CheckReport check_pattern(const std::string& path);
 
 }  // namespace toile

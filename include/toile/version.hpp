@@ -1,9 +1,10 @@
 // toile/version.hpp: which Toile this is.
 #pragma once
+#include "toile/export.hpp"
 
 namespace toile {
 
-// "major.minor.patch" (semver.org).  Below 1.0 a new minor version may change the interface.
-const char* version() noexcept;
+// The version of the library that runs, "0.1.0": major, minor, patch.  Below 1.0 a new minor version may change what these headers declare.
+TOILE_EXPORT const char* version() noexcept;
 
 }  // namespace toile

@@ -11,6 +11,8 @@ NB_MODULE(_toile, module) {
   bind_fabric(module);
   bind_cloth(module);
   bind_body(module);
+  bind_verdicts(module);
   bind_reports(module);
   bind_simulation(module);
+  bind_runs(module);
 }

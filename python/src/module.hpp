@@ -10,5 +10,7 @@ void bind_cloth(nanobind::module_& module);
 void bind_body(nanobind::module_& module);
 void bind_reports(nanobind::module_& module);
 void bind_simulation(nanobind::module_& module);
+void bind_verdicts(nanobind::module_& module);
+void bind_runs(nanobind::module_& module);
 
 }  // namespace toile::python

@@ -34,11 +34,6 @@ nb::bytes bytes_of(const State& state) { return nb::bytes(state.bytes().data(), 
 }  // namespace
 
 void bind_reports(nb::module_& module) {
-  nb::class_<Reason>(module, "Reason", "Why something is not as it should be.")
-      .def_ro("code", &Reason::code, "One word of docs/reason-codes.md.")
-      .def_ro("detail", &Reason::detail, "What was measured, and where.")
-      .def("__repr__", [](const Reason& self) { return self.code + ": " + self.detail; });
-
   nb::class_<DressReport>(module, "DressReport", "What Simulation.dress() came to.  True where it is worn as it should be.")
       .def_prop_ro("ok", &DressReport::ok, "No reasons against it.")
       .def("__bool__", &DressReport::ok)
@@ -64,14 +59,6 @@ void bind_reports(nb::module_& module) {
       .def("explain", &StepReport::explain, "In one sentence.")
       .def("_then", &then, "next"_a)
       .def("__repr__", [](const StepReport& self) { return "<StepReport: " + self.explain() + ">"; });
-
-  nb::class_<Crossings>(module, "Crossings", "Edges that pass through a triangle, by exact tests on float32 positions.")
-      .def_ro("cloth_body_edges", &Crossings::cloth_body_edges)
-      .def_ro("cloth_cloth_edges", &Crossings::cloth_cloth_edges)
-      .def("__repr__", [](const Crossings& self) {
-        return "Crossings(cloth_body_edges=" + std::to_string(self.cloth_body_edges) +
-               ", cloth_cloth_edges=" + std::to_string(self.cloth_cloth_edges) + ")";
-      });
 
   nb::class_<State>(module, "State",
                     "All that decides how a simulation goes on, between two frames (Simulation.state).\n\n"

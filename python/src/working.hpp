@@ -91,6 +91,23 @@ class Listener {
   std::string phase_;
 };
 
+// A call that takes time, with the GIL free.
+template <class Call>
+auto listened(Listener& listener, nb::object progress, const Call& call) {
+  listener.begin(std::move(progress));
+  try {
+    auto result = [&] {
+      const nb::gil_scoped_release others_may_run;
+      return call();
+    }();
+    listener.end();
+    return result;
+  } catch (...) {
+    listener.abandon();
+    throw;
+  }
+}
+
 class Working {
  public:
   template <class Make>
@@ -100,18 +117,7 @@ class Working {
   template <class Call>
   auto work(Call call, nb::object progress = nb::none()) {
     idle();
-    listener_->begin(std::move(progress));
-    try {
-      auto result = [&] {
-        const nb::gil_scoped_release others_may_run;
-        return call(simulation_);
-      }();
-      listener_->end();
-      return result;
-    } catch (...) {
-      listener_->abandon();
-      throw;
-    }
+    return listened(*listener_, std::move(progress), [&] { return call(simulation_); });
   }
   const Simulation& look() const {
     idle();

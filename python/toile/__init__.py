@@ -14,26 +14,35 @@ from ._batch import Batch
 from ._body import Body
 from ._cloth import Cloth, fabric
 from ._frame import Frame
+from ._runs import RunWriter, check_pattern, preview, run_scene, verify
 from ._simulation import Simulation
-from ._toile import Crossings, DressReport, Fabric, Reason, State, StepReport, fabric_names
+from ._toile import CheckReport, Crossings, DressReport, Fabric, Finding, Reason, State, StepReport, Verdict, fabric_names
 from ._toile import version as __version__
 
 __all__ = [
     "Batch",
     "Body",
+    "CheckReport",
     "Cloth",
     "Crossings",
     "DressReport",
     "Error",
     "Fabric",
+    "Finding",
     "Frame",
     "InputError",
     "IoError",
     "Reason",
+    "RunWriter",
     "Simulation",
     "State",
     "StepReport",
+    "Verdict",
     "__version__",
+    "check_pattern",
     "fabric",
     "fabric_names",
+    "preview",
+    "run_scene",
+    "verify",
 ]

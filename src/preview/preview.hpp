@@ -20,6 +20,12 @@
 
 namespace toile::internal {
 
+// Whether this build draws.  Built without Embree and libpng (TOILE_PREVIEW) it does not, and whatever traces rays or writes a PNG throws
+// Error (usage), "built without pictures".
+bool can_draw();
+// Throws it before anything else is done, unless this build draws.
+void require_pictures();
+
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;  // row by row from the top, 3 * width * height bytes

@@ -1,4 +1,4 @@
-// preview/ray_scene.cpp: ray queries through Embree, the only file that knows it.
+// preview/ray_scene.cpp: ray queries through Embree, which no other file knows (embree.hpp: its versions).
 //
 // Mind: the tree is built on one thread.  Built on several, the order of triangles in a leaf may differ from run to run, and
 // with it the answer for a ray through an edge that two triangles share.
@@ -7,8 +7,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "mesh/surface_parts.hpp"
-
-#include <embree3/rtcore.h>
+#include "preview/embree.hpp"
 
 #include <cmath>
 #include <limits>
@@ -149,6 +148,9 @@ struct RayScene::Device {
   }
 };
 
+bool can_draw() { return true; }
+void require_pictures() {}
+
 RayScene::RayScene() : device_(std::make_unique<Device>()) {}
 RayScene::~RayScene() = default;
 
@@ -219,8 +221,6 @@ bool RayScene::misses_box(const Vec3f& origin, const Vec3f& direction) const {
 
 bool RayScene::nearest(const Vec3f& origin, const Vec3f& direction, RayHit& hit) const {
   if (misses_box(origin, direction)) return false;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   RTCRayHit ray;
   ray.ray = {origin.x(),
              origin.y(),
@@ -236,7 +236,7 @@ bool RayScene::nearest(const Vec3f& origin, const Vec3f& direction, RayHit& hit)
              0};
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(device_->scene, &context, &ray);
+  intersect(device_->scene, ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   hit = {ray.ray.tfar, ray.hit.geomID, ray.hit.primID, ray.hit.u, ray.hit.v};
   return true;
@@ -244,8 +244,6 @@ bool RayScene::nearest(const Vec3f& origin, const Vec3f& direction, RayHit& hit)
 
 bool RayScene::occluded(const Vec3f& origin, const Vec3f& direction) const {
   if (misses_box(origin, direction)) return false;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   RTCRay ray{origin.x(),
              origin.y(),
              origin.z(),
@@ -258,7 +256,7 @@ bool RayScene::occluded(const Vec3f& origin, const Vec3f& direction) const {
              0xffffffffu,
              0,
              0};
-  rtcOccluded1(device_->scene, &context, &ray);
+  occlude(device_->scene, ray);
   return ray.tfar < 0;
 }
 

@@ -150,6 +150,7 @@ Timing timing_of(const std::filesystem::path& folder) {
 
 void picture_run(const std::string& directory, const PictureOptions& options,
                  const std::function<void(double)>& progress, const std::function<bool()>& stop) {
+  require_pictures();
   const std::filesystem::path folder(directory);
   Take sewing, cloth, body;
   const bool sewn = sewing.open(folder, "sewing"), draped = cloth.open(folder, "cloth"),
@@ -260,6 +261,7 @@ void picture_run(const std::string& directory, const PictureOptions& options,
 }
 
 void picture_crossings(const std::string& directory, int frame, const std::string& png) {
+  require_pictures();
   const std::filesystem::path folder(directory);
   Take cloth, body;
   if (!cloth.open(folder, "cloth")) throw IoError((folder / "cloth.obj").string(), "no such file");

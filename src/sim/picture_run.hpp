@@ -19,7 +19,8 @@ struct PictureOptions {
       frames;  // of frames.png, counted from the first frame of the motion, or of the cloth if there is none
 };
 
-// `progress` gets the share done and may be empty; `stop` may be empty.  Throws IoError or InputError for files that are missing or wrong.
+// `progress` gets the share done and may be empty; `stop` may be empty.  Throws IoError or InputError for files that are missing or wrong,
+// and Error (usage) where Toile is built without pictures, before any file is read (preview/preview.hpp: can_draw).
 // A run whose seams did not close has no cloth.obj: its last sewing frame is pictured.
 void picture_run(const std::string& directory, const PictureOptions& options,
                  const std::function<void(double)>& progress, const std::function<bool()>& stop);

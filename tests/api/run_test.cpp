@@ -2,8 +2,8 @@
 #include "toile/run.hpp"
 
 #include "arrays.hpp"
-#include "sim/simulate.hpp"
 #include "io/scratch.hpp"
+#include "sim/simulate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,13 +2,16 @@
 
 Usage: checkers_test.py FOLDER_OF_TOOLS
 """
+import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 
 tools = pathlib.Path(sys.argv.pop(1)).resolve()
+compiler = shutil.which(os.environ.get("CXX", "c++"))
 
 sound_tree = {
     "src/layers.txt": "# lowest first\ncore\nmesh\nio material\n",
@@ -68,6 +71,84 @@ class Checkers(unittest.TestCase):
         self.refuses(tool, {"src/material/a.cpp": '#include "mesh/mesh.hpp"\n'}, "does not link it")
         self.refuses(tool, {"src/material/a.cpp": '#include "util/a.hpp"\n'}, "unknown module 'util'")
         self.refuses(tool, {"src/util/a.cpp": "\n"}, "module 'util' is not in src/layers.txt")
+
+    def check_headers(self, headers):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for name, text in headers.items():
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text(text)
+            command = [sys.executable, str(tools / "check_public_headers.py"), folder, compiler]
+            result = subprocess.run(command, capture_output=True, text=True, check=False)
+            return result.returncode, result.stdout
+
+    @unittest.skipIf(compiler is None, "there is no compiler in CXX or as c++")
+    def test_public_headers(self):
+        a, b = "include/toile/a.hpp", "include/toile/b.hpp"
+        sound = {a: "#pragma once\n#include <vector>\n\nstd::vector<int> many();\n",
+                 b: '#pragma once\n#include "toile/a.hpp"  // many\ninline std::vector<int> more() { return many(); }\n'}
+        code, text = self.check_headers(sound)
+        self.assertEqual(code, 0, text)
+        pragma = "#pragma once\n"
+        for planted, words in [
+                ({a: pragma + "#include <Eigen/Core>\n"}, "a.hpp:2: #include <Eigen/Core>: only the standard library"),
+                ({a: pragma + "#include <png.h>\n"}, "#include <png.h>: only"),
+                ({a: pragma + '#include "core/types.hpp"\n'}, "only the standard library"),
+                ({a: pragma + "std::vector<int> many();\n"}, "a.hpp: does not compile alone"),
+                ({a: "#include <vector>\nstruct Twice {};\n"}, "does not compile alone"),
+                ({a: pragma + "inline int f(int unused) { return 1; }\n"}, "does not compile alone"),
+                ({"include/toile/sub/c.hpp": pragma}, "public headers are include/toile/*.hpp"),
+                ({f"include/toile/n{i}.hpp": pragma for i in range(9)}, "11 headers, at most 10")]:
+            code, text = self.check_headers({**sound, **planted})
+            self.assertEqual(code, 1, planted)
+            self.assertIn(words, text)
+
+    @unittest.skipIf(compiler is None, "there is no compiler in CXX or as c++")
+    def test_public_symbols(self):
+        source = ("#define OPEN __attribute__((visibility(\"default\")))\n"
+                  "namespace toile { OPEN int area(int x) { return x; } class OPEN Cloth { public: virtual ~Cloth(); }; Cloth::~Cloth() {}\n"
+                  "namespace { int own() { return 1; } } inline int in_header() { return 2; }\n"
+                  "namespace internal { int hidden() { return own() + in_header(); } } }\n")
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            listed = root / "symbols.txt"
+
+            def library(text, *words):
+                (root / "a.cpp").write_text(text)
+                shared = root / "liba.so"
+                subprocess.run([compiler, "-shared", "-fPIC", "-O1", *words, str(root / "a.cpp"), "-o", str(shared)], check=True)
+                return shared
+
+            def symbols(*words):
+                command = [sys.executable, str(tools / "public_symbols.py"), *map(str, words)]
+                result = subprocess.run(command, capture_output=True, text=True, check=False)
+                return result.returncode, result.stdout
+
+            hidden = library(source, "-fvisibility=hidden")
+            self.assertEqual(symbols("--write", listed, hidden), (0, ""))
+            names = listed.read_text().splitlines()
+            self.assertEqual(names, sorted(names))
+            self.assertIn("toile::area(int)", names)
+            self.assertIn("toile::Cloth::~Cloth()", names)
+            self.assertEqual(len(names), 2, names)
+            self.assertEqual(symbols("--check", listed, hidden)[0], 0)
+            # Everything visible: of the internal namespace, and of nobody's.
+            code, text = symbols("--check", listed, library(source))
+            self.assertEqual(code, 1)
+            self.assertIn("exports what is not public: toile::internal::hidden()", text)
+            code, text = symbols("--check", listed, library(source.replace("area(int x)", "area(long x)"), "-fvisibility=hidden"))
+            self.assertEqual(code, 1)
+            self.assertIn("shown and not listed: toile::area(long)", text)
+            self.assertIn("listed and not shown: toile::area(int)", text)
+            self.assertEqual(symbols("--check", listed, library("namespace toile { int f() { return 1; } }", "-fvisibility=hidden"))[0], 1)
+
+    def test_public_headers_are_for_the_highest_module(self):
+        tool = "check_layers.py"
+        tree = {"src/layers.txt": sound_tree["src/layers.txt"] + "api\n",
+                "src/CMakeLists.txt": sound_tree["src/CMakeLists.txt"] + "toile_module(api DEPENDS io)\n",
+                "src/api/a.cpp": '#include "toile/cloth.hpp"\n'}
+        self.accepts(tool, tree)
+        self.refuses(tool, {**tree, "src/io/a.cpp": '\n#include "toile/cloth.hpp"\n'}, "src/io/a.cpp:2: 'io' may not include a public header")
 
     def test_a_module_that_is_kept_for_some_files(self):
         tool = "check_layers.py"

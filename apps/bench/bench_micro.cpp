@@ -1,4 +1,4 @@
-// apps/cli/bench_micro.cpp: `toile bench micro`: what the pieces of a step cost, each called again and again on one state.
+// apps/bench/bench_micro.cpp: `toile bench micro`: what the pieces of a step cost, each called again and again on one state.
 //
 // The state is the paper's first row after 45 frames, so that contact queries find what they find in a run.  Medians: a mean would
 // hold what else the machine did.  `make bench` has the solver's pieces with more statistics.

@@ -1,4 +1,4 @@
-// apps/cli/bench_command.cpp: `toile bench`: runs one of the benchmarks, says where, and prints what it found.
+// apps/bench/bench_command.cpp: `toile bench`: runs one of the benchmarks, says where, and prints what it found.
 #include "bench.hpp"
 #include "commands.hpp"
 #include "core/parallel.hpp"

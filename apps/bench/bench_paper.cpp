@@ -1,4 +1,4 @@
-// apps/cli/bench_paper.cpp: `toile bench paper`: the nine rows of the paper's table, and two figures from its text.   [BW98 8]
+// apps/bench/bench_paper.cpp: `toile bench paper`: the nine rows of the paper's table, and two figures from its text.   [BW98 8]
 #include "bench.hpp"
 #include "bench_claims.hpp"
 

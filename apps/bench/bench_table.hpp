@@ -1,4 +1,4 @@
-// apps/cli/bench_table.hpp: what a benchmark found, once, and printed in three ways: table, CSV, JSON.
+// apps/bench/bench_table.hpp: what a benchmark found, once, and printed in three ways: table, CSV, JSON.
 //
 // A row carries its own columns; all rows of a table have the same ones in the same order.  What could not be measured is an
 // empty cell: "-" in the table, nothing in CSV, null in JSON.

@@ -1,4 +1,4 @@
-// apps/cli/bench_stiffness.cpp: `toile bench stiffness`: what stiffer cloth costs.                              [BW98 8]
+// apps/bench/bench_stiffness.cpp: `toile bench stiffness`: what stiffer cloth costs.                              [BW98 8]
 //
 //   whole runs     the drape again and again with bend, or stretch, multiplied; damping follows, k_d / k stays
 //   one system     the iterations of block Jacobi from dv = 0 at one and the same state, h = 1/60 s:

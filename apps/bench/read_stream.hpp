@@ -1,4 +1,4 @@
-// apps/cli/read_stream.hpp: how fast this machine reads a buffer of a given size, again and again, with some threads.
+// apps/bench/read_stream.hpp: how fast this machine reads a buffer of a given size, again and again, with some threads.
 //
 // The limit of a piece that goes through as many bytes.  The buffer is as large as what the piece works on, so that it lies in the same
 // caches, and every thread reads a part of its own, as it does there.

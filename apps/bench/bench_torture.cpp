@@ -1,4 +1,4 @@
-// apps/cli/bench_torture.cpp: `toile bench torture`: scenes that break cloth simulators, each at three sizes, from jittered starts.
+// apps/bench/bench_torture.cpp: `toile bench torture`: scenes that break cloth simulators, each at three sizes, from jittered starts.
 //
 // The scenes are those of scenes/torture, drawn by us after published ones (docs/torture.md).  A size scales every edge of the
 // cloth.  Start 0 is the scene as it is; start k shifts every cloth by up to a thousandth of its extent and turns it by up to a

@@ -1,4 +1,4 @@
-// apps/cli/bench_probe.hpp: a cloth in the middle of its drape, and the linear system of one step from there.
+// apps/bench/bench_probe.hpp: a cloth in the middle of its drape, and the linear system of one step from there.
 //
 //   (A + sum a g g^T) dv = b  under S, z          as ImplicitEuler poses it in the last pass of the active set
 //

@@ -1,4 +1,4 @@
-// apps/cli/bench_scaling.cpp: `toile bench scaling`: one drape at several resolutions.                        [BW98 8]
+// apps/bench/bench_scaling.cpp: `toile bench scaling`: one drape at several resolutions.                        [BW98 8]
 //
 //   time per frame ~ particles^p,   p fitted by least squares in the logarithms
 //

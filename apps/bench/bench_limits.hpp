@@ -1,4 +1,4 @@
-// apps/cli/bench_limits.hpp: the table "limits" of `toile bench micro`: the solver's pieces beside what the machine can read.
+// apps/bench/bench_limits.hpp: the table "limits" of `toile bench micro`: the solver's pieces beside what the machine can read.
 //
 //   share = time to read as many bytes / time of the piece        1: nothing but moving its data takes time
 //

@@ -1,4 +1,4 @@
-// apps/cli/bench_runs.hpp: runs scenes quietly, one after the other, and says what they took.
+// apps/bench/bench_runs.hpp: runs scenes quietly, one after the other, and says what they took.
 //
 //   seconds_per_frame   wall time of the steps alone: neither meshing, nor writing, nor the judge
 //   percent             of it: eval, cg, cloth_cloth, cloth_solid as in the paper; other is the rest, with the body's motion

@@ -1,4 +1,4 @@
-// apps/cli/bench.hpp: the five benchmarks of `toile bench`.                                            docs/benchmarks.md
+// apps/bench/bench.hpp: the five benchmarks of `toile bench`.                                            docs/benchmarks.md
 //
 // Each fills tables and facts; bench_command.cpp adds the machine and prints.  An interrupt ends one after the row at hand.
 #pragma once

@@ -1,0 +1,33 @@
+// preview/no_pictures.cpp: stands for ray_scene.cpp and png.cpp where Toile is built without Embree and libpng.  Nothing here draws: whoever asks
+// for a picture is told why there is none.
+#include "core/error.hpp"
+#include "preview/ray_scene.hpp"
+
+namespace toile::internal {
+
+bool can_draw() { return false; }
+
+void require_pictures() {
+  throw Error(ExitCode::usage,
+              "built without pictures: Embree 3 or 4 and libpng were not there, or TOILE_PREVIEW was OFF, when this "
+              "Toile was built");
+}
+
+void write_png(const std::string&, const Image&) { require_pictures(); }
+
+struct RayScene::Device {};
+
+// No RayScene can be made, so nobody comes to the functions below it.
+RayScene::RayScene() { require_pictures(); }
+RayScene::~RayScene() = default;
+void RayScene::build(const PreviewScene&, const Vec3&) { require_pictures(); }
+bool RayScene::nearest(const Vec3f&, const Vec3f&, RayHit&) const {
+  require_pictures();
+  return false;
+}
+bool RayScene::occluded(const Vec3f&, const Vec3f&) const {
+  require_pictures();
+  return false;
+}
+
+}  // namespace toile::internal
