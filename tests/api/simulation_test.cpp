@@ -303,6 +303,23 @@ TEST(Simulation, ACancelledDressIsAsItWasBefore) {
   EXPECT_TRUE(sim.dress().ok());
 }
 
+TEST(Simulation, ACancelledAdvanceIsGoneOnWith) {
+  bool cancel = true;
+  Simulation sim(sheet(1), Body::none(), {.cancelled = [&] { return cancel; }});
+  const StepReport first = sim.advance(0.1);
+  EXPECT_TRUE(first.cancelled);
+  EXPECT_FALSE(first.ok());
+  cancel = false;
+  EXPECT_TRUE(sim.advance(0.1).ok());
+  EXPECT_DOUBLE_EQ(sim.time_s(), 0.1);
+}
+
+// It begins through the body, so that it has to be taken apart before it hangs.
+TEST(Simulation, IsWholeThoughItIsCancelledWhileItIsMade) {
+  Simulation sim(sheet(0.14), block(), {.cancelled = [] { return true; }});
+  EXPECT_EQ(sim.state_hash(), Simulation(sheet(0.14), block()).state_hash());
+}
+
 TEST(Simulation, SaysWhatCannotBeMeant) {
   const Arrays good = test::level_sheet(3, 0.1, 0);
   const auto cloth_of = [](const Arrays& arrays) {
