@@ -12,8 +12,6 @@
 
 namespace toile {
 
-enum class LengthUnit { automatic, m, dm, cm };  // automatic: metres, or an error that says which unit would fit
-
 struct BodyFileOptions {
   LengthUnit unit = LengthUnit::automatic;
   std::string motion =

@@ -19,6 +19,14 @@ struct GridOptions {
   double width_m = 1, height_m = 1, edge_m = 0.02;
 };
 
+// Where a mesh takes its shape at rest from: its drawing (vt), or itself as it starts.
+enum class RestShape { automatic, drawing, start };  // automatic: the drawing, if it is in metres
+
+struct MeshFileOptions {
+  LengthUnit unit = LengthUnit::m;
+  RestShape rest_shape = RestShape::automatic;
+};
+
 // Cloth from arrays.  Of n vertices and f faces:
 struct ClothArrays {
   std::span<const Point> vertices_m = {};  // [n] where it starts
@@ -34,6 +42,9 @@ class TOILE_EXPORT Cloth {
  public:
   // The panels of a sewing pattern (GarmentCode's JSON), which are sewn around the body by Simulation::dress.
   static Cloth from_pattern(const std::string& path, const PatternOptions& options = {});
+  // A garment that is modelled already (OBJ): worn as it lies, not sewn.  Its groups are its panels; vertices at one place are one particle.  What was
+  // not taken as it stands is in Simulation::warnings.
+  static Cloth from_file(const std::string& path, const MeshFileOptions& options = {});
   // Upright in the plane z = 0, facing +z, its middle at the origin.
   static Cloth grid(const GridOptions& options = {});
   // Copies.  Throws InputError for faces that are out of range, degenerate, or not a surface, and for numbers that are not finite.

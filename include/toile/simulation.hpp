@@ -106,6 +106,9 @@ class TOILE_EXPORT Simulation {
   // Takes everything back to how it was made.
   void reset();
 
+  // What of the files was not taken as it stands, and what is probably not meant.
+  const std::vector<std::string>& warnings() const;
+
   // The cloth.  Views into the simulation, valid until the next call that is not const.  Before dress() of a pattern: the panels, unsewn.
   std::span<const Point> positions_m() const;         // [particle]
   std::span<const Point> velocities_m_per_s() const;  // [particle]

@@ -12,4 +12,6 @@ using Uv = std::array<double, 2>;          // of the pattern, m: u along the war
 using Face = std::array<std::int32_t, 3>;  // counter-clockwise, seen from outside, or from the right side of cloth
 using CornerUvs = std::array<Uv, 3>;       // of the corners of a face: on both sides of a seam they differ
 
+enum class LengthUnit { automatic, m, dm, cm };  // automatic: metres, or an error that says which unit would fit
+
 }  // namespace toile

@@ -57,6 +57,17 @@ Cloth Cloth::from_pattern(const std::string& path, const PatternOptions& options
   });
 }
 
+Cloth Cloth::from_file(const std::string& path, const MeshFileOptions& options) {
+  return translated([&] {
+    auto parts = std::make_unique<Parts>();
+    parts->cloth.mesh = path;
+    parts->cloth.mesh_unit = static_cast<internal::LengthUnit>(options.unit);
+    parts->cloth.rest_shape = static_cast<internal::RestShape>(options.rest_shape);
+    parts->cloth.name = std::filesystem::path(path).stem().string();
+    return Cloth(std::move(parts));
+  });
+}
+
 Cloth Cloth::grid(const GridOptions& options) {
   return translated([&] {
     require_length("width_m", options.width_m);

@@ -238,6 +238,8 @@ void Simulation::reset() {
   translated([&] { implementation_->make(); });
 }
 
+const std::vector<std::string>& Simulation::warnings() const { return implementation_->engine->report().warnings; }
+
 std::span<const Point> Simulation::positions_m() const { return view(implementation_->state().x); }
 std::span<const Point> Simulation::velocities_m_per_s() const { return view(implementation_->state().v); }
 std::span<const Face> Simulation::faces() const { return implementation_->mesh().triangles; }

@@ -22,8 +22,6 @@ constexpr double height_ratio = 4.0;  // first sample to body
 
 std::size_t z(Index i) { return static_cast<std::size_t>(i); }
 
-double unit_m(LengthUnit unit) { return unit == LengthUnit::dm ? 0.1 : unit == LengthUnit::cm ? 0.01 : 1.0; }
-
 void check_range(std::string_view file, std::string_view place, double value, double low, double high) {
   if (value >= low && value <= high) return;
   throw InputError(file, place, fmt::sprintf("%g", low) + " to " + fmt::sprintf("%g", high), fmt::sprintf("%g", value));
@@ -64,7 +62,7 @@ void BodySamples::append(std::string_view file, std::span<const Vec3> positions)
   }
   if (3 * (samples_.size() + drape_.size()) > coordinate_limit)
     throw InputError(file, frame, "at most 2^30 coordinates in all frames", "more");
-  const double unit = unit_m(options_.unit), farthest = options_.fastest_m_s / options_.rate_hz;
+  const double unit = metres_in(options_.unit), farthest = options_.fastest_m_s / options_.rate_hz;
   for (std::size_t i = 0; i < drape_.size(); ++i) {
     const std::size_t from = whole ? z(source_vertex_[i]) : i;
     const Vec3 p = unit * positions[from];

@@ -25,19 +25,6 @@ constexpr double told_share = 0.01;  // of the body's: a smaller part that is le
 
 std::size_t z(Index i) { return static_cast<std::size_t>(i); }
 
-double metres(LengthUnit unit) {
-  switch (unit) {
-    case LengthUnit::dm:
-      return 0.1;
-    case LengthUnit::cm:
-      return 0.01;
-    case LengthUnit::automatic:
-    case LengthUnit::m:
-      break;
-  }
-  return 1.0;
-}
-
 bool is_body_name(std::string_view name) {
   constexpr std::string_view wanted = "body";
   return std::equal(name.begin(), name.end(), wanted.begin(), wanted.end(),
@@ -149,7 +136,7 @@ Kept named_parts(const ObjMesh& mesh, std::vector<Index> named) {
 // "dm", "cm", or nothing when no unit makes a body of this height.
 std::optional<LengthUnit> unit_that_fits(double height) {
   for (const LengthUnit unit : {LengthUnit::dm, LengthUnit::cm}) {
-    const double h = height * metres(unit);
+    const double h = height * metres_in(unit);
     if (h >= shortest_body_m && h <= tallest_body_m) return unit;
   }
   return std::nullopt;
@@ -159,7 +146,7 @@ std::optional<LengthUnit> unit_that_fits(double height) {
   std::string advice = "no unit of m, dm, cm fits: say which one is meant with --body-unit";
   if (const auto unit = unit_that_fits(height)) {
     advice = std::string("pass --body-unit ") + (*unit == LengthUnit::dm ? "dm" : "cm") + " if the body is " +
-             fmt::sprintf("%.2f m", height * metres(*unit)) + " tall";
+             fmt::sprintf("%.2f m", height * metres_in(*unit)) + " tall";
   }
   throw InputError(file, "body height", "0.5 to 2.5 m when coordinates are taken as metres (" + advice + ")",
                    fmt::sprintf("%.4g m", height));
@@ -180,6 +167,19 @@ void check_input(const ObjMesh& mesh, std::string_view file) {
 
 }  // namespace
 
+double metres_in(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::dm:
+      return 0.1;
+    case LengthUnit::cm:
+      return 0.01;
+    case LengthUnit::automatic:
+    case LengthUnit::m:
+      break;
+  }
+  return 1.0;
+}
+
 CollisionBody make_collision_body(const ObjMesh& mesh, std::string_view file, LengthUnit unit) {
   check_input(mesh, file);
   CollisionBody body;
@@ -195,7 +195,7 @@ CollisionBody make_collision_body(const ObjMesh& mesh, std::string_view file, Le
   for (std::size_t i = 0; i < map.size(); ++i)
     if (map[i] == 0) {
       map[i] = static_cast<Index>(body.positions.size());
-      body.positions.push_back(metres(unit) * mesh.positions[i]);
+      body.positions.push_back(metres_in(unit) * mesh.positions[i]);
       body.source_vertex.push_back(static_cast<Index>(i));
     }
   for (Index k : kept) {

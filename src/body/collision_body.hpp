@@ -26,6 +26,7 @@ struct CollisionBody {
 };
 
 enum class LengthUnit { automatic, m, dm, cm };  // automatic: metres, or an error
+double metres_in(LengthUnit unit);
 
 // Keeps the body and drops what is not: the group or object named `body` (in any case) if there is one, otherwise,
 // of the connected parts that are closed, the one that encloses most and those that enclose at least a tenth as

@@ -126,6 +126,10 @@ class Estimate {
       for (std::size_t k = 1; k < path.size(); ++k) length_m += (path[k] - path[k - 1]).norm();
       area_m2 = length_m * cloth.ribbon->width_m;
       outline_m = 2 * length_m;
+    } else if (!cloth.mesh.empty()) {
+      const double bytes = file_bytes(cloth.mesh), triangles = bytes / obj_bytes_per_triangle;
+      add_part("cloth " + quoted(cloth.name), {triangles / 2, triangles});
+      return;
     } else if (cloth.arrays) {
       add_part("cloth " + quoted(cloth.name),
                {static_cast<double>(cloth.arrays->x.size()), static_cast<double>(cloth.arrays->triangles.size())});

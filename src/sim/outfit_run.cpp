@@ -1,6 +1,7 @@
 #include "sim/outfit_run.hpp"
 
 #include "garment/sewing.hpp"
+#include "sim/setup.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -137,18 +138,18 @@ void OutfitRun::take_and_let_go() {
 
 // What the scene says happens in the coming frame.
 void OutfitRun::happen() {
+  const double end_s = time_s() + frame_s_;
   take_and_let_go();
   world_.drags.clear();
   for (const TimedDrag& timed : events_.drags)
     if (time_s() >= timed.from_s && time_s() < timed.to_s) world_.drags.push_back(timed.drag);
   for (const TimedRestStretch& timed : events_.rest_stretch) {
-    const double t_s = time_s() + frame_s_;
     const auto after =
-        std::find_if(timed.keys.begin(), timed.keys.end(), [&](const RestStretchKey& key) { return key.t_s > t_s; });
+        std::find_if(timed.keys.begin(), timed.keys.end(), [&](const RestStretchKey& key) { return key.t_s > end_s; });
     Vec2 b = after == timed.keys.end() ? timed.keys.back().b : after->b;
     if (after != timed.keys.end() && after != timed.keys.begin()) {
       const auto before = after - 1;
-      b = before->b + (t_s - before->t_s) / (after->t_s - before->t_s) * (after->b - before->b);
+      b = before->b + (end_s - before->t_s) / (after->t_s - before->t_s) * (after->b - before->b);
     }
     Vec2& now = outfit_->rest_stretch[static_cast<std::size_t>(timed.panel)];
     if (b == now) continue;
@@ -163,6 +164,8 @@ FrameReport OutfitRun::frame(double length_s) {
     frames_ = 0;
     frame_s_ = length_s;
   }
+  if (!scene_->gravity_path.empty()) gravity_m_per_s2_ = along(scene_->gravity_path, time_s() + frame_s_);
+  if (!scene_->wind_path.empty()) world_.air.wind_m_per_s = along(scene_->wind_path, time_s() + frame_s_);
   if (settling_.sewn)
     settle();
   else

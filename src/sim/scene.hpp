@@ -97,9 +97,15 @@ struct SceneClothArrays {
   std::vector<std::string> panel_names;  // empty: the cloth's name
 };
 
+// Where the shape at rest of a mesh comes from: its drawing (vt), or the mesh as it starts.
+enum class RestShape { automatic, drawing, start };  // automatic: the drawing, if it is in metres
+
 struct SceneCloth {
   std::string name;
-  std::string pattern;  // path, resolved; empty for one of the shapes of sim/cloth_shapes.hpp
+  std::string pattern;  // path, resolved; empty for the others below
+  std::string mesh;     // path of a mesh, resolved; likewise
+  LengthUnit mesh_unit = LengthUnit::m;
+  RestShape rest_shape = RestShape::automatic;
   std::optional<SceneGrid> grid;
   std::optional<SceneTube> tube;
   std::optional<SceneRibbon> ribbon;
@@ -197,6 +203,8 @@ struct Scene {
   std::vector<SceneSolid> solids;
   Vec3 gravity_m_per_s2 = ModelOptions{}.gravity_m_per_s2;
   AirOptions air;
+  // In time, ascending and straight in between; they take the place of the constants above.
+  std::vector<ScenePin::Key> gravity_path, wind_path;
 
   // Of a garment that is dressed without a scene: most are still after three or four, a long skirt at 2.1 cm after 11.
   static constexpr double longest_dress_s = 20;

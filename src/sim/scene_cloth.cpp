@@ -5,6 +5,7 @@
 #include <fmt/printf.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -115,11 +116,19 @@ void settle(const Json& value, SceneDrag& drag) {
 }
 
 void settle(const Json& value, SceneCloth& cloth) {
+  if (cloth.mesh.empty())
+    for (const std::string_view key : {"mesh_unit", "rest_shape"})
+      if (const Json* given = value.find(key)) given->fail("a mesh beside it", given->describe());
   if (cloth.is_sewn()) {
     cloth.shape_where = value.where();
     cloth.shape_pointer = value.pointer();
-    if (const Json* pins = value.find("pins"); pins != nullptr && !cloth.pins.empty())
-      pins->fail("no pins on a garment that is sewn: not available yet", pins->describe());
+    return;
+  }
+  if (!cloth.mesh.empty()) {
+    cloth.shape_where = value.where();
+    cloth.shape_pointer = value.pointer();
+    if (cloth.name.empty()) cloth.name = std::filesystem::path(cloth.mesh).stem().string();
+    if (const Json* vertices = value.find("vertices")) vertices->fail("a pattern beside it", "a number of vertices");
     return;
   }
   const std::string_view kind = cloth.grid ? "grid" : cloth.tube ? "tube" : "ribbon";

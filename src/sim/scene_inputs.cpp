@@ -35,7 +35,10 @@ std::vector<std::string> input_paths(const Scene& scene) {
   const auto add = [&](const std::string& path) {
     if (!path.empty()) paths.push_back(path);
   };
-  for (const SceneCloth& cloth : scene.cloth) add(cloth.pattern);
+  for (const SceneCloth& cloth : scene.cloth) {
+    add(cloth.pattern);
+    add(cloth.mesh);
+  }
   add(scene.body.mesh);
   add(measurements_path(scene.body));
   if (scene.body.motion) add(scene.body.motion->path);

@@ -151,10 +151,20 @@ void describe(V& v, SceneDrag& drag) {
 template <class V>
 void describe(V& v, SceneCloth& cloth) {
   v.text({"name", "of the cloth; where there are several, their panels are named after them",
-          "the pattern's, or \"sheet\", \"tube\", \"ribbon\""},
+          "the pattern's, the file's, or \"sheet\", \"tube\", \"ribbon\""},
          cloth.name);
-  v.exactly_one({"pattern", "grid", "tube", "ribbon"});
+  v.exactly_one({"pattern", "mesh", "grid", "tube", "ribbon"});
   v.path({"pattern", "a sewing pattern ([pattern-format.md](pattern-format.md))", "a shape"}, cloth.pattern);
+  v.path({"mesh", "a garment that is modelled already: an OBJ file ([meshes](#meshes))", "no"}, cloth.mesh);
+  static constexpr std::array<std::pair<std::string_view, LengthUnit>, 3> units = {
+      {{"m", LengthUnit::m}, {"dm", LengthUnit::dm}, {"cm", LengthUnit::cm}}};
+  v.name({"mesh_unit", "of the mesh's coordinates"}, units, cloth.mesh_unit);
+  static constexpr std::array<std::pair<std::string_view, RestShape>, 3> rest_shapes = {
+      {{"automatic", RestShape::automatic}, {"drawing", RestShape::drawing}, {"start", RestShape::start}}};
+  v.name({"rest_shape",
+          "of a mesh: its `drawing` (`vt`, in metres), or itself as it is at the `start`; `automatic`: the drawing, if "
+          "it is in metres"},
+         rest_shapes, cloth.rest_shape);
   v.object({"grid", "near-equilateral triangles, drawn upright around the origin, facing +z", "no"}, cloth.grid);
   v.object({"tube", "around the y axis, open above and below", "no"}, cloth.tube);
   v.object({"ribbon", "along a curve", "no"}, cloth.ribbon);
@@ -174,7 +184,8 @@ void describe(V& v, SceneCloth& cloth) {
              "the waist for `lower_interface`: where the body is narrowest"},
             {-10, 10}, cloth.label_heights);
   v.list({"drags", "hands that pull", "none"}, cloth.drags);
-  v.list({"pins", "what is held, of a cloth that is not sewn", "none"}, cloth.pins);
+  v.list({"pins", "what is held; of a pattern from when everything is on, and by where the cloth is then", "none"},
+         cloth.pins);
 }
 
 }  // namespace toile::internal

@@ -11,10 +11,23 @@ void describe(V& v, PairFriction& pair) {  // a row
   v.column("friction", Range{0, 100}, pair.friction);
 }
 
+// Rows [t_s, x, y, z] of a vector that changes.
+inline auto in_time(double most) {
+  return [most](auto& row, ScenePin::Key& key) {
+    row.column("t_s", within_a_run, key.t_s);
+    row.column("x", Range{-most, most}, key.x_m.x());
+    row.column("y", Range{-most, most}, key.x_m.y());
+    row.column("z", Range{-most, most}, key.x_m.z());
+  };
+}
+
 template <class V>
 void describe_world(V& v, Scene& scene) {
   v.vector({"gravity_m_per_s2", "its acceleration"}, {-1000, 1000}, scene.gravity_m_per_s2);
   v.vector({"wind_m_per_s", "of the air"}, {-100, 100}, scene.air.wind_m_per_s);
+  v.rows({"gravity_path", "in time, m/s2, instead of the constant", "constant"}, Rows{1, true}, scene.gravity_path,
+         in_time(1000));
+  v.rows({"wind_path", "in time, m/s, likewise", "constant"}, Rows{1, true}, scene.wind_path, in_time(100));
   v.number({"air_density_kg_per_m3", "air resists and wind blows; 0: no air"}, {0, 1e3}, scene.air.density_kg_per_m3);
 }
 

@@ -5,6 +5,7 @@
 #include "mesh/check.hpp"
 #include "sim/check_garment.hpp"
 #include "sim/cloth_arrays.hpp"
+#include "sim/cloth_of_mesh.hpp"
 #include "sim/cloth_shapes.hpp"
 
 #include <algorithm>
@@ -22,16 +23,6 @@ Index nearest_particle(std::span<const Vec3> x, const Vec3& p) {
   for (std::size_t i = 1; i < x.size(); ++i)
     if ((x[i] - p).squaredNorm() < (x[best] - p).squaredNorm()) best = i;
   return static_cast<Index>(best);
-}
-
-Vec3 along(const std::vector<ScenePin::Key>& path, double t_s) {
-  if (t_s <= path.front().t_s) return path.front().x_m;
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    if (t_s > path[k].t_s) continue;
-    const double s = (t_s - path[k - 1].t_s) / (path[k].t_s - path[k - 1].t_s);
-    return (1 - s) * path[k - 1].x_m + s * path[k].x_m;
-  }
-  return path.back().x_m;
 }
 
 // The pattern of the cloth, meshed and moved as `placement` says.
@@ -63,7 +54,16 @@ GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& 
 }
 
 // The shape of the cloth, or the refusal of one that has none, at its place in the scene.
-GarmentMesh load_shape(const SceneCloth& cloth, Hash& inputs) {
+GarmentMesh load_shape(const SceneCloth& cloth, const TextSource& read, Hash& inputs,
+                       std::vector<std::string>& warnings) {
+  if (!cloth.mesh.empty()) {
+    const std::string text = read(cloth.mesh), file = printable(cloth.mesh);
+    inputs.add_text(text);
+    SceneCloth as_arrays = cloth;
+    as_arrays.arrays = std::make_shared<const SceneClothArrays>(
+        arrays_of_mesh(parse_obj(text, file), file, metres_in(cloth.mesh_unit), cloth.rest_shape, warnings));
+    return cloth_of_arrays(as_arrays);
+  }
   if (cloth.arrays) {
     add_to_hash(*cloth.arrays, inputs);
     return cloth_of_arrays(cloth);
@@ -119,7 +119,25 @@ void check_labels(const SceneCloth& cloth, const GarmentMesh& garment) {
 
 std::vector<TimedPin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) {
   std::vector<TimedPin> pins;
-  std::vector<std::size_t> holder(x.size(), cloth.pins.size());  // [particle] the pin that holds it
+  for (const PinnedParticle& pinned : pinned_particles(cloth, x))
+    pins.push_back(timed_pin(cloth.pins[pinned.pin], pinned.particle));
+  return pins;
+}
+
+}  // namespace
+
+Vec3 along(const std::vector<ScenePin::Key>& path, double t_s) {
+  if (t_s <= path.front().t_s) return path.front().x_m;
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    if (t_s > path[k].t_s) continue;
+    const double s = (t_s - path[k - 1].t_s) / (path[k].t_s - path[k - 1].t_s);
+    return (1 - s) * path[k - 1].x_m + s * path[k].x_m;
+  }
+  return path.back().x_m;
+}
+
+std::vector<PinnedParticle> pinned_particles(const SceneCloth& cloth, std::span<const Vec3> x) {
+  std::vector<PinnedParticle> pinned;
   for (std::size_t k = 0; k < cloth.pins.size(); ++k) {
     const ScenePin& given = cloth.pins[k];
     std::vector<Index> held;
@@ -132,42 +150,41 @@ std::vector<TimedPin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) 
           held.push_back(static_cast<Index>(i));
       if (held.empty()) throw InputError(given.where, given.pointer, "a box with particles of the cloth in it", "none");
     }
-    for (const Index i : held) {
-      for (const TimedPin& other : pins)
-        if (other.pin.particle == i && other.from_s < given.to_s && given.from_s < other.to_s)
-          throw InputError(
-              given.where, given.pointer, "pins that hold different particles",
-              "particle " + std::to_string(i) + ", held by pin " + std::to_string(holder[at(i)]) + " already");
-      holder[at(i)] = k;
-    }
     double reach_m = 0;
-    for (const Index i : held) reach_m = std::max(reach_m, (x[at(i)] - given.moves.centre()).norm());
-    check_speed(given.moves, reach_m, given.where, given.pointer);
     for (const Index i : held) {
-      TimedPin timed;
-      timed.from_s = given.from_s;
-      timed.to_s = given.to_s;
-      timed.moves = given.moves;
-      timed.pin.particle = i;
-      if (given.hold == ScenePin::Hold::path)
-        timed.pin.path = [path = given.path](double t_s) { return along(path, t_s); };
-      pins.push_back(std::move(timed));
+      for (const PinnedParticle& other : pinned)
+        if (other.particle == i && cloth.pins[other.pin].from_s < given.to_s &&
+            given.from_s < cloth.pins[other.pin].to_s)
+          throw InputError(given.where, given.pointer, "pins that hold different particles",
+                           "particle " + std::to_string(i) + ", held by pin " + std::to_string(other.pin) + " already");
+      reach_m = std::max(reach_m, (x[at(i)] - given.moves.centre()).norm());
     }
+    check_speed(given.moves, reach_m, given.where, given.pointer);
+    for (const Index i : held) pinned.push_back({k, i});
   }
-  return pins;
+  return pinned;
 }
 
-}  // namespace
+TimedPin timed_pin(const ScenePin& given, Index particle) {
+  TimedPin timed;
+  timed.from_s = given.from_s;
+  timed.to_s = given.to_s;
+  timed.moves = given.moves;
+  timed.pin.particle = particle;
+  if (given.hold == ScenePin::Hold::path) timed.pin.path = [path = given.path](double t_s) { return along(path, t_s); };
+  return timed;
+}
 
 LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read, Hash& inputs) {
   LoadedCloth loaded;
   std::optional<double> counted_edge_m;
   const std::string where = cloth.is_sewn()             ? printable(cloth.pattern)
+                            : !cloth.mesh.empty()       ? printable(cloth.mesh)
                             : cloth.shape_where.empty() ? printable(cloth.name)
                                                         : cloth.shape_where + ": " + cloth.shape_pointer;
   try {
-    loaded.garment =
-        cloth.is_sewn() ? load_garment(cloth, read, inputs, counted_edge_m, loaded.pattern) : load_shape(cloth, inputs);
+    loaded.garment = cloth.is_sewn() ? load_garment(cloth, read, inputs, counted_edge_m, loaded.pattern)
+                                     : load_shape(cloth, read, inputs, loaded.warnings);
   } catch (const InputError& error) {
     throw_within(where, error);
   }
@@ -175,7 +192,7 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
   check_labels(cloth, loaded.garment);
   loaded.fabrics = fabrics_of(scene, cloth, loaded.garment.mesh);
   loaded.rest_stretch = rest_stretch_of(cloth, loaded.garment.mesh);
-  loaded.pins = pins_of(cloth, loaded.garment.x);
+  if (!cloth.is_sewn()) loaded.pins = pins_of(cloth, loaded.garment.x);
   for (const SceneDrag& given : cloth.drags) {
     TimedDrag drag;
     drag.near_m = given.near_m;

@@ -50,10 +50,11 @@ struct LoadedCloth {
   std::optional<Pattern> pattern;  // as read; none of a shape
   std::vector<Fabric> fabrics;     // [panel] with the scene's contact overrides
   std::vector<Vec2> rest_stretch;  // [panel] (b_u, b_v)
-  std::vector<TimedPin> pins;      // on the particles of `garment`
+  std::vector<TimedPin> pins;      // on the particles of `garment`, of a cloth that is not sewn
   std::vector<TimedDrag> drags;    // likewise
   std::vector<TimedRestStretch> rest_stretch_paths;
   double edge_m = 0;  // that its triangles were asked to have
+  std::vector<std::string> warnings;
 };
 // `read` gives the text of a pattern, which is added to `inputs`.  Errors of the mesher are given the name of the file, or the place of the
 // shape.  Throws InputError for a panel or a label that the cloth does not have, and for what check_garment refuses.
@@ -69,6 +70,21 @@ struct LoadedScene {
 };
 // Adds every byte that it reads to `inputs`.  Throws what load_cloth, load_body and start_from throw.
 LoadedScene load_scene(const Scene& scene, const TextSource& read, Hash& inputs);
+
+// Straight on from key to key, at rest before the first and after the last.
+Vec3 along(const std::vector<ScenePin::Key>& path, double t_s);
+
+struct PinnedParticle {
+  std::size_t pin = 0;  // of the cloth
+  Index particle = -1;  // of `x`
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(pin, particle);
+  }
+};
+// Which particles the cloth's pins hold, by where they are.  Throws InputError for a box with none in it, and for one that two pins hold at once.
+std::vector<PinnedParticle> pinned_particles(const SceneCloth& cloth, std::span<const Vec3> x);
+TimedPin timed_pin(const ScenePin& pin, Index particle);
 
 // Sheets, tubes and ribbons that hang where they are drawn.
 Outfit outfit_of_shapes(std::span<const LoadedCloth> cloth);

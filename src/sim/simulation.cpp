@@ -41,6 +41,7 @@ Simulation::Simulation(Scene scene, LoadedScene loaded, SimulationOptions option
   report_.startup.body = loaded.body_s;
   report_.warnings = std::move(loaded.body.warnings);
   for (const LoadedCloth& cloth : cloth_) {
+    report_.warnings.insert(report_.warnings.end(), cloth.warnings.begin(), cloth.warnings.end());
     report_.vertices += cloth.garment.mesh.particle_count;
     report_.triangles += cloth.garment.mesh.triangle_count();
     report_.panels += static_cast<int>(cloth.garment.mesh.panel_names.size());

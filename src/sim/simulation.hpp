@@ -136,7 +136,7 @@ class Simulation {
   void remember(Archive& archive) {
     if constexpr (!Archive::reads) report_.seconds_total = seconds();
     archive(place_, frames_shown_, report_, failure_, qualifications_, pose_, on_shoulders_, open_pairs_,
-            stopped_short_, before_inner_, slow_inner_, seconds_before_motion_, touches_, rest_);
+            stopped_short_, pinned_, before_inner_, slow_inner_, seconds_before_motion_, touches_, rest_);
   }
   // Until restore() has been called.
   bool resumes() const { return taken_up_ != nullptr; }
@@ -173,6 +173,7 @@ class Simulation {
   bool drape_inner(std::size_t cloth);
 
   // simulation_live.cpp
+  Events events();
   void show_first();
   void animate();
   bool frame(PhaseReport& phase, std::string_view what, std::int64_t k, PhaseReport* also = nullptr);
@@ -215,6 +216,8 @@ class Simulation {
       open_pairs_;                     // [garment that is on] what its weld left open: places in GarmentMesh::pairs
   std::vector<Belonging> belongings_;  // [garment]
   bool stopped_short_ = false;
+  // [garment] what its pins hold, since everything is on.
+  std::vector<std::vector<PinnedParticle>> pinned_;
 
   mutable bool user_stopped_ = false;  // options_.stop has said so
 

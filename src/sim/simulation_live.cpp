@@ -17,7 +17,7 @@ constexpr double rest_s = 0.5;  // after a garment has settled, before it may be
 void Simulation::begin(const std::function<void(OutfitRun&)>& prepare) {
   const bool resumed = resumes();
   run_.emplace(scene_, outfit_, body(), step_, settling_, stop());
-  run_->set_events(events_of(outfit_, cloth_));
+  run_->set_events(events());
   if (prepare) prepare(*run_);
   rest_.begin(outfit_.state.x, scene_.fps);
   show_first();
@@ -34,6 +34,24 @@ void Simulation::begin(const std::function<void(OutfitRun&)>& prepare) {
   }
   place_ = {RunPhase::drape, scene_.cloth.size() - 1, 0};
   between_frames(*run_, true);
+}
+
+// The pins of a garment hold what is at their places once everything is on.
+Events Simulation::events() {
+  Events events = events_of(outfit_, cloth_);
+  if (!sewn()) return events;
+  Index first = 0;
+  for (std::size_t k = 0; k < cloth_.size(); ++k) {
+    const Index particles = outfit_.parts[k].particles;
+    if (!resumes())
+      pinned_.push_back(pinned_particles(
+          scene_.cloth[k],
+          std::span(outfit_.state.x).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(particles))));
+    for (const PinnedParticle& pinned : pinned_[k])
+      events.pins.push_back(timed_pin(scene_.cloth[k].pins[pinned.pin], first + pinned.particle));
+    first += particles;
+  }
+  return events;
 }
 
 void Simulation::show_first() {
@@ -138,7 +156,7 @@ int Simulation::frames_in_motion() const {
 
 // Garments that fall to nowhere end the run, where that can be told: in still air, and if no hand holds the cloth.
 void Simulation::watch_falling() {
-  if (!sewn() || !body_ || scene_.gravity_m_per_s2.isZero(0)) return;
+  if (!sewn() || !body_ || scene_.gravity_m_per_s2.isZero(0) || !scene_.gravity_path.empty()) return;
   for (const SceneCloth& cloth : scene_.cloth)
     if (!cloth.drags.empty()) return;
   touches_.touched.resize(outfit_.parts.size(), 0);
@@ -146,7 +164,9 @@ void Simulation::watch_falling() {
                       motion_ ? frames_in_motion() * frame_s() : 0, frame_s());
 }
 
-bool Simulation::in_wind() const { return scene_.air.density_kg_per_m3 > 0 && !scene_.air.wind_m_per_s.isZero(0); }
+bool Simulation::in_wind() const {
+  return scene_.air.density_kg_per_m3 > 0 && (!scene_.air.wind_m_per_s.isZero(0) || !scene_.wind_path.empty());
+}
 
 bool Simulation::lost() {
   const std::optional<LostGarment> lost = fall_watch_->find(outfit_.parts, outfit_.state, body_x_);

@@ -174,10 +174,6 @@ TEST(BadInput, AFabricThatDoesNotExistIsAnsweredWithTheNearest) {
   expect_scene_refused("{\"cloth\": [{\"grid\": {}, \"fabric\": \"coton\"}]}",
                        {"/cloth/0/fabric", "nearest is \"cotton\"", "coton"});
 }
-TEST(BadInput, WhatIsNotAvailableYetIsRefusedAndNotIgnored) {
-  expect_scene_refused("{\"cloth\": [{\"pattern\": \"p.json\", \"pins\": [{\"near_m\": [0, 0, 0]}]}]}",
-                       {"/cloth/0/pins", "not available yet"});
-}
 TEST(BadInput, GridsAndPatternsDoNotMix) {
   expect_scene_refused("{\"cloth\": [{\"grid\": {}}, {\"pattern\": \"p.json\"}]}", {"/cloth/1", "the other kind"});
 }

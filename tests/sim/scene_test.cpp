@@ -161,7 +161,7 @@ TEST(Scene, RefusesShapesAndSolidsThatAreNone) {
 TEST(Scene, NamesThePlaceOfEveryRefusal) {
   expect_refused(R"({})", {"\"cloth\"", "missing"});
   expect_refused(R"({"cloth": []})", {"/cloth", "at least one"});
-  expect_refused(R"({"cloth": [{}]})", {"/cloth/0", "one of \"pattern\", \"grid\"", "none of them"});
+  expect_refused(R"({"cloth": [{}]})", {"/cloth/0", "one of \"pattern\", \"mesh\", \"grid\"", "none of them"});
   expect_refused(R"({"cloth": [{"grid": {}, "pattern": "p"}]})", {"/cloth/0", "2 of them"});
   expect_refused(R"({"cloth": [{"grid": {"edge_m": 0}}]})", {"/cloth/0/grid/edge_m", "of at least 0.0005", "got 0"});
   expect_refused(R"({"cloth": [{"grid": {"edge_m": 0.0005, "width_m": 10, "height_m": 10}}]})",
@@ -173,8 +173,10 @@ TEST(Scene, NamesThePlaceOfEveryRefusal) {
   expect_refused(
       R"({"cloth": [{"grid": {}, "pins": [{"near_m": [0, 0, 0], "hold": "path", "path_m": [[1, 0, 0, 0], [1, 0, 0, 0]]}]}]})",
       {"path_m", "ascend"});
-  expect_refused(R"({"cloth": [{"pattern": "p", "pins": [{"near_m": [0, 0, 0]}]}]})",
-                 {"/cloth/0/pins", "not available yet"});
+  expect_refused(R"({"cloth": [{"grid": {}, "mesh_unit": "cm"}]})", {"/cloth/0/mesh_unit", "a mesh beside it"});
+  expect_refused(R"({"cloth": [{"mesh": "a.obj", "vertices": 100}]})", {"/cloth/0/vertices", "a pattern beside it"});
+  expect_refused(R"({"cloth": [{"grid": {}}], "world": {"wind_path": [[1, 0, 0, 0], [1, 2, 0, 0]]}})",
+                 {"/world/wind_path", "ascend"});
   expect_refused(R"({"cloth": [{"grid": {}}], "body": {"mesh": "b.obj", "mannequin": "woman"}})",
                  {"/body", "2 of them"});
   expect_refused(R"({"cloth": [{"grid": {}}], "body": {"mannequin": "womn"}})",

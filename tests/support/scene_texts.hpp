@@ -11,7 +11,7 @@
 namespace toile::internal::test {
 
 // None of the values is its key's default.
-inline constexpr std::array<std::string_view, 5> scenes_with_every_setting = {
+inline constexpr std::array<std::string_view, 6> scenes_with_every_setting = {
     R"({
   "name": "sheet",
   "cloth": [{
@@ -57,6 +57,10 @@ inline constexpr std::array<std::string_view, 5> scenes_with_every_setting = {
     R"({
   "cloth": [{"pattern": "p.json", "vertices": 500}],
   "body": {"mesh": "body.obj", "unit": "cm", "measurements": "body.yaml", "motion": {"file": "motion.pc2", "fps": 24, "lead_in_s": 2}}
+})",
+    R"({
+  "cloth": [{"mesh": "cloth.obj", "mesh_unit": "cm", "rest_shape": "start"}],
+  "world": {"gravity_path": [[0.5, 0, -9, 0], [2, 1, -8, 2]], "wind_path": [[0.25, 1, 2, 3], [3, 4, 5, 6]]}
 })",
     R"({
   "cloth": [{"pattern": "p.json"}, {"pattern": "q.json", "name": "coat"}],

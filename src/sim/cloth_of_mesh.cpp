@@ -1,0 +1,178 @@
+#include "sim/cloth_of_mesh.hpp"
+
+#include "core/error.hpp"
+
+#include <fmt/printf.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <tuple>
+
+namespace toile::internal {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// A drawing in metres has the surface's area, but for what ease and gathers take; one of a texture is off by the size of the garment.
+constexpr double metric_ratio = 1.5;
+// Of a triangle's longer sides: below, it has no area in the drawing.
+constexpr double flat = 1e-9;
+
+using Corners = std::array<Vec2, 3>;
+
+double twice_area(const Corners& uv) {
+  const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+bool has_area(const Corners& uv) {
+  const double longest = std::max((uv[1] - uv[0]).squaredNorm(), (uv[2] - uv[0]).squaredNorm());
+  return std::abs(twice_area(uv)) > flat * longest;
+}
+
+// [triangle] (u, v) as it is drawn; empty when a face has no vt.
+std::vector<Corners> drawing_of(const ObjMesh& mesh) {
+  std::vector<Corners> uv;
+  if (mesh.texcoord.empty()) return uv;
+  uv.reserve(mesh.triangles.size());
+  for (const std::array<Index, 3>& corners : mesh.texcoord) {
+    Corners& drawn = uv.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (corners[k] < 0) return {};
+      const Vec2& vt = mesh.texcoords[at(corners[k])];
+      drawn[k] = Vec2(vt.y(), -vt.x());
+    }
+  }
+  return uv;
+}
+
+// Islands that are drawn from their wrong side are turned over.  An island: faces that share two vt.
+void face_up(const ObjMesh& mesh, std::vector<Corners>& uv) {
+  std::vector<std::size_t> island(uv.size());
+  std::iota(island.begin(), island.end(), std::size_t{0});
+  const auto root = [&](std::size_t t) {
+    while (island[t] != t) t = island[t] = island[island[t]];
+    return t;
+  };
+  std::map<std::array<Index, 2>, std::size_t> beside;  // side in the drawing -> a face that has it
+  for (std::size_t t = 0; t < uv.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::array<Index, 2> side{mesh.texcoord[t][k], mesh.texcoord[t][(k + 1) % 3]};
+      std::sort(side.begin(), side.end());
+      const auto [place, is_new] = beside.try_emplace(side, t);
+      if (!is_new) island[std::max(root(t), root(place->second))] = std::min(root(t), root(place->second));
+    }
+  std::vector<double> area(uv.size(), 0);
+  for (std::size_t t = 0; t < uv.size(); ++t) area[root(t)] += twice_area(uv[t]);
+  for (std::size_t t = 0; t < uv.size(); ++t)
+    if (area[root(t)] < 0)
+      for (Vec2& p : uv[t]) p.y() = -p.y();
+}
+
+// Laid into the plane as it starts, with its warp where the drawing has it.
+Corners as_it_starts(const std::array<Vec3, 3>& x, const Corners& uv) {
+  const Vec3 ab = x[1] - x[0], ac = x[2] - x[0];
+  const Vec2 p = uv[1] - uv[0], q = uv[2] - uv[0];
+  const Vec3 normal = ab.cross(ac).normalized();
+  // dx/du of the linear map from the drawing, but for its length.
+  const double d = p.x() * q.y() - p.y() * q.x();
+  Vec3 warp = (q.y() * ab - p.y() * ac) * (d < 0 ? -1 : 1);
+  warp.normalize();
+  const Vec3 weft = normal.cross(warp);
+  return {Vec2(0, 0), Vec2(ab.dot(warp), ab.dot(weft)), Vec2(ac.dot(warp), ac.dot(weft))};
+}
+
+struct Welded {
+  std::vector<Index> particle;  // [vertex of the file]; -1: no face uses it
+  Vec3s x;
+  std::size_t joined = 0, unused = 0;
+};
+
+Welded weld_vertices(const ObjMesh& mesh, double unit_m) {
+  std::vector<char> used(mesh.positions.size(), 0);
+  for (const Triangle& t : mesh.triangles)
+    for (const Index i : t) used[at(i)] = 1;
+  Welded welded;
+  welded.particle.assign(mesh.positions.size(), -1);
+  std::map<std::tuple<double, double, double>, Index> first_at;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (used[i] == 0) {
+      ++welded.unused;
+      continue;
+    }
+    const Vec3& p = mesh.positions[i];
+    const auto [place, is_new] = first_at.try_emplace({p.x(), p.y(), p.z()}, static_cast<Index>(welded.x.size()));
+    welded.particle[i] = place->second;
+    if (is_new)
+      welded.x.push_back(unit_m * p);
+    else
+      ++welded.joined;
+  }
+  return welded;
+}
+
+}  // namespace
+
+SceneClothArrays arrays_of_mesh(const ObjMesh& mesh, std::string_view file, double unit_m, RestShape rest,
+                                std::vector<std::string>& warnings) {
+  const std::string name(file);
+  if (mesh.triangles.empty()) throw InputError(file, "mesh", "faces", "none");
+  Welded welded = weld_vertices(mesh, unit_m);
+  SceneClothArrays arrays;
+  arrays.x = std::move(welded.x);
+  for (const Triangle& t : mesh.triangles)
+    arrays.triangles.push_back({welded.particle[at(t[0])], welded.particle[at(t[1])], welded.particle[at(t[2])]});
+  if (welded.joined > 0)
+    warnings.push_back(name + ": " + std::to_string(welded.joined) +
+                       " vertices lie where another one does, and are one with it");
+  if (welded.unused > 0)
+    warnings.push_back(name + ": " + std::to_string(welded.unused) + " vertices that no face uses are left out");
+
+  const bool groups = mesh.group_names.size() > 1 || (mesh.group_names.size() == 1 && !mesh.group_names[0].empty());
+  if (groups || mesh.object_names.size() > 1) {
+    arrays.panel = groups ? mesh.group : mesh.object;
+    arrays.panel_names = groups ? mesh.group_names : mesh.object_names;
+    for (std::string& panel : arrays.panel_names)
+      if (panel.empty()) panel = "(no group)";
+  }
+
+  std::vector<Corners> uv = drawing_of(mesh);
+  const auto flat_face = std::find_if_not(uv.begin(), uv.end(), has_area);
+  if (rest == RestShape::drawing && (uv.empty() || flat_face != uv.end()))
+    throw InputError(file, uv.empty() ? "faces" : "face " + std::to_string(flat_face - uv.begin()),
+                     "a vt for every corner, and an area in the drawing", uv.empty() ? "faces without vt" : "none");
+  if (uv.empty() || flat_face != uv.end()) {
+    if (rest == RestShape::automatic)
+      warnings.push_back(name + (uv.empty() ? ": not every face has vt" : ": a face has no area in the drawing") +
+                         "; the cloth is at rest as it starts, its warp upright");
+    return arrays;
+  }
+  face_up(mesh, uv);
+  double drawn = 0, area = 0;
+  for (std::size_t t = 0; t < uv.size(); ++t) {
+    const auto& [a, b, c] = arrays.triangles[t];
+    drawn += 0.5 * std::abs(twice_area(uv[t]));
+    area += 0.5 * (arrays.x[at(b)] - arrays.x[at(a)]).cross(arrays.x[at(c)] - arrays.x[at(a)]).norm();
+  }
+  const bool metric = drawn < metric_ratio * area && area < metric_ratio * drawn;
+  if (rest == RestShape::drawing || (rest == RestShape::automatic && metric)) {
+    arrays.uv = std::move(uv);
+    return arrays;
+  }
+  if (rest == RestShape::automatic)
+    warnings.push_back(name +
+                       fmt::sprintf(": the drawing has %.3g m2 and the surface %.3g m2, so it is not in metres; the "
+                                    "cloth is at rest as it starts, its warp as drawn",
+                                    drawn, area));
+  for (std::size_t t = 0; t < uv.size(); ++t) {
+    const Triangle& c = arrays.triangles[t];
+    arrays.uv.push_back(as_it_starts({arrays.x[at(c[0])], arrays.x[at(c[1])], arrays.x[at(c[2])]}, uv[t]));
+  }
+  return arrays;
+}
+
+}  // namespace toile::internal
