@@ -126,6 +126,16 @@ BodyMotion BodyMotion::from_obj_sequence(const std::string& path, const Collisio
   return {body.triangles, samples};
 }
 
+BodyMotion BodyMotion::from_frames(std::string_view name, std::span<const Vec3> frames, const CollisionBody& body,
+                                   const SampleOptions& options) {
+  const std::size_t vertices = body.positions.size();
+  auto samples = std::make_shared<BodySamples>(name, body, options);
+  for (std::size_t first = 0; first < frames.size(); first += vertices)
+    samples->append(name, frames.subspan(first, std::min(vertices, frames.size() - first)));
+  samples->finish(name);
+  return {body.triangles, samples};
+}
+
 BodyMotion BodyMotion::from_files(const std::string& path, const CollisionBody& body, const SampleOptions& options) {
   return path.ends_with(".pc2") ? from_pc2(path, body, options) : from_obj_sequence(path, body, options);
 }

@@ -47,6 +47,10 @@ class BodyMotion {
   // "%d" or "%04d".  Every frame has the vertices and triangles of the file that `body` was read from.
   static BodyMotion from_obj_sequence(const std::string& path, const CollisionBody& body, const SampleOptions& options);
 
+  // Frames in memory, one after the other, each with the body's vertices in their order.
+  static BodyMotion from_frames(std::string_view name, std::span<const Vec3> frames, const CollisionBody& body,
+                                const SampleOptions& options);
+
   // PC2 for a name that ends in .pc2, otherwise OBJ files.
   static BodyMotion from_files(const std::string& path, const CollisionBody& body, const SampleOptions& options);
 

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -45,7 +46,10 @@ void parallel_blocks(std::size_t count, std::size_t grain, const std::function<v
 
 void with_threads(int threads, const std::function<void()>& work) {
   if (threads <= 0) threads = tbb::info::default_concurrency();
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  // Only for more than one per core: it holds for the whole process, and another thread of the caller's may have asked for fewer.
+  std::optional<tbb::global_control> limit;
+  if (threads > tbb::info::default_concurrency())
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   PoolOrder order;
   order.hand_out();

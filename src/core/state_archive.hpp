@@ -99,6 +99,7 @@ class StateReader {
 
   // `file` is named in messages.  The bytes must outlive the reader.
   StateReader(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
+  const std::string& file() const { return file_; }
 
   template <class... T>
   void operator()(T&... values) {

@@ -126,6 +126,10 @@ class Estimate {
       for (std::size_t k = 1; k < path.size(); ++k) length_m += (path[k] - path[k - 1]).norm();
       area_m2 = length_m * cloth.ribbon->width_m;
       outline_m = 2 * length_m;
+    } else if (cloth.arrays) {
+      add_part("cloth " + quoted(cloth.name),
+               {static_cast<double>(cloth.arrays->x.size()), static_cast<double>(cloth.arrays->triangles.size())});
+      return;
     }
     const double edge_m = cloth.edge_m();
     add_part("cloth " + quoted(cloth.name) + " (" + shape + ')', counts_of(area_m2, outline_m / edge_m, edge_m));
@@ -201,6 +205,9 @@ class Estimate {
         add_solid_item("body " + std::string(to_string(body.mannequin)),
                        body.mannequin == MannequinKind::dancer ? 15256 : 20104, mannequin_mb);
         budget_.seconds += mannequin_s;
+        break;
+      case SceneBody::Kind::arrays:
+        add_solid_item("body", static_cast<double>(body.arrays->triangles.size()), 0);
         break;
       case SceneBody::Kind::mesh:
         add_mesh("body", body.mesh);

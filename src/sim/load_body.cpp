@@ -94,6 +94,28 @@ void load_measurements(const SceneBody& body, std::span<const Vec3> x, LoadedBod
 
 }  // namespace
 
+namespace {
+
+void load_arrays(const SceneBodyArrays& arrays, LoadedBody& loaded, Hash& inputs) {
+  const std::span frames(arrays.frames);
+  inputs.add_counted(frames);
+  inputs.add_counted(std::span<const Triangle>(arrays.triangles));
+  CollisionBody standing;
+  standing.positions.assign(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(arrays.vertices));
+  standing.triangles = arrays.triangles;
+  check_closed("body", standing.positions, standing.triangles);
+  check_areas("body", standing.positions, standing.triangles);
+  if (frames.size() > arrays.vertices) {
+    SampleOptions samples;
+    samples.rate_hz = arrays.fps;
+    samples.lead_in_s = 0;
+    loaded.movement = movement_of(BodyMotion::from_frames("body", frames, standing, samples), "frames", inputs);
+  }
+  loaded.solid = {std::move(standing.positions), std::move(standing.triangles)};
+}
+
+}  // namespace
+
 LoadedBody load_body(const SceneBody& body, Hash& inputs) {
   LoadedBody loaded;
   switch (body.kind) {
@@ -113,6 +135,10 @@ LoadedBody load_body(const SceneBody& body, Hash& inputs) {
         loaded.movement = movement_of(BodyMotion::of_mannequin(mannequin, motion), body.motion->name, inputs);
       }
       loaded.solid = {std::move(made.positions), std::move(made.triangles)};
+      break;
+    }
+    case SceneBody::Kind::arrays: {
+      load_arrays(*body.arrays, loaded, inputs);
       break;
     }
     case SceneBody::Kind::mesh: {

@@ -30,7 +30,12 @@ double ramp(double t_s) { return std::clamp((t_s - weightless_s) / ramp_s, 0.0, 
 
 OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, BodySurface* body, const StepOptions& step, Settling settling,
                      std::function<bool()> stop)
-    : scene_(&scene), outfit_(&outfit), settling_(std::move(settling)), step_(step) {
+    : scene_(&scene),
+      outfit_(&outfit),
+      settling_(std::move(settling)),
+      step_(step),
+      gravity_m_per_s2_(scene.gravity_m_per_s2),
+      frame_s_(1 / scene.fps) {
   ModelOptions options;
   options.gravity_m_per_s2 = scene.gravity_m_per_s2;
   options.paper_scaling = scene.paper_scaling;
@@ -90,7 +95,7 @@ void OutfitRun::settle() {
   const double t_s = settling_.waits ? 0 : time_s(), weight = settling_.weightless ? 0 : ramp(time_s());
   const bool first = settling_.held_particles == 0;  // with friction off, what is worn below would slide down
   label_strength_ = std::clamp(1 - (t_s - labels_held_s) / labels_fade_s, 0.0, 1.0);
-  model_.gravity_m_per_s2 = weight * scene_->gravity_m_per_s2;
+  model_.gravity_m_per_s2 = weight * gravity_m_per_s2_;
   set_rest_stretch(ramp(t_s));
   if (t_s >= settling_s) worn_pins_.clear();
   const double slippery_s = first ? frictionless_s : settling_s;
@@ -137,7 +142,7 @@ void OutfitRun::happen() {
   for (const TimedDrag& timed : events_.drags)
     if (time_s() >= timed.from_s && time_s() < timed.to_s) world_.drags.push_back(timed.drag);
   for (const TimedRestStretch& timed : events_.rest_stretch) {
-    const double t_s = time_s() + 1 / scene_->fps;
+    const double t_s = time_s() + frame_s_;
     const auto after =
         std::find_if(timed.keys.begin(), timed.keys.end(), [&](const RestStretchKey& key) { return key.t_s > t_s; });
     Vec2 b = after == timed.keys.end() ? timed.keys.back().b : after->b;
@@ -152,8 +157,16 @@ void OutfitRun::happen() {
   }
 }
 
-FrameReport OutfitRun::frame() {
-  if (settling_.sewn) settle();
+FrameReport OutfitRun::frame(double length_s) {
+  if (length_s != frame_s_) {
+    frames_from_s_ = time_s();
+    frames_ = 0;
+    frame_s_ = length_s;
+  }
+  if (settling_.sewn)
+    settle();
+  else
+    model_.gravity_m_per_s2 = gravity_m_per_s2_;
   happen();
   std::vector<double>& thickness = outfit_->thickness_scale;
   if (settled()) grow_thickness(thickness);
@@ -163,7 +176,7 @@ FrameReport OutfitRun::frame() {
   if (tangles_->any() || let_through) tangles_->find(outfit_->state.x);
   tangles_->switch_off(thickness);  // also where sewing had left it so
   stepper_->integrator().contact_rows().set_thickness_scale(thickness);
-  const FrameReport report = stepper_->advance(outfit_->state, time_s(), 1 / scene_->fps);
+  const FrameReport report = stepper_->advance(outfit_->state, time_s(), frame_s_);
   if (!report.interrupted && report.ok) ++frames_;
   return report;
 }

@@ -58,14 +58,19 @@ class OutfitRun {
   OutfitRun(const OutfitRun&) = delete;
   OutfitRun& operator=(const OutfitRun&) = delete;
 
-  // Advances by one frame of the scene.
-  FrameReport frame();
+  // Advances by one frame of the scene, or by another length.
+  FrameReport frame() { return frame(1 / scene_->fps); }
+  FrameReport frame(double length_s);
   void set_events(Events events) { events_ = std::move(events); }
   const Events& events() const { return events_; }
+  // Between two frames pins and hands may come, go and be led elsewhere.
+  Events& events() { return events_; }
+  void set_gravity(const Vec3& m_per_s2) { gravity_m_per_s2_ = m_per_s2; }
+  void set_wind(const Vec3& m_per_s) { world_.air.wind_m_per_s = m_per_s; }
   // From the next frame on the body moves: at 0 s it is where it is now.
   void start_motion(BodyAt body_at);
 
-  double time_s() const { return static_cast<double>(frames_) * (1 / scene_->fps); }
+  double time_s() const { return frames_from_s_ + static_cast<double>(frames_) * frame_s_; }
   // Gravity, elastic and friction are what the scene says.
   bool settled() const;
   PhaseSeconds seconds() const { return stepper_->integrator().seconds(); }
@@ -83,7 +88,8 @@ class OutfitRun {
   void remember(Archive& archive) {
     std::vector<Vec2> b = panel_rest_stretch();
     archive.fixed(b);
-    archive(frames_, motion_start_s_, without_room_, ramped_, *tangles_, *stepper_);
+    archive(frames_, frames_from_s_, frame_s_, gravity_m_per_s2_, world_.air.wind_m_per_s, motion_start_s_,
+            without_room_, ramped_, *tangles_, *stepper_);
     for (TimedPin& timed : events_.pins) archive(timed.pin.particle, timed.from);
     for (TimedDrag& timed : events_.drags) archive(timed.drag.particle, timed.drag.weight);
     if constexpr (Archive::reads) take_up(b);
@@ -110,7 +116,9 @@ class OutfitRun {
   double label_strength_ = 0, motion_start_s_ = 0, ramped_ = -1;
   BodyAt motion_;
   Events events_;
-  long frames_ = 0;
+  Vec3 gravity_m_per_s2_{0, 0, 0};  // when it has grown to all of it
+  long frames_ = 0;                 // of one length, since
+  double frames_from_s_ = 0, frame_s_ = 0;
   std::optional<AdaptiveStep> stepper_;
 };
 

@@ -4,11 +4,14 @@
 #include "sim/run_writer.hpp"
 #include "verify/verify.hpp"
 
-#include <deque>
 #include <span>
 #include <vector>
 
 namespace toile::internal {
+
+// Of what hangs, for the judge: the drawing of the outfit, and what each panel ends with.
+RunDescription describe(const ClothMesh& mesh, std::span<const Vec2> rest_stretch, double fps,
+                        std::span<const Triangle> body, std::size_t body_vertices);
 
 class Recorder {
  public:
@@ -21,18 +24,11 @@ class Recorder {
            std::span<const Triangle> body, std::size_t body_vertices, const WrittenFrames& written);
 
   void frame(std::span<const Vec3> x, std::span<const Vec3> body_x);
-  // Has the cloth been at rest for half a second, and slow for the last one, which is what the verdict asks?
-  bool at_rest() const;
   VerifyReport report() const { return audit_.report(); }
 
  private:
-  void judge(Vec3s x, std::span<const Vec3> body_x);
-
   RunWriter* writer_;
   RunAudit audit_;
-  double fps_;
-  Vec3s written_;
-  std::deque<double> speeds_;  // p99 of each frame of the last second, mm/s
 };
 
 }  // namespace toile::internal

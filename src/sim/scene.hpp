@@ -25,6 +25,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -87,12 +88,22 @@ struct SceneRibbon {
   Vec3 across{0, 0, 1};      // its breadth at the first point, made perpendicular to the line
 };
 
+// Cloth that is given in memory: a scene file has no word for it.
+struct SceneClothArrays {
+  Vec3s x;  // where it starts, m
+  std::vector<Triangle> triangles;
+  std::vector<std::array<Vec2, 3>> uv;   // [triangle][corner] as it was cut, m; empty: as it starts
+  std::vector<Index> panel;              // [triangle]; empty: one panel
+  std::vector<std::string> panel_names;  // empty: the cloth's name
+};
+
 struct SceneCloth {
   std::string name;
   std::string pattern;  // path, resolved; empty for one of the shapes of sim/cloth_shapes.hpp
   std::optional<SceneGrid> grid;
   std::optional<SceneTube> tube;
   std::optional<SceneRibbon> ribbon;
+  std::shared_ptr<const SceneClothArrays> arrays;
   std::string shape_where,
       shape_pointer;  // of the shape, or of the cloth with a pattern, in the file: for what is found when it is meshed
   bool is_sewn() const { return !pattern.empty(); }
@@ -129,8 +140,16 @@ struct SceneMotion {
   std::string where, pointer;
 };
 
+// A body that is given in memory: one frame, or one after the other.
+struct SceneBodyArrays {
+  std::vector<Vec3> frames;  // m; of equal length, the first is how it stands
+  std::size_t vertices = 0;  // of a frame
+  std::vector<Triangle> triangles;
+  double fps = 30;
+};
+
 struct SceneBody {
-  enum class Kind { none, mannequin, mesh, cylinder };
+  enum class Kind { none, mannequin, mesh, cylinder, arrays };
   Kind kind = Kind::none;
   MannequinKind mannequin = MannequinKind::woman;
   std::optional<SceneMotion> motion;
@@ -138,6 +157,7 @@ struct SceneBody {
   std::string measurements;  // path, resolved; empty: the mesh's name with .yaml, if there is one
   LengthUnit unit = LengthUnit::automatic;
   SceneCylinder cylinder;
+  std::shared_ptr<const SceneBodyArrays> arrays;
   std::optional<double> friction;  // absent: the fabric's
   std::optional<double> offset_m;  // absent: by the cloth's edges, sim/setup.hpp
 };

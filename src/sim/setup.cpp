@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "mesh/check.hpp"
 #include "sim/check_garment.hpp"
+#include "sim/cloth_arrays.hpp"
 #include "sim/cloth_shapes.hpp"
 
 #include <algorithm>
@@ -62,7 +63,11 @@ GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& 
 }
 
 // The shape of the cloth, or the refusal of one that has none, at its place in the scene.
-GarmentMesh load_shape(const SceneCloth& cloth) {
+GarmentMesh load_shape(const SceneCloth& cloth, Hash& inputs) {
+  if (cloth.arrays) {
+    add_to_hash(*cloth.arrays, inputs);
+    return cloth_of_arrays(cloth);
+  }
   GarmentMesh shape = shaped_cloth(cloth);
   check_areas("", shape.x, shape.mesh.triangles);
   return shape;
@@ -162,7 +167,7 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
                                                         : cloth.shape_where + ": " + cloth.shape_pointer;
   try {
     loaded.garment =
-        cloth.is_sewn() ? load_garment(cloth, read, inputs, counted_edge_m, loaded.pattern) : load_shape(cloth);
+        cloth.is_sewn() ? load_garment(cloth, read, inputs, counted_edge_m, loaded.pattern) : load_shape(cloth, inputs);
   } catch (const InputError& error) {
     throw_within(where, error);
   }
@@ -188,7 +193,8 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
     const auto place = std::find(names.begin(), names.end(), panel.name);
     loaded.rest_stretch_paths.push_back({static_cast<Index>(place - names.begin()), panel.rest_stretch_path});
   }
-  loaded.edge_m = counted_edge_m.value_or(cloth.edge_m());
+  loaded.edge_m =
+      cloth.arrays ? mesh_quality(loaded.garment.mesh).mean_edge_m : counted_edge_m.value_or(cloth.edge_m());
   if (scene.cloth.size() > 1)  // two garments may both have a "front"
     for (std::string& panel : loaded.garment.mesh.panel_names) panel.insert(0, loaded.garment.name + '/');
   return loaded;

@@ -59,6 +59,17 @@ struct LoadedCloth {
 // shape.  Throws InputError for a panel or a label that the cloth does not have, and for what check_garment refuses.
 LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read, Hash& inputs);
 
+// All that a scene names, read.
+struct LoadedScene {
+  std::vector<LoadedCloth> cloth;
+  LoadedBody body;                                        // and the solids behind the person
+  std::size_t person_vertices = 0, person_triangles = 0;  // of the body
+  std::optional<Outfit> start;     // how another run had draped the cloth, if this one begins there
+  double cloth_s = 0, body_s = 0;  // wall time, for the report
+};
+// Adds every byte that it reads to `inputs`.  Throws what load_cloth, load_body and start_from throw.
+LoadedScene load_scene(const Scene& scene, const TextSource& read, Hash& inputs);
+
 // Sheets, tubes and ribbons that hang where they are drawn.
 Outfit outfit_of_shapes(std::span<const LoadedCloth> cloth);
 // What happens to the cloth in time, on the particles and panels of `outfit`, whose parts are the cloths in their order.

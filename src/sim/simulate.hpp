@@ -11,6 +11,7 @@
 #pragma once
 #include "sim/budget.hpp"
 #include "sim/checkpoint.hpp"
+#include "sim/progress.hpp"
 #include "sim/report.hpp"
 #include "sim/scene.hpp"
 
@@ -19,12 +20,6 @@
 #include <vector>
 
 namespace toile::internal {
-
-struct Progress {
-  std::string_view phase;    // "meshing", "placing", "sewing", "untangling", "fitting", "draping" ...
-  double share = 0;          // of the phase, 0 ... 1
-  double seconds_left = -1;  // of the phase; -1: unknown
-};
 
 struct RunOptions {
   std::string directory;
@@ -42,16 +37,6 @@ struct RunOptions {
   double time_limit_s = 0;                        // wall time that dressing may take, up to the motion; 0: any
   BudgetLimits limits;                            // what the run may take: refused beyond, before anything is made
 };
-
-namespace reason {
-inline constexpr std::string_view seam_blocked = "seam_blocked";
-inline constexpr std::string_view step_collapsed = "step_collapsed";
-inline constexpr std::string_view interrupted = "interrupted";
-inline constexpr std::string_view time_limit = "time_limit";
-inline constexpr std::string_view not_settled = "not_settled";
-inline constexpr std::string_view never_touched = "never_touched";
-inline constexpr std::string_view fell_off = "fell_off";
-}  // namespace reason
 
 // Throws InputError, IoError, Error(resource_limit) beyond `limits`, and Error(bad_start) with `strict_start`.  Writes report.json in every other case.
 Report simulate(const Scene& scene, const RunOptions& options);

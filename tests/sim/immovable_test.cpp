@@ -6,7 +6,7 @@
 #include "preview/ray_scene.hpp"
 #include "sim/dressing.hpp"
 #include "sim/outfit_run.hpp"
-#include "sim/run.hpp"
+#include "sim/simulation.hpp"
 #include "solver/modified_pcg.hpp"
 #include "solver/step_solver.hpp"
 #include "step/adaptive_step.hpp"
@@ -31,7 +31,7 @@ static_assert(stay_in_place<AdaptiveStep>, "has an integrator");
 static_assert(stay_in_place<Sewing>, "stepper_ points at model_ and world_, world_.springs is a closure over it");
 static_assert(stay_in_place<Dressing>, "sewing_ points at panels_");
 static_assert(stay_in_place<OutfitRun>, "stepper_ points at model_ and world_, which has closures over it");
-static_assert(stay_in_place<Run>, "its recorder and checkpoints point at its writer");
+static_assert(stay_in_place<Simulation>, "run_ points at scene_, outfit_ and body_, and asks stop() of it");
 static_assert(stay_in_place<RayScene>, "the ray tracer points at meshes_");
 static_assert(stay_in_place<test::ClothRun>, "stepper points at model and world");
 

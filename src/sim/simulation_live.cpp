@@ -1,6 +1,6 @@
-// sim/run_live.cpp: from the first written frame to the last: the drape, then the motion.
+// sim/simulation_live.cpp: from the first written frame to the last: the drape, then the motion.
 #include "body/arms.hpp"
-#include "sim/run.hpp"
+#include "sim/simulation.hpp"
 
 #include <fmt/printf.h>
 
@@ -14,118 +14,103 @@ constexpr double rest_s = 0.5;  // after a garment has settled, before it may be
 
 }  // namespace
 
-void Run::live() {
+void Simulation::begin(const std::function<void(OutfitRun&)>& prepare) {
   const bool resumed = resumes();
-  OutfitRun run(scene_, outfit_, body(), step_, settling_, stop());
-  run.set_events(events_of(outfit_, cloth_));
-  begin_recording(run);
+  run_.emplace(scene_, outfit_, body(), step_, settling_, stop());
+  run_->set_events(events_of(outfit_, cloth_));
+  if (prepare) prepare(*run_);
+  rest_.begin(outfit_.state.x, scene_.fps);
+  show_first();
   watch_falling();
   // What hangs now is the run's: a second and a third copy of a fine mesh are large.
   for (const LoadedCloth& cloth : cloth_) belongings_.push_back(belonging_of(cloth.garment));
   cloth_.clear();
   outfit_.mesh = {};
-  const std::string put_on_ended = failure_.empty() ? "" : failure_.front().code;
   report_.ended = "time";
   end_startup();
-  if (!resumed) {
-    place_ = {RunPhase::drape, scene_.cloth.size() - 1, 0};
-    keep(run);
+  if (resumed) {
+    if (place_.phase == RunPhase::drape) restore(*run_);
+    return;
   }
-  if (stopped_short_) {
-    // The frame that is written is all there is.
-  } else if (resumed && place_.phase == RunPhase::motion) {
-    animate(run);
-  } else {
-    if (resumed) restore(run);
-    drape(run);
-  }
-  if (report_.ended == "time" && failure_.empty()) judge_end(run);
-  if (failure_.empty()) find_slid_down();
-  if (!put_on_ended.empty() && report_.ended != reason::interrupted) report_.ended = put_on_ended;
-  close(run);
+  place_ = {RunPhase::drape, scene_.cloth.size() - 1, 0};
+  between_frames(*run_, true);
 }
 
-void Run::begin_recording(OutfitRun& run) {
+void Simulation::show_first() {
   std::vector<Vec2> rest_stretch = outfit_.rest_stretch;  // at the end
-  for (const TimedRestStretch& timed : run.events().rest_stretch)
+  for (const TimedRestStretch& timed : run_->events().rest_stretch)
     rest_stretch[static_cast<std::size_t>(timed.panel)] = timed.keys.back().b;
   for (std::size_t p = 0; p < rest_stretch.size(); ++p) {
     const Vec2& b = rest_stretch[p];
     if (b != Vec2(1, 1)) report_.rest_stretch.push_back({outfit_.mesh.panel_names[p], {b.y(), b.x()}});
   }
-  if (resumes()) {
-    say("reading", 0);
-    recorder_.emplace(*writer_, outfit_, rest_stretch, scene_.fps, body_triangles_, body_x_.size(), written_);
-    return;
-  }
-  checkpoints_->wait();
-  folder_->set_facts([&](JsonText& json) { add_facts(json, report_); });
-  recorder_.emplace(*writer_, outfit_, rest_stretch, scene_.fps, body_triangles_, body_x_);
+  report_.vertices = outfit_.mesh.particle_count;
+  if (resumes()) say("reading", 0);
+  observer_->begins(outfit_, rest_stretch, body_triangles_, body_x_);
+  if (!resumes()) frames_shown_ = 1;
 }
 
-void Run::drape(OutfitRun& run) {
+bool Simulation::drape() {
   const bool moving = motion_.has_value();
   const int frames =
       moving ? (scene_.drape_seconds > 0 ? frames_in(scene_.drape_seconds) : 1) : frames_in(scene_.seconds);
   const std::int64_t first = place_.frame;
   const Stopwatch watch;
   const auto at_rest = [&] {
-    return place_.frame > 0 && awaits_rest() && run.settled() &&
-           run.time_s() - frame_s() > (settling_.sewn ? OutfitRun::settling_s : -rest_s) + rest_s &&
-           recorder_->at_rest();
+    return place_.frame > 0 && awaits_rest() && run_->settled() &&
+           run_->time_s() - frame_s() > (settling_.sewn ? OutfitRun::settling_s : -rest_s) + rest_s && rest_.at_rest();
   };
-  if (place_.frame > 0 && !goes_on(run)) return;
+  if (place_.frame > 0 && !goes_on()) return false;
   bool rests = at_rest();
   while (!rests && place_.frame + 1 < frames) {
-    if (!frame(run, report_.drape, "draping", place_.frame + 1)) return;
+    if (!frame(report_.drape, "draping", place_.frame + 1)) return false;
     rests = at_rest();
     const auto done = static_cast<double>(place_.frame - first);
     say("draping", static_cast<double>(place_.frame) / frames,
         watch.seconds() * static_cast<double>(frames - 1 - place_.frame) / done);
   }
   if (rests && !moving) report_.ended = "still";
-  if (moving) animate(run);
+  return true;
 }
 
-void Run::animate(OutfitRun& run) {
-  run.start_motion(motion_->at);
+void Simulation::animate() {
+  run_->start_motion(motion_->at);
   if (resumes()) {
-    restore(run);
+    restore(*run_);
     motion_->at(static_cast<double>(place_.frame) * frame_s(), body_x_, body_x_);
   } else {
     place_.phase = RunPhase::motion;
     place_.frame = 0;
-    seconds_before_motion_ = run.seconds();
-    report_.motion_first_frame = writer_->cloth_frames() - 1;
-    checkpoints_->wait();
-    folder_->set_facts([&](JsonText& json) { add_facts(json, report_); });
-    keep(run);
+    seconds_before_motion_ = run_->seconds();
+    report_.motion_first_frame = frames_shown_ - 1;
+    observer_->motion_begins();
+    between_frames(*run_, true);
   }
   PhaseReport& phase = report_.motion;
   report_.motion_name = motion_->name;
   const int frames = frames_in_motion();
   const std::int64_t first = place_.frame;
   const Stopwatch watch;
-  bool good = place_.frame == 0 || goes_on(run);
+  bool good = place_.frame == 0 || goes_on();
   while (good && place_.frame < frames) {
     motion_->at(static_cast<double>(place_.frame + 1) * frame_s(), body_x_, body_x_);
     const double drape_seconds = report_.drape.seconds;
-    good = frame(run, report_.drape, "moving", place_.frame + 1, &phase);
+    good = frame(report_.drape, "moving", place_.frame + 1, &phase);
     phase.seconds += report_.drape.seconds - drape_seconds;
     if (!good) break;
     say("moving", static_cast<double>(place_.frame) / frames,
         watch.seconds() * static_cast<double>(frames - place_.frame) / static_cast<double>(place_.frame - first));
   }
   phase.simulated_s = phase.frames * frame_s();
-  set_seconds(phase, run.seconds(), seconds_before_motion_);
+  set_seconds(phase, run_->seconds(), seconds_before_motion_);
 }
 
-// One frame, simulated and written; false when it is the last for a bad reason.
-bool Run::frame(OutfitRun& run, PhaseReport& phase, std::string_view what, std::int64_t k, PhaseReport* also) {
+// One frame, simulated and shown; false when it is the last for a bad reason.
+bool Simulation::frame(PhaseReport& phase, std::string_view what, std::int64_t k, PhaseReport* also) {
   FrameReport frame;
   {
     const Timed timed(phase.seconds);
-    frame = run.frame();
+    frame = run_->frame();
   }
   if (frame.interrupted) {
     cut_off("while " + std::string(what) + ", after frame " + std::to_string(k - 1));
@@ -134,23 +119,25 @@ bool Run::frame(OutfitRun& run, PhaseReport& phase, std::string_view what, std::
   add_frame(phase, frame);
   if (also != nullptr) add_frame(*also, frame);
   if (!frame.ok) {
-    collapse("in frame " + std::to_string(k), frame, run.model().mesh, outfit_.state.x);
+    collapse("in frame " + std::to_string(k), frame, run_->model().mesh, outfit_.state.x);
     return false;
   }
-  recorder_->frame(outfit_.state.x, body_x_);
+  observer_->frame(outfit_.state.x, body_x_);
+  rest_.frame(outfit_.state.x);
+  ++frames_shown_;
   ++place_.frame;
-  if (fall_watch_) note_touches(outfit_.parts, run, touches_);
-  keep_if_due(run);
-  return goes_on(run);
+  if (fall_watch_) note_touches(outfit_.parts, *run_, touches_);
+  between_frames(*run_);
+  return goes_on();
 }
 
-int Run::frames_in_motion() const {
+int Simulation::frames_in_motion() const {
   const bool whole = !scene_.seconds_given && std::isfinite(motion_->duration_s);
   return frames_in(whole ? motion_->duration_s : scene_.seconds);
 }
 
 // Garments that fall to nowhere end the run, where that can be told: in still air, and if no hand holds the cloth.
-void Run::watch_falling() {
+void Simulation::watch_falling() {
   if (!sewn() || !body_ || scene_.gravity_m_per_s2.isZero(0)) return;
   for (const SceneCloth& cloth : scene_.cloth)
     if (!cloth.drags.empty()) return;
@@ -159,9 +146,9 @@ void Run::watch_falling() {
                       motion_ ? frames_in_motion() * frame_s() : 0, frame_s());
 }
 
-bool Run::in_wind() const { return scene_.air.density_kg_per_m3 > 0 && !scene_.air.wind_m_per_s.isZero(0); }
+bool Simulation::in_wind() const { return scene_.air.density_kg_per_m3 > 0 && !scene_.air.wind_m_per_s.isZero(0); }
 
-bool Run::lost() {
+bool Simulation::lost() {
   const std::optional<LostGarment> lost = fall_watch_->find(outfit_.parts, outfit_.state, body_x_);
   if (!lost) return false;
   const auto p = static_cast<std::size_t>(lost->part);
@@ -172,20 +159,20 @@ bool Run::lost() {
   return true;
 }
 
-bool Run::goes_on(const OutfitRun& run) { return !fall_watch_ || !run.settled() || in_wind() || !lost(); }
+bool Simulation::goes_on() { return !fall_watch_ || !run_->settled() || in_wind() || !lost(); }
 
 // Of a run whose time is over.
-void Run::judge_end(const OutfitRun& run) {
-  if (!run.settled())
+void Simulation::judge_end() {
+  if (!run_->settled())
     failure_.push_back({std::string(reason::not_settled),
                         fmt::sprintf("it ended %.3g s after the weld; gravity and elastic are full after %.3g s",
-                                     run.time_s(), OutfitRun::settling_s)});
+                                     run_->time_s(), OutfitRun::settling_s)});
   else if (fall_watch_ && in_wind())
     lost();
 }
 
 // A skirt that lies about the feet is not worn, nor is a dress that hangs at the hips.
-void Run::find_slid_down() {
+void Simulation::find_slid_down() {
   if (!body_) return;
   const std::span person = std::span<const Triangle>(body_triangles_).first(person_triangles_);
   if (!find_arms(std::span(standing_x_).first(person_vertices_), person)) return;  // a torso has no hips to be found
@@ -195,10 +182,10 @@ void Run::find_slid_down() {
     end(reason::fell_off, printable(outfit_.parts[static_cast<std::size_t>(lost->part)].name) + ' ' + lost->where);
 }
 
-void Run::close(OutfitRun& run) {
+void Simulation::close() {
   report_.drape.simulated_s = report_.drape.frames * frame_s();
-  set_seconds(report_.drape, run.seconds());
-  report_.layer_gap = run.layer_gap();
+  set_seconds(report_.drape, run_->seconds());
+  report_.layer_gap = run_->layer_gap();
 }
 
 }  // namespace toile::internal

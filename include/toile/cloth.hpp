@@ -1,0 +1,65 @@
+// toile/cloth.hpp: a garment or a piece of cloth, as it is before anything moves.
+#pragma once
+#include "toile/export.hpp"
+#include "toile/fabric.hpp"
+#include "toile/types.hpp"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace toile {
+
+struct PatternOptions {
+  double edge_m = 0.01;  // of its triangles
+};
+struct GridOptions {
+  double width_m = 1, height_m = 1, edge_m = 0.02;
+};
+
+// Cloth from arrays.  Of n vertices and f faces:
+struct ClothArrays {
+  std::span<const Point> vertices_m = {};  // [n] where it starts
+  std::span<const Face> faces = {};        // [f]
+  // [f] How it was cut.  Empty: it was cut as it starts, its warp as upright as each face allows.
+  std::span<const CornerUvs> uv_m = {};
+  std::span<const std::int32_t> panel = {};       // [f] a number below panel_names.size(); empty: one panel
+  std::span<const std::string> panel_names = {};  // empty: the cloth's name
+};
+
+// A value: a copy is independent.
+class TOILE_EXPORT Cloth {
+ public:
+  // The panels of a sewing pattern (GarmentCode's JSON), which are sewn around the body by Simulation::dress.
+  static Cloth from_pattern(const std::string& path, const PatternOptions& options = {});
+  // Upright in the plane z = 0, facing +z, its middle at the origin.
+  static Cloth grid(const GridOptions& options = {});
+  // Copies.  Throws InputError for faces that are out of range, degenerate, or not a surface, and for numbers that are not finite.
+  static Cloth from_arrays(const ClothArrays& arrays);
+
+  Cloth(const Cloth&);
+  Cloth(Cloth&&) noexcept;
+  Cloth& operator=(const Cloth&);
+  Cloth& operator=(Cloth&&) noexcept;
+  ~Cloth();
+
+  // Each of these returns the cloth, so that they can follow each other.
+  Cloth& set_name(std::string_view name);
+  Cloth& set_fabric(const Fabric& fabric);  // of all panels without one of their own
+  Cloth& set_panel_fabric(std::string_view panel, const Fabric& fabric);
+  // b of warp and weft, by which the panel's length at rest is multiplied: below 1 it is elastic.
+  Cloth& set_panel_rest_stretch(std::string_view panel, double u, double v);
+  // x -> R x + t with R = Rz Ry Rx, about the origin.
+  Cloth& place(const Point& translation_m, const Point& rotation_deg = {0, 0, 0});
+
+  struct TOILE_HIDDEN Parts;
+  const Parts& parts() const { return *parts_; }  // for the library itself
+
+ private:
+  explicit Cloth(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace toile

@@ -1,0 +1,29 @@
+// toile/fabric.hpp: what cloth is made of.                                              sources of the presets: docs/theory/fabrics.md
+#pragma once
+#include "toile/export.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace toile {
+
+// Stiffness is force per width, and bending moment per width per curvature: none of it depends on the mesh.
+struct Fabric {
+  std::string name = "cotton";
+  double density_kg_per_m2 = 0.15;
+  double stretch_u_N_per_m = 3000, stretch_v_N_per_m = 2000;  // warp, weft
+  double shear_N_per_m = 200;
+  double compression_ratio = 0.1;  // of the stretch stiffness, in threads that are shorter than at rest; in (0, 1]
+  double strain_limit = 0;         // no thread gets longer than 1 + this of its length as cut; 0: no limit
+  double bend_u_N_m = 1e-5, bend_v_N_m = 1e-5;
+  double stretch_damping_s = 2e-3, shear_damping_s = 2e-3, bend_damping_s = 2e-3;  // damping / stiffness
+  double friction = 0.35;
+  double thickness_m = 2.5e-3;  // between two layers that touch
+};
+
+// Of the presets silk, cotton, wool, denim and knit.  Throws InputError with the nearest name for any other.
+TOILE_EXPORT Fabric fabric(std::string_view name);
+TOILE_EXPORT std::vector<std::string> fabric_names();
+
+}  // namespace toile

@@ -1,0 +1,168 @@
+// toile/simulation.hpp: cloth and body in time.
+//
+//   toile::Simulation sim(toile::Cloth::from_pattern("tshirt.json"), toile::Body::mannequin("woman", "walk"));
+//   if (toile::DressReport worn = sim.dress(); !worn.ok()) { std::puts(worn.explain().c_str()); return 1; }
+//   while (sim.time_s() < 4) {
+//     if (toile::StepReport step = sim.advance(1.0 / 30); !step.ok()) { std::puts(step.explain().c_str()); break; }
+//     draw(sim.positions_m(), sim.faces());
+//   }
+//
+// Every call throws Error for what cannot be meant.  Physics that goes badly is in the report.  The same calls give the same bits, on any
+// number of threads; two simulations may run in two threads at once.
+#pragma once
+#include "toile/body.hpp"
+#include "toile/cloth.hpp"
+#include "toile/error.hpp"
+#include "toile/export.hpp"
+#include "toile/types.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace toile {
+
+struct Progress {
+  std::string_view phase;    // "meshing", "placing", "sewing", "untangling", "fitting", "draping" ...
+  double share = 0;          // of the phase, 0 ... 1
+  double seconds_left = -1;  // of the phase; -1: unknown
+};
+
+struct SimulationOptions {
+  Point gravity_m_per_s2{0, -9.81, 0};
+  Point wind_m_per_s{0, 0, 0};
+  double air_density_kg_per_m3 = 1.2;  // 0: cloth moves as in a vacuum
+  int threads = 0;                     // 0: one per core; the bits do not depend on it
+  // Asked while it works; true ends the call.  A simulation whose dressing was cancelled is as it was before.
+  std::function<bool()> cancelled = {};
+  std::function<void(const Progress&)> progress = {};
+};
+
+struct Reason {
+  std::string code;    // one word of docs/reason-codes.md
+  std::string detail;  // what was measured, and where
+};
+
+// What dress() came to.
+struct TOILE_EXPORT DressReport {
+  bool ok() const { return reasons.empty(); }
+  std::string ended;            // "still", "time", "seam_blocked", "step_collapsed", "time_limit", "interrupted" ...
+  std::vector<Reason> reasons;  // why it is not worn as it should be; empty: it is
+  std::vector<std::string> warnings;
+  double simulated_s = 0;
+  // One line for each.
+  std::string explain() const;
+};
+
+// One advance().
+struct TOILE_EXPORT StepReport {
+  bool ok() const { return reached; }
+  bool reached = true;  // false: the cloth stays where the last good step left it, and time where it was
+  bool cancelled = false;
+  int steps = 0, rejected = 0;
+  double step_min_s = 0, step_max_s = 0;
+  int cg_iterations = 0;
+  std::string diagnosis;  // of a step that could not be made however short: which triangles, and why
+  std::string explain() const;
+};
+
+// What is wrong with a state, by exact tests on float32 positions.
+struct Crossings {
+  int cloth_body_edges = 0, cloth_cloth_edges = 0;  // edges that pass through a triangle
+};
+
+// All that decides how a simulation goes on, between two frames.
+class TOILE_EXPORT State {
+ public:
+  State() = default;
+  // Bytes of another process or machine.  They are checked when they are used.
+  explicit State(std::string bytes) : bytes_(std::move(bytes)) {}
+  const std::string& bytes() const { return bytes_; }
+  static State load(const std::string& path);
+  void save(const std::string& path) const;
+
+ private:
+  std::string bytes_;
+};
+
+class TOILE_EXPORT Simulation {
+ public:
+  // Cloth that is no pattern hangs at once where it starts; what begins through itself or the body is taken apart first.  Of several cloths the
+  // inner ones come first.
+  explicit Simulation(const Cloth& cloth, const Body& body = Body::none(), const SimulationOptions& options = {});
+  explicit Simulation(std::span<const Cloth> cloths, const Body& body = Body::none(),
+                      const SimulationOptions& options = {});
+  // What a scene file says, in memory: no folder is made.
+  static Simulation from_scene(const std::string& path, const SimulationOptions& options = {});
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+  ~Simulation();
+
+  // Sews the patterns around the body, and lets them hang until they are at rest, or for longest_s.  Of cloth that is no pattern: lets it come to
+  // rest.  `time_limit_s` is wall time; 0: any.
+  DressReport dress(double longest_s = 20, double time_limit_s = 0);
+  // Of a scene: all that it says, to its end, as the program does.
+  DressReport run();
+  // By exactly h_s.  A body with a motion begins it at the first call.
+  StepReport advance(double h_s);
+  // Since everything is on: after dress() it is how long the cloth hung.
+  double time_s() const;
+  // Takes everything back to how it was made.
+  void reset();
+
+  // The cloth.  Views into the simulation, valid until the next call that is not const.  Before dress() of a pattern: the panels, unsewn.
+  std::span<const Point> positions_m() const;         // [particle]
+  std::span<const Point> velocities_m_per_s() const;  // [particle]
+  std::span<const Face> faces() const;
+  std::span<const CornerUvs> uv_m() const;      // [face]
+  std::span<const std::int32_t> panel() const;  // [face] a number below panel_names().size()
+  const std::vector<std::string>& panel_names() const;
+  // The body; empty if there is none.
+  std::span<const Point> body_positions_m() const;
+  std::span<const Face> body_faces() const;
+
+  // Holds particles where they are, until they are released.
+  void pin(std::span<const std::int32_t> particles);
+  // Where pinned particles shall be at the end of the next advance(), each on a straight way; then they stay there.
+  void move_pins(std::span<const std::int32_t> particles, std::span<const Point> to_m);
+  void release(std::span<const std::int32_t> particles);
+  std::vector<std::int32_t> pinned() const;  // ascending
+
+  struct Grip {
+    std::int32_t face = 0;
+    std::array<double, 3> barycentric{1, 0, 0};
+    double stiffness_N_per_m = 50, damping_N_s_per_m = 0.5, max_force_N = 5;
+  };
+  // A hand that pulls a point of the cloth by a spring; it begins where the point is.
+  int grab(const Grip& grip);
+  // Where the hand shall be at the end of the next advance().
+  void drag(int hand, const Point& to_m);
+  void let_go(int hand);
+
+  // Where a body of arrays or a file without motion shall be at the end of the next advance(), each vertex on a straight way.
+  void set_body(std::span<const Point> vertices_m);
+  void set_gravity(const Point& m_per_s2);
+  void set_wind(const Point& m_per_s);
+
+  // Goes on from here with the same bits: in this simulation, or in another one that was made of the same cloth, body and options, dressed or not,
+  // in any process.
+  State state() const;
+  // Throws InputError for a state of another simulation, or one that is not whole.
+  void set_state(const State& state);
+  // Of the bits of all positions and velocities: 16 hexadecimal digits, as in report.json.
+  std::string state_hash() const;
+
+  Crossings crossings() const;
+
+  struct TOILE_HIDDEN Implementation;
+
+ private:
+  explicit Simulation(std::unique_ptr<Implementation> implementation);
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace toile

@@ -1,0 +1,120 @@
+#include "toile/body.hpp"
+
+#include "api/parts.hpp"
+#include "body/mannequin.hpp"
+#include "body/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile {
+namespace {
+
+bool is_motion(const std::string& name) {
+  const auto names = internal::motion_names();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+internal::SceneMotion motion_of(const std::string& given, double fps) {
+  internal::SceneMotion motion;
+  motion.where = "motion";
+  if (is_motion(given)) {
+    motion.name = given;
+  } else {
+    motion.path = given;
+    motion.fps = fps;
+  }
+  return motion;
+}
+
+void require_at_least_zero(const char* what, double value) {
+  if (!std::isfinite(value) || value < 0)
+    throw internal::InputError("", what, "a number that is not below zero", std::to_string(value));
+}
+
+}  // namespace
+
+Body::Body(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Body::Body(const Body& other) : parts_(std::make_unique<Parts>(*other.parts_)) {}
+Body::Body(Body&&) noexcept = default;
+Body& Body::operator=(const Body& other) {
+  if (this != &other) parts_ = std::make_unique<Parts>(*other.parts_);
+  return *this;
+}
+Body& Body::operator=(Body&&) noexcept = default;
+Body::~Body() = default;
+
+Body Body::none() { return Body(std::make_unique<Parts>()); }
+
+std::vector<std::string> Body::motion_names() {
+  const auto names = internal::motion_names();
+  return {names.begin(), names.end()};
+}
+
+Body Body::mannequin(std::string_view who, const std::string& motion) {
+  return translated([&] {
+    auto parts = std::make_unique<Parts>();
+    parts->body.kind = internal::SceneBody::Kind::mannequin;
+    parts->body.mannequin = internal::mannequin_kind(who);
+    if (!motion.empty()) parts->body.motion = motion_of(motion, internal::SceneMotion{}.fps);
+    return Body(std::move(parts));
+  });
+}
+
+Body Body::from_file(const std::string& path, const BodyFileOptions& options) {
+  return translated([&] {
+    auto parts = std::make_unique<Parts>();
+    parts->body.kind = internal::SceneBody::Kind::mesh;
+    parts->body.mesh = path;
+    parts->body.measurements = options.measurements;
+    parts->body.unit = static_cast<internal::LengthUnit>(options.unit);
+    if (!options.motion.empty()) parts->body.motion = motion_of(options.motion, options.fps);
+    return Body(std::move(parts));
+  });
+}
+
+Body Body::from_arrays(std::span<const Point> vertices_m, std::span<const Face> faces) {
+  return from_frames(vertices_m, vertices_m.size(), faces, internal::SceneBodyArrays{}.fps);
+}
+
+Body Body::from_frames(std::span<const Point> frames_m, std::size_t vertices, std::span<const Face> faces, double fps) {
+  return translated([&] {
+    if (vertices == 0 || frames_m.empty() || frames_m.size() % vertices != 0)
+      throw internal::InputError("", "frames_m", "whole frames of " + std::to_string(vertices) + " vertices",
+                                 std::to_string(frames_m.size()) + " points");
+    if (!std::isfinite(fps) || !(fps > 0))
+      throw internal::InputError("", "fps", "a number above zero", std::to_string(fps));
+    auto arrays = std::make_shared<internal::SceneBodyArrays>();
+    arrays->frames = engine_vectors(frames_m);
+    arrays->vertices = vertices;
+    arrays->triangles.assign(faces.begin(), faces.end());
+    arrays->fps = fps;
+    auto parts = std::make_unique<Parts>();
+    parts->body.kind = internal::SceneBody::Kind::arrays;
+    parts->body.arrays = std::move(arrays);
+    return Body(std::move(parts));
+  });
+}
+
+Body Body::cylinder(const CylinderOptions& options) {
+  return translated([&] {
+    auto parts = std::make_unique<Parts>();
+    parts->body.kind = internal::SceneBody::Kind::cylinder;
+    parts->body.cylinder = {options.radius_m, options.height_m, engine_vector(options.top_m)};
+    return Body(std::move(parts));
+  });
+}
+
+Body& Body::set_friction(double friction) {
+  translated([&] { require_at_least_zero("friction", friction); });
+  parts_->body.friction = friction;
+  return *this;
+}
+
+Body& Body::set_offset(double offset_m) {
+  translated([&] { require_at_least_zero("offset_m", offset_m); });
+  parts_->body.offset_m = offset_m;
+  return *this;
+}
+
+}  // namespace toile

@@ -1,0 +1,132 @@
+#include "toile/cloth.hpp"
+
+#include "api/parts.hpp"
+#include "sim/check_garment.hpp"
+#include "sim/cloth_arrays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace toile {
+namespace {
+
+void require_length(const char* what, double length_m) {
+  if (!std::isfinite(length_m) || !(length_m > 0))
+    throw internal::InputError("", what, "a length above zero", std::to_string(length_m));
+}
+
+void require_finite(const char* what, const Point& p) {
+  if (!std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); }))
+    throw internal::InputError("", what, "finite numbers", "infinity or not a number");
+}
+
+// Its own of this panel.
+internal::ScenePanel& panel_of(internal::SceneCloth& cloth, std::string_view name) {
+  const auto known = std::find_if(cloth.panels.begin(), cloth.panels.end(),
+                                  [&](const internal::ScenePanel& panel) { return panel.name == name; });
+  if (known != cloth.panels.end()) return *known;
+  internal::ScenePanel& panel = cloth.panels.emplace_back();
+  panel.name = name;
+  panel.where = "cloth";
+  panel.pointer = "panels";
+  return panel;
+}
+
+}  // namespace
+
+Cloth::Cloth(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Cloth::Cloth(const Cloth& other) : parts_(std::make_unique<Parts>(*other.parts_)) {}
+Cloth::Cloth(Cloth&&) noexcept = default;
+Cloth& Cloth::operator=(const Cloth& other) {
+  if (this != &other) parts_ = std::make_unique<Parts>(*other.parts_);
+  return *this;
+}
+Cloth& Cloth::operator=(Cloth&&) noexcept = default;
+Cloth::~Cloth() = default;
+
+Cloth Cloth::from_pattern(const std::string& path, const PatternOptions& options) {
+  return translated([&] {
+    require_length("edge_m", options.edge_m);
+    auto parts = std::make_unique<Parts>();
+    parts->cloth.pattern = path;
+    parts->cloth.resolution_m = options.edge_m;
+    parts->cloth.shape_where = path;
+    parts->cloth.name = std::filesystem::path(path).stem().string();
+    return Cloth(std::move(parts));
+  });
+}
+
+Cloth Cloth::grid(const GridOptions& options) {
+  return translated([&] {
+    require_length("width_m", options.width_m);
+    require_length("height_m", options.height_m);
+    require_length("edge_m", options.edge_m);
+    auto parts = std::make_unique<Parts>();
+    parts->cloth.grid = internal::SceneGrid{options.width_m, options.height_m, options.edge_m};
+    parts->cloth.name = "sheet";
+    return Cloth(std::move(parts));
+  });
+}
+
+Cloth Cloth::from_arrays(const ClothArrays& given) {
+  return translated([&] {
+    auto arrays = std::make_shared<internal::SceneClothArrays>();
+    arrays->x = engine_vectors(given.vertices_m);
+    arrays->triangles.assign(given.faces.begin(), given.faces.end());
+    arrays->uv.reserve(given.uv_m.size());
+    for (const CornerUvs& uv : given.uv_m)
+      arrays->uv.push_back(
+          {internal::Vec2(uv[0][0], uv[0][1]), internal::Vec2(uv[1][0], uv[1][1]), internal::Vec2(uv[2][0], uv[2][1])});
+    arrays->panel.assign(given.panel.begin(), given.panel.end());
+    arrays->panel_names.assign(given.panel_names.begin(), given.panel_names.end());
+    auto parts = std::make_unique<Parts>();
+    parts->cloth.name = "cloth";
+    parts->cloth.arrays = std::move(arrays);
+    internal::check_garment("cloth", internal::cloth_of_arrays(parts->cloth));
+    return Cloth(std::move(parts));
+  });
+}
+
+Cloth& Cloth::set_name(std::string_view name) {
+  translated([&] {
+    if (name.empty()) throw internal::InputError("", "name", "a name", "an empty string");
+  });
+  parts_->cloth.name = name;
+  return *this;
+}
+
+Cloth& Cloth::set_fabric(const Fabric& fabric) {
+  parts_->cloth.fabric = translated([&] { return engine_fabric(fabric); });
+  return *this;
+}
+
+Cloth& Cloth::set_panel_fabric(std::string_view panel, const Fabric& fabric) {
+  internal::Fabric engine = translated([&] { return engine_fabric(fabric); });
+  panel_of(parts_->cloth, panel).fabric = std::move(engine);
+  return *this;
+}
+
+Cloth& Cloth::set_panel_rest_stretch(std::string_view panel, double u, double v) {
+  translated([&] {
+    for (const double b : {u, v})
+      if (!std::isfinite(b) || !(b > 0))
+        throw internal::InputError("", "rest stretch", "a factor above zero", std::to_string(b));
+  });
+  internal::ScenePanel& own = panel_of(parts_->cloth, panel);
+  own.rest_stretch_u = u;
+  own.rest_stretch_v = v;
+  return *this;
+}
+
+Cloth& Cloth::place(const Point& translation_m, const Point& rotation_deg) {
+  translated([&] {
+    require_finite("translation_m", translation_m);
+    require_finite("rotation_deg", rotation_deg);
+  });
+  parts_->cloth.translation_m = engine_vector(translation_m);
+  parts_->cloth.rotation_deg = engine_vector(rotation_deg);
+  return *this;
+}
+
+}  // namespace toile

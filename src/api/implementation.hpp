@@ -1,0 +1,103 @@
+// api/implementation.hpp: what is behind toile::Simulation.
+#pragma once
+#include "api/parts.hpp"
+#include "core/parallel.hpp"
+#include "sim/simulation.hpp"
+#include "toile/simulation.hpp"
+
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace toile {
+
+struct Simulation::Implementation : internal::SimulationObserver {
+  // All that a simulation is made of, and may be made of again.
+  struct Recipe {
+    Recipe(internal::Scene made_scene, SimulationOptions made_options);
+    SimulationOptions options;
+    internal::Scene scene;
+    internal::LoadedScene loaded;
+    std::uint64_t input_hash = 0;
+
+    template <class Work>
+    void in_threads(const Work& work) const {
+      if (options.threads > 0)
+        internal::with_threads(options.threads, work);
+      else
+        work();
+    }
+  };
+  explicit Implementation(std::shared_ptr<const Recipe> made_of) : recipe(std::move(made_of)) {}
+
+  // Of what moves in the coming advance(): straight on from one place to the next.
+  struct Way {
+    internal::Vec3 from, to;
+    template <class Archive>
+    void remember(Archive& archive) {
+      archive(from, to);
+    }
+  };
+  struct Held {
+    internal::Index particle = -1;
+    Way way;
+    template <class Archive>
+    void remember(Archive& archive) {
+      archive(particle, way);
+    }
+  };
+  struct Hand {
+    std::int32_t number = 0;
+    std::array<internal::Index, 3> particle{-1, -1, -1};
+    std::array<double, 3> weight{1, 0, 0};
+    double stiffness_N_per_m = 0, damping_N_s_per_m = 0, max_force_N = 0;
+    Way way;
+    template <class Archive>
+    void remember(Archive& archive) {
+      archive(number, particle, weight, stiffness_N_per_m, damping_N_s_per_m, max_force_N, way);
+    }
+  };
+  // What the caller does to the cloth and the body, beside what the scene says.
+  struct Interaction {
+    std::vector<Held> held;   // by particle
+    std::vector<Hand> hands;  // by number
+    std::int32_t hands_ever = 0;
+    std::vector<internal::Vec3> body_from, body_to;  // empty: the caller has not led it
+    double from_s = 0, length_s = 1;                 // of the coming advance(), or of the last
+    bool moves = false;                              // the body has begun to
+    double moves_from_s = 0;
+    template <class Archive>
+    void remember(Archive& archive) {
+      archive(held, hands, hands_ever, body_from, body_to, from_s, length_s, moves, moves_from_s);
+    }
+  };
+
+  void make();  // as it was made; nothing is on that has to be sewn
+  // Of one that is not made: as it was when this was written.  Throws internal::InputError.
+  void take_up(std::string_view bytes);
+  void make_engine();
+  void begin();  // what is on hangs from now on
+  // Throws unless everything is on.
+  internal::OutfitRun& live(std::string_view what);
+  internal::Vec3 along(const Way& way, double t_s) const;
+  void tell(internal::OutfitRun& run);  // of the interaction
+  void start_motion(internal::OutfitRun& run);
+  void update_body();
+  void arrived();  // at the end of an advance()
+  DressReport report();
+  void judge(DressReport& report);
+
+  const internal::ClothMesh& mesh() const { return begun ? engine->live().model().mesh : flat.mesh; }
+  const internal::ClothState& state() const { return begun ? engine->outfit().state : flat.state; }
+
+  std::shared_ptr<const Recipe> recipe;
+  std::unique_ptr<internal::Simulation> engine;
+  bool begun = false;
+  internal::Outfit flat;  // the panels, until it has begun
+  std::size_t scene_pins = 0, scene_drags = 0;
+  Interaction interaction;
+  std::vector<internal::Vec3> body_x;
+};
+
+}  // namespace toile

@@ -1,0 +1,153 @@
+#include "sim/simulation.hpp"
+
+#include "core/error.hpp"
+#include "sim/offenders.hpp"
+
+#include <fmt/printf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace toile::internal {
+namespace {
+
+// Each code once.
+void add_reason(std::vector<Reason>& reasons, std::string_view code, const std::string& detail) {
+  for (Reason& known : reasons) {
+    if (known.code != code) continue;
+    known.detail += "; " + detail;
+    return;
+  }
+  reasons.push_back({std::string(code), detail});
+}
+
+}  // namespace
+
+Simulation::Simulation(Scene scene, LoadedScene loaded, SimulationOptions options, SimulationObserver& observer)
+    : scene_(std::move(scene)),
+      options_(std::move(options)),
+      observer_(&observer),
+      cloth_(std::move(loaded.cloth)),
+      start_(std::move(loaded.start)),
+      person_vertices_(loaded.person_vertices),
+      person_triangles_(loaded.person_triangles),
+      measurements_(std::move(loaded.body.measurements)),
+      motion_(std::move(loaded.body.movement)) {
+  report_.name = scene_.name;
+  report_.fps = scene_.fps;
+  report_.startup.scene = options_.seconds_before;
+  report_.startup.cloth = loaded.cloth_s;
+  report_.startup.body = loaded.body_s;
+  report_.warnings = std::move(loaded.body.warnings);
+  for (const LoadedCloth& cloth : cloth_) {
+    report_.vertices += cloth.garment.mesh.particle_count;
+    report_.triangles += cloth.garment.mesh.triangle_count();
+    report_.panels += static_cast<int>(cloth.garment.mesh.panel_names.size());
+    report_.seams += static_cast<int>(cloth.garment.seams.size());
+  }
+  const Timed timed(report_.startup.body);
+  SolidMesh& solid = loaded.body.solid;
+  body_x_ = standing_x_ = solid.positions;
+  body_triangles_ = solid.triangles;
+  report_.body_vertices = static_cast<int>(body_x_.size());
+  report_.body_triangles = static_cast<int>(body_triangles_.size());
+  if (!body_triangles_.empty()) body_.emplace(std::move(solid.positions), std::move(solid.triangles));
+  double edge_m = 0;
+  for (const LoadedCloth& cloth : cloth_) edge_m = std::max(edge_m, cloth.edge_m);
+  step_ = step_options(scene_, cloth_.front().fabrics.front(), edge_m);
+}
+
+void Simulation::run() {
+  if (!put_on()) return;
+  const std::string put_on_ended = failure_.empty() ? "" : failure_.front().code;
+  begin();
+  if (!stopped_short_ && (place_.phase == RunPhase::motion || drape()) && motion_) animate();
+  judge_worn();
+  if (!put_on_ended.empty() && report_.ended != reason::interrupted) report_.ended = put_on_ended;
+  close();
+}
+
+void Simulation::limit_dressing(double longest_s, double time_limit_s) {
+  scene_.until_still = true;
+  scene_.seconds = scene_.drape_seconds = longest_s;
+  options_.time_limit_s = time_limit_s;
+  options_.watch = {};
+}
+
+void Simulation::judge_worn() {
+  if (report_.ended == "time" && failure_.empty()) judge_end();
+  if (failure_.empty()) find_slid_down();
+}
+
+// Where it was left.
+void Simulation::take_up(StateReader& archive) {
+  remember(archive);
+  earlier_s_ = report_.seconds_total;
+  if (place_.cloth >= cloth_.size())
+    throw InputError(archive.file(), "garment", "one of " + std::to_string(cloth_.size()),
+                     std::to_string(place_.cloth));
+  taken_up_ = &archive;
+  wear_again();
+  archive(outfit_);
+}
+
+std::string Simulation::state() {
+  StateWriter archive;
+  remember(archive);
+  archive(outfit_);
+  run_->remember(archive);
+  return archive.take();
+}
+
+// A phase ends before its end.  False: the user wants it so, and it can be taken up again.  True: the time that it was given is over, and what
+// there is is shown.
+bool Simulation::cut_off(const std::string& when) {
+  stopped_short_ = !user_stopped_;
+  if (stopped_short_)
+    end(reason::time_limit, fmt::sprintf("%.3g s were over ", options_.time_limit_s) + when);
+  else
+    end(reason::interrupted, when);
+  return stopped_short_;
+}
+
+int Simulation::frames_in(double seconds) const {
+  return std::max(1, static_cast<int>(std::lround(seconds * scene_.fps)));
+}
+
+void Simulation::end(std::string_view how, const std::string& detail) {
+  report_.ended = how;
+  add_reason(failure_, how, detail);
+}
+
+// The verdict, if it is a pass, is one with this reservation.
+void Simulation::qualify(std::string_view code, const std::string& detail) {
+  add_reason(qualifications_, code, detail);
+}
+
+// The step could not be made however short: says over what, and leaves it in a file.
+void Simulation::collapse(const std::string& when, const FrameReport& frame, const ClothMesh& mesh,
+                          std::span<const Vec3> x) {
+  std::string words = when + ": " + frame.diagnosis;
+  if (!frame.offenders.empty()) {
+    const ObjMesh offenders =
+        offenders_obj(mesh, x, frame.offenders, body_triangles_, body_ ? body_->positions() : std::span<const Vec3>{});
+    words += "; offenders.obj: " + name_triangles(mesh, frame.offenders);
+    const auto of_body = std::count(offenders.object.begin(), offenders.object.end(), 1);
+    if (of_body > 0) words += ", and " + std::to_string(of_body) + " triangles of the body near them";
+    observer_->collapsed(offenders);
+  }
+  end(reason::step_collapsed, words);
+}
+
+// Called before every first step of something; the first of them counts.
+void Simulation::end_startup() {
+  if (report_.startup.total == 0) report_.startup.total = options_.seconds_before + options_.watch.seconds();
+}
+
+// Where the time of one of its parts goes: after the first step, nowhere.
+double& Simulation::startup(double StartupReport::*part) {
+  return report_.startup.total == 0 ? report_.startup.*part : after_startup_;
+}
+
+}  // namespace toile::internal

@@ -1,0 +1,247 @@
+// sim/simulation.hpp: a scene in memory, from flat panels to cloth that follows a body.  Reads and writes no file.
+//
+//   simulation.cpp           what it owns, how it ends, how it is taken up again
+//   simulation_placing.cpp   where the panels go, around whom
+//   simulation_put_on.cpp    sewing, growth, the drape of what is worn below
+//   simulation_start.cpp     crossings before the first frame
+//   simulation_live.cpp      frame by frame: the drape, then the motion
+//
+// It can be left between any two frames and taken up again: `place_` says where it is, and each phase is a loop over frames that begins
+// where place_.frame says.  Files, verdict and pictures are made by who observes it.
+#pragma once
+#include "core/state_archive.hpp"
+#include "core/stopwatch.hpp"
+#include "garment/placement.hpp"
+#include "io/obj.hpp"
+#include "sim/dressing.hpp"
+#include "sim/dressing_body.hpp"
+#include "sim/falling.hpp"
+#include "sim/outfit_run.hpp"
+#include "sim/phase_report.hpp"
+#include "sim/progress.hpp"
+#include "sim/rest_watch.hpp"
+#include "sim/setup.hpp"
+#include "sim/simulation_observer.hpp"
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace toile::internal {
+
+enum class RunPhase : std::uint8_t { sewing, growth, inner_drape, drape, motion };
+
+struct RunPlace {
+  RunPhase phase = RunPhase::sewing;
+  std::uint64_t cloth = 0;  // while it is put on
+  std::int64_t frame = 0;   // of the phase: how many have been simulated
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(phase, cloth, frame);
+  }
+};
+
+struct SimulationOptions {
+  std::function<void(const Progress&)> progress;  // may be empty
+  std::function<bool()> stop;                     // asked between frames; may be empty
+  double time_limit_s = 0;                        // wall time that dressing may take, up to the motion; 0: any
+  double seconds_before = 0;                      // wall time since the program began, for the report
+  Stopwatch watch;                                // since the run began
+};
+
+class Simulation {
+ public:
+  // The observer must outlive this object.
+  Simulation(Scene scene, LoadedScene loaded, SimulationOptions options, SimulationObserver& observer);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  // All that the scene asks for.  Throws Error(bad_start) with `strict_start`.
+  void run();
+
+  // The same in parts.  Puts on what is to be worn; false: it was stopped, or ended before anything was on.
+  bool put_on();
+  // Once, after put_on(): the first frame of what hangs.  `prepare` is called before a state is read back that it was taken up from: what happens
+  // to the cloth, and how the body moves, has to be known by then.
+  void begin(const std::function<void(OutfitRun&)>& prepare = {});
+  bool has_begun() const { return run_.has_value(); }
+  // Of dressing, from now on: how long the drape may be, in simulated and in wall time (0: any).
+  void limit_dressing(double longest_s, double time_limit_s);
+  // Of a drape that is over: is it worn, as far as that can be told without measuring?
+  void judge_worn();
+  // Until it is at rest, where that is awaited, or its time is over.  False: it ended for a bad reason, which failure() has.
+  bool drape();
+  // From here on frames are the caller's.
+  OutfitRun& live() { return *run_; }
+  bool rests() const { return rest_.at_rest(); }
+  // What there is was put on as far as it went: that one frame is shown, and nothing moves.
+  bool stopped_short() const { return stopped_short_; }
+  BodySurface* body() { return body_ ? &*body_ : nullptr; }
+
+  const Scene& scene() const { return scene_; }
+  // Of a simulation that has begun, all but the mesh, which live().model() has.
+  const Outfit& outfit() const { return outfit_; }
+  std::span<const Vec3> body_x() const { return body_x_; }
+  std::span<const Triangle> body_triangles() const { return body_triangles_; }
+  Index particles_of_first_panels() const { return cloth_.front().garment.mesh.particle_count; }
+  bool body_moves() const { return motion_.has_value(); }
+  const std::optional<BodyMovement>& motion() const { return motion_; }
+  const GarmentMesh& panels(std::size_t cloth) const { return cloth_[cloth].garment; }  // until it has begun
+  std::size_t cloths() const { return cloth_.size(); }
+  // Of a simulation that has begun.
+  std::string state();
+  Report& report() { return report_; }
+  const Report& report() const { return report_; }
+  const std::vector<Reason>& failure() const { return failure_; }
+  const std::vector<Reason>& qualifications() const { return qualifications_; }
+  double seconds() const { return earlier_s_ + options_.watch.seconds(); }
+
+  // Of a simulation that has not begun: where it was left.  The archive must outlive put_on() and run().
+  void take_up(StateReader& archive);
+
+ private:
+  // simulation.cpp
+  void say(std::string_view phase, double share, double seconds_left = -1) const {
+    if (options_.progress) options_.progress({phase, share, seconds_left});
+  }
+  bool stopped() const {
+    user_stopped_ = user_stopped_ || (options_.stop && options_.stop());
+    return user_stopped_ || out_of_time();
+  }
+  bool out_of_time() const {
+    return options_.time_limit_s > 0 && place_.phase != RunPhase::motion &&
+           options_.watch.seconds() > options_.time_limit_s;
+  }
+  std::function<bool()> stop() const {
+    return [this] { return stopped(); };
+  }
+  bool cut_off(const std::string& when);
+  bool sewn() const { return scene_.cloth.front().is_sewn(); }
+  bool awaits_rest() const { return scene_.until_still || motion_.has_value(); }
+  double frame_s() const { return 1 / scene_.fps; }
+  int frames_in(double seconds) const;
+  void end(std::string_view how, const std::string& detail);
+  void qualify(std::string_view code, const std::string& detail);
+  void collapse(const std::string& when, const FrameReport& frame, const ClothMesh& mesh, std::span<const Vec3> x);
+  void end_startup();
+  double& startup(double StartupReport::*part);
+
+  // Taking up and keeping the state.
+  template <class Archive>
+  void remember(Archive& archive) {
+    if constexpr (!Archive::reads) report_.seconds_total = seconds();
+    archive(place_, frames_shown_, report_, failure_, qualifications_, pose_, on_shoulders_, open_pairs_,
+            stopped_short_, before_inner_, slow_inner_, seconds_before_motion_, touches_, rest_);
+  }
+  // Until restore() has been called.
+  bool resumes() const { return taken_up_ != nullptr; }
+  // The rest of the state, into the phase that it is about, once the outfit has its garments and its state.
+  template <class Phase>
+  void restore(Phase& phase);
+  // After a frame of the phase, or before its first.
+  template <class Phase>
+  void between_frames(Phase& phase, bool first = false);
+
+  // simulation_start.cpp
+  void bad_start(const std::string& name, const std::string& what);
+  bool free_start(bool sewn_now);  // false: it was stopped
+  std::vector<Index> held_now(bool sewn_now) const;
+  int come_apart();
+
+  // simulation_placing.cpp
+  void find_person();
+  const BodyFigures& figures();
+  void make_thin();
+  void stand();
+  Placement place_around_arms(GarmentMesh& garment);
+  void place(GarmentMesh& garment, bool tell);
+  std::vector<LabelHeight> heights_of(std::size_t cloth, std::vector<std::string>& warnings);
+  void tell_misfits(std::size_t cloth);
+
+  // simulation_put_on.cpp
+  void hang_as_drawn();
+  void wear_again();
+  bool sew(std::size_t cloth);
+  FrameReport sew_frames(Dressing& dressing, bool filmed);
+  void leave_open(std::size_t cloth, Dressing& dressing);
+  bool grow(std::size_t cloth);
+  bool drape_inner(std::size_t cloth);
+
+  // simulation_live.cpp
+  void show_first();
+  void animate();
+  bool frame(PhaseReport& phase, std::string_view what, std::int64_t k, PhaseReport* also = nullptr);
+  void close();
+  int frames_in_motion() const;
+  void watch_falling();
+  bool in_wind() const;
+  bool lost();
+  bool goes_on();
+  void judge_end();
+  void find_slid_down();
+
+  Scene scene_;
+  SimulationOptions options_;
+  SimulationObserver* observer_;
+  double earlier_s_ = 0;  // of one that is taken up: what it had taken before
+  Report report_;
+  double after_startup_ = 0;
+  std::vector<Reason> failure_, qualifications_;
+  std::vector<LoadedCloth> cloth_;  // until it begins
+  std::optional<Outfit> start_;     // likewise
+  Outfit outfit_;
+  Settling settling_;
+  Vec3s body_x_;      // at the last frame
+  Vec3s standing_x_;  // how the body stands when it is dressed
+  std::vector<Triangle> body_triangles_;
+  std::optional<BodySurface> body_;
+  std::size_t person_vertices_ = 0, person_triangles_ = 0;  // of body_x_ and body_triangles_; solids come behind
+  std::optional<BodyMeasurements> measurements_;
+  std::optional<BodyFigures> figures_;         // as it stands; figures() makes them
+  std::optional<DressingBody> dressing_body_;  // until the first garment is on
+  std::optional<BodyMovement> motion_;
+  StepOptions step_;
+  TouchMemory touches_;
+  std::optional<FallWatch> fall_watch_;
+
+  DressingBody::Pose pose_;    // of dressing_body_, while the first garment is sewn
+  bool on_shoulders_ = false;  // it hangs from there, not from its waist
+  std::vector<std::vector<Index>>
+      open_pairs_;                     // [garment that is on] what its weld left open: places in GarmentMesh::pairs
+  std::vector<Belonging> belongings_;  // [garment]
+  bool stopped_short_ = false;
+
+  mutable bool user_stopped_ = false;  // options_.stop has said so
+
+  RunPlace place_;
+  int frames_shown_ = 0;
+  Vec3s before_inner_;  // x of the frame before, while a garment that others go over is draped
+  int slow_inner_ = 0;  // its slow frames in a row
+  PhaseSeconds seconds_before_motion_;
+  RestWatch rest_;
+  StateReader* taken_up_ = nullptr;  // until the phase that it is about has taken it
+  std::optional<OutfitRun> run_;     // once it has begun
+};
+
+template <class Phase>
+void Simulation::restore(Phase& phase) {
+  phase.remember(*taken_up_);
+  taken_up_->end();
+  taken_up_ = nullptr;
+}
+
+template <class Phase>
+void Simulation::between_frames(Phase& phase, bool first) {
+  observer_->between_frames(first, [&] {
+    StateWriter archive;
+    remember(archive);
+    archive(outfit_);
+    phase.remember(archive);
+    return archive.take();
+  });
+}
+
+}  // namespace toile::internal

@@ -1,0 +1,246 @@
+// sim/simulation_put_on.cpp: from flat panels to a garment that is on; what was worn before comes first.
+#include "core/error.hpp"
+#include "sim/simulation.hpp"
+
+#include <fmt/printf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace toile::internal {
+namespace {
+
+constexpr double sewing_film_fps = 30;
+constexpr double inner_rest_mm_per_s = 10;  // of a garment that others go over,
+constexpr double inner_rest_s = 0.5;        // for so long
+
+}  // namespace
+
+// Cloth that is not sewn, or that another run has draped.
+void Simulation::hang_as_drawn() {
+  outfit_ = start_ ? std::move(*start_) : outfit_of_shapes(cloth_);
+  start_.reset();
+  settling_.to_rest = sewn() && awaits_rest();
+}
+
+bool Simulation::put_on() {
+  if (resumes() && place_.phase >= RunPhase::drape) return true;
+  if (start_ || !sewn()) {
+    hang_as_drawn();
+    return free_start(false);
+  }
+  for (std::size_t k = place_.cloth; k < cloth_.size(); ++k) {
+    const bool is_sewn = resumes() && place_.phase != RunPhase::sewing;
+    const bool is_on = is_sewn && place_.phase != RunPhase::growth;
+    if (k == 0 && !is_on) find_person();
+    if (!is_sewn && !sew(k)) return false;
+    if (k == 0 && !is_on && !stopped_short_ && !grow(k)) return false;
+    stopped_short_ = stopped_short_ || (k < open_pairs_.size() && !open_pairs_[k].empty());
+    if (stopped_short_) return true;
+    if (k + 1 < cloth_.size() && !drape_inner(k)) return stopped_short_;
+  }
+  return true;
+}
+
+// The garments that were on when it was left, but for where they were.
+void Simulation::wear_again() {
+  if (start_ || !sewn()) {
+    hang_as_drawn();
+    outfit_.thickness_scale.assign(outfit_.state.x.size(), 1);
+    return;
+  }
+  const std::size_t worn = static_cast<std::size_t>(place_.cloth) + (place_.phase == RunPhase::sewing ? 0 : 1);
+  std::vector<std::string> told_before;
+  for (std::size_t j = 0; j < worn; ++j) {
+    LoadedCloth& cloth = cloth_[j];
+    const Index before = outfit_.mesh.particle_count;
+    if (j < open_pairs_.size()) cloth_[j].garment.leave_open(open_pairs_[j]);
+    LabelSprings labels = wear(outfit_, cloth.garment, cloth.fabrics, cloth.rest_stretch, heights_of(j, told_before));
+    settling_ = {true, before, std::move(labels), awaits_rest()};
+  }
+}
+
+// Leaves the outfit welded, with the garment on.
+bool Simulation::sew(std::size_t k) {
+  const bool resumed = resumes();
+  if (!resumed) place_ = {RunPhase::sewing, k, 0};
+  LoadedCloth& cloth = cloth_[k];
+  GarmentMesh& garment = cloth.garment;
+  place(garment, !resumed);
+  if (!resumed) tell_misfits(k);
+  SewingOptions sewing_options;
+  sewing_options.step_max_s = scene_.step_max_s.value_or(1 / sewing_options.fps);
+  sewing_options.paper_scaling = scene_.paper_scaling;
+  sewing_options.damping_jacobian = scene_.damping_jacobian;
+  std::vector<std::string> told_before;
+  sewing_options.label_heights = heights_of(k, resumed ? told_before : report_.warnings);
+  sewing_options.labels_hold_panels = k == 0 && dressing_body_ && !on_shoulders_;
+  sewing_options.stop = stop();
+  Dressing dressing(outfit_, garment, cloth.fabrics, cloth.rest_stretch, body(), step_, sewing_options);
+  Sewing& sewing = dressing.sewing();
+  if (sewing_options.labels_hold_panels && !dressing.labels().empty()) {
+    pose_.falls_s = DressingBody::falling_s;
+    dressing_body_->set_pose(pose_);
+  }
+  const bool filmed = k == 0;  // the panels of the others come with what is worn: another mesh
+  if (resumed) {
+    restore(dressing);
+  } else {
+    if (dressing.tangled()) bad_start(garment.name, "placed panels pass through each other");
+    if (filmed) {
+      const std::span thin = std::span<const Triangle>(body_triangles_).first(dressing_body_ ? person_triangles_ : 0);
+      observer_->sewing_begins(garment.mesh, garment.name, garment.x, thin, std::span(body_x_).first(person_vertices_));
+    }
+    end_startup();
+    between_frames(dressing, true);
+  }
+  const FrameReport frame = sew_frames(dressing, filmed);
+  PhaseReport& phase = report_.sewing;
+  phase.simulated_s += sewing.time_s();
+  add_seconds(phase, sewing.seconds());
+  const std::string which = cloth_.size() > 1 ? printable(garment.name) + ": " : "";
+  // What blocks it may still come apart: that it is blocked is not known before.
+  const bool ended =
+      sewing.status() != SewingStatus::sewing && !(sewing.status() == SewingStatus::blocked && stopped());
+  if (!ended) {
+    if (!cut_off(which + "while sewing, after " + std::to_string(place_.frame) + " frames")) {
+      outfit_.state = sewing.state();  // for the hash
+      return false;
+    }
+  } else if (sewing.status() == SewingStatus::blocked) {
+    end(reason::seam_blocked, which + dressing.explain() + (frame.ok ? "" : "; then " + frame.diagnosis));
+  } else if (sewing.status() == SewingStatus::failed) {
+    collapse(which + "while sewing (" + dressing.explain() + ")", frame, sewing.model().mesh, sewing.state().x);
+  }
+  open_pairs_.resize(k + 1);
+  if (sewing.status() != SewingStatus::closed) leave_open(k, dressing);
+  settling_ = {true, outfit_.mesh.particle_count, dressing.labels(), awaits_rest()};
+  outfit_ = dressing.worn();
+  return stopped_short_ || free_start(true);
+}
+
+// Until the seams are closed or will not close; returns what the last frame was.
+FrameReport Simulation::sew_frames(Dressing& dressing, bool filmed) {
+  Sewing& sewing = dressing.sewing();
+  const int every = std::max(1, static_cast<int>(std::lround(SewingOptions{}.fps / sewing_film_fps)));
+  const Stopwatch watch;
+  FrameReport frame;
+  while (sewing.status() == SewingStatus::sewing && !stopped()) {
+    {
+      const Timed timed(report_.sewing.seconds);
+      frame = sewing.frame();
+    }
+    if (frame.interrupted) break;
+    add_frame(report_.sewing, frame);
+    ++place_.frame;
+    if (filmed && (place_.frame % every == 0 || sewing.status() != SewingStatus::sewing))
+      observer_->sewing_frame(sewing.state().x);
+    if (sewing.status() == SewingStatus::blocked) {
+      say("untangling", 0);
+      const std::string why = dressing.explain();
+      if (dressing.take_apart(body_triangles_, body_x_, [&] { return stopped(); }))
+        report_.warnings.push_back("while sewing: " + why +
+                                   "; what was in the way was taken apart, and sewing went on");
+    }
+    if (sewing.status() == SewingStatus::sewing) between_frames(dressing);
+    const double share = sewing.closed_share();
+    say("sewing", share, share > 0.05 ? watch.seconds() * (1 - share) / share : -1);
+  }
+  return frame;
+}
+
+// What would not close stays open: the garment is welded as far as it goes, and written as it is then.  With weight, what hangs by nothing
+// would fall out of the picture.
+void Simulation::leave_open(std::size_t k, Dressing& dressing) {
+  const GarmentMesh& panels = dressing.panels();
+  const std::vector<SeamGap> gaps = dressing.sewing().gaps();
+  const std::vector<SeamPair> pairs = panels.pairs;
+  open_pairs_[k] = dressing.leave_open();
+  cloth_[k].garment.leave_open(open_pairs_[k]);
+  const std::vector<Index> particle_of = dressing.particle_of();
+  for (const SeamGap& gap : gaps) {
+    OpenSeam open{panels.seams[static_cast<std::size_t>(gap.seam)].name, gap.gap_m, gap.where, {}};
+    for (const Index pair : open_pairs_[k]) {
+      const SeamPair& ends = pairs[static_cast<std::size_t>(pair)];
+      if (ends.seam == gap.seam)
+        open.vertices.push_back(
+            {particle_of[static_cast<std::size_t>(ends.a)], particle_of[static_cast<std::size_t>(ends.b)]});
+    }
+    if (!open.vertices.empty()) report_.open_seams.push_back(std::move(open));
+  }
+}
+
+// The body becomes what it is, within the garment.  Nothing of it is written.
+bool Simulation::grow(std::size_t k) {
+  if (!dressing_body_) return true;
+  Settling waiting = settling_;
+  waiting.waits = true;
+  waiting.weightless = pose_.falls_s == 0;
+  waiting.to_rest = false;
+  OutfitRun run(scene_, outfit_, body(), step_, waiting, stop());
+  run.start_motion([&](double t_s, std::span<Vec3> x) { dressing_body_->at(t_s, x); });
+  if (resumes()) {
+    restore(run);
+  } else {
+    place_ = {RunPhase::growth, k, 0};
+    between_frames(run, true);
+  }
+  const int frames = frames_in(dressing_body_->growth_s());
+  while (place_.frame < frames) {
+    const FrameReport frame = run.frame();
+    if (frame.interrupted && !cut_off("while the body grew into the garment")) return false;
+    if (!frame.interrupted && !frame.ok) {
+      collapse("while the body grew into the garment", frame, outfit_.mesh, outfit_.state.x);
+      stopped_short_ = true;
+    }
+    if (stopped_short_) break;
+    ++place_.frame;
+    between_frames(run);
+    say("fitting", static_cast<double>(place_.frame) / frames);
+  }
+  outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
+  body_x_ = standing_x_;
+  if (stopped_short_) body_x_.assign(body_->next_positions().begin(), body_->next_positions().end());
+  stand();
+  dressing_body_.reset();
+  return true;
+}
+
+// A garment that another one goes over comes to rest first; nothing of it is written.
+bool Simulation::drape_inner(std::size_t k) {
+  OutfitRun run(scene_, outfit_, body(), step_, settling_, stop());
+  if (resumes()) {
+    restore(run);
+  } else {
+    place_ = {RunPhase::inner_drape, k, 0};
+    before_inner_ = outfit_.state.x;
+    slow_inner_ = 0;
+    between_frames(run, true);
+  }
+  const int frames = frames_in(scene_.drape_seconds);
+  while (place_.frame + 1 < frames && slow_inner_ < inner_rest_s * scene_.fps) {
+    const FrameReport frame = run.frame();
+    if (frame.interrupted || !frame.ok) {
+      const std::string when = "while " + printable(cloth_[k].garment.name) + " was draped";
+      if (frame.interrupted) {
+        cut_off(when);
+      } else {
+        collapse(when, frame, outfit_.mesh, outfit_.state.x);
+        stopped_short_ = true;
+      }
+      return false;
+    }
+    ++place_.frame;
+    const bool slow =
+        run.settled() && speed_p99_mm_per_s(before_inner_, outfit_.state.x, scene_.fps) < inner_rest_mm_per_s;
+    slow_inner_ = slow ? slow_inner_ + 1 : 0;
+    before_inner_ = outfit_.state.x;
+    between_frames(run);
+    say("draping", static_cast<double>(place_.frame) / frames);
+  }
+  outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
+  return true;
+}
+
+}  // namespace toile::internal

@@ -1,0 +1,81 @@
+// sim/simulation_start.cpp: what is wrong with cloth before its first frame, and how it is taken apart.
+#include "core/error.hpp"
+#include "sim/simulation.hpp"
+#include "sim/start_state.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace toile::internal {
+namespace {
+
+constexpr double most_waiting_s = 1;
+
+}  // namespace
+
+void Simulation::bad_start(const std::string& name, const std::string& what) {
+  if (scene_.strict_start) throw Error(ExitCode::bad_start, printable(name) + ": bad start: " + what);
+  report_.warnings.push_back("bad start: " + what);
+}
+
+// Cloth that passes through itself or the body is taken apart before the first frame, as far as it can be (sim/start_state.hpp).
+// `sewn_now`: what sewing left, not what the user gave; --strict-start is about the latter.
+bool Simulation::free_start(bool sewn_now) {
+  const Timed timed(startup(&StartupReport::crossings));
+  const StartCrossings found = start_crossings(outfit_, body_triangles_, body_x_);
+  if (found.all() == 0) return true;
+  std::string what = std::to_string(found.cloth_cloth) + " edges of the cloth pass through it";
+  if (body_) what += ", " + std::to_string(found.cloth_body) + " between cloth and body";
+  if (scene_.strict_start && !sewn_now)
+    throw Error(ExitCode::bad_start, printable(outfit_.parts.front().name) + ": bad start: " + what);
+  say("untangling", 0);
+  const UntangledStart untangled = untangle_start(
+      outfit_, body_triangles_, body_x_, held_now(sewn_now), [&] { return stopped(); }, sewn_now ? sewn_in_vain : 0);
+  if (!untangled.moved_far.empty()) qualify(reason::moved_by_untangling, untangled.moved_far);
+  const int weightless = sewn_now ? come_apart() : 0;
+  // How far it came is by chance: it begins again when the run goes on.
+  if (stopped() && !cut_off("while untangling")) return false;
+  const StartCrossings left = start_crossings(outfit_, body_triangles_, body_x_);
+  StartReport& start = report_.start;  // of the last garment when several are sewn; trials of all of them
+  start = {found.cloth_cloth,
+           found.cloth_body,
+           left.cloth_cloth,
+           left.cloth_body,
+           start.trials + untangled.trials,
+           std::max(start.largest_move_mm, untangled.largest_move_mm)};
+  const std::string then = left.all() == 0 ? "none is left" : std::to_string(left.all()) + " are left";
+  std::string tried = std::to_string(untangled.trials) + " trials of untangling ";
+  if (weightless > 0)
+    tried += "and " + std::to_string(weightless) + (weightless == 1 ? " frame" : " frames") + " without weight ";
+  report_.warnings.push_back((sewn_now ? "as sewn: " : "bad start: ") + what + "; after " + tried + then);
+  return true;
+}
+
+// What untangling must leave where it is: what was worn before, or what pins hold from the first moment.
+std::vector<Index> Simulation::held_now(bool sewn_now) const {
+  if (!sewn_now) return held_from_the_start(events_of(outfit_, cloth_));
+  std::vector<Index> worn(static_cast<std::size_t>(settling_.held_particles));
+  std::iota(worn.begin(), worn.end(), 0);
+  return worn;
+}
+
+// What trials from rest leave of a weld may come apart as the garment moves, with threads that want to be as long as they were cut, before
+// it has weight.  Nothing of it is written.  Returns the number of frames.
+int Simulation::come_apart() {
+  Settling waiting = settling_;
+  waiting.waits = waiting.weightless = true;
+  std::optional<OutfitRun> run;
+  const int most = frames_in(most_waiting_s);
+  int frames = 0;
+  while (frames < most && start_crossings(outfit_, {}, {}).all() > 0) {
+    if (!run) run.emplace(scene_, outfit_, body(), step_, waiting, stop());
+    const FrameReport frame = run->frame();
+    if (frame.interrupted || !frame.ok) break;  // as the drape will say
+    ++frames;
+  }
+  if (frames > 0) outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
+  return frames;
+}
+
+}  // namespace toile::internal
