@@ -65,19 +65,19 @@ class Others:
     def build(self, build, *targets):
         run(self.cmake, "--build", build, "-j", "2", *(["--target", *targets] if targets else []))
 
-    def install(self, build, *more):
+    def install(self, build):
         """Installed in one place and moved to another: a package is made on one machine and used on another."""
-        first, prefix = self.scratch / "installed", self.scratch / "prefix"
-        run(self.cmake, "--install", build, "--prefix", first, *more)
+        first, prefix = self.scratch / "installed", self.scratch / f"prefix_{build.name}"
+        run(self.cmake, "--install", build, "--prefix", first)
         first.rename(prefix)
         found = {str(path.relative_to(prefix / "include")) for path in (prefix / "include").rglob("*") if path.is_file()}
         there = {f"toile/{path.name}" for path in (self.options.source / "include/toile").glob("*.hpp")}
         expect(found == there, f"include/ has {sorted(found)}, expected {sorted(there)}")
         return prefix
 
-    def examples(self, prefix, env=None):
-        """Builds all of them with no folder of headers but the prefix's, and runs them."""
-        build = self.scratch / "examples"
+    def examples(self, prefix):
+        """Builds all of them with no folder of headers but the prefix's, and runs them: {name: what it said}."""
+        build = self.scratch / f"examples_{prefix.name}"
         self.configure(self.options.source / "examples", build, f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
         for file, words in commands_of(build).items():
             expect(include_folders(words) == [str(prefix / "include")], f"{file} is compiled with headers of {include_folders(words)}")
@@ -85,16 +85,15 @@ class Others:
             strange = [w for w in words if w.startswith(("-D", "-f")) and w != "-DNDEBUG"]
             expect(not strange, f"{file}: the package adds {strange}")
         self.build(build)
-        folder = self.scratch / "run"
+        folder = self.scratch / f"run_{prefix.name}"
         folder.mkdir()
         os.symlink(self.options.source / "patterns", folder / "patterns")
         sources = sorted((self.options.source / "examples").glob("*.cpp"))
         expect(sources, "no example is there")
-        for source in sources:
-            said = run(build / source.stem, cwd=folder, env=env)
-            if source.stem == "version":
-                expect(said == f"toile {self.options.version}\n", f"version says {said!r}")
-        print(f"ran {len(sources)} examples")
+        said = {source.stem: run(build / source.stem, cwd=folder) for source in sources}
+        expect(said["version"] == f"toile {self.options.version}\n", f"version says {said['version']!r}")
+        print(f"ran {len(said)} examples")
+        return said
 
     def pkg_config(self, prefix):
         if shutil.which("pkg-config") is None:
@@ -148,7 +147,10 @@ class Others:
         expect(not (prefix / "bin").exists(), "a program was installed")
         config = next(prefix.rglob("toileConfig.cmake")).read_text()
         expect("find_dependency(" not in config, "a shared library asks its users for libraries:\n" + config)
-        self.examples(prefix)
+        shared, static = self.examples(prefix), self.examples(self.install(self.options.build))
+        expect("state" in shared["two_corners"], f"no hash of a state: {shared['two_corners']}")
+        for name, said in shared.items():
+            expect(said == static[name], f"{name}: a shared libtoile says\n{said}and a static one\n{static[name]}")
         self.program_without_pictures(work)
 
     def program_without_pictures(self, work):
