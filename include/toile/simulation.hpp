@@ -15,6 +15,7 @@
 #include "toile/error.hpp"
 #include "toile/export.hpp"
 #include "toile/types.hpp"
+#include "toile/verify.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -42,11 +43,6 @@ struct SimulationOptions {
   std::function<void(const Progress&)> progress = {};
 };
 
-struct Reason {
-  std::string code;    // one word of docs/reason-codes.md
-  std::string detail;  // what was measured, and where
-};
-
 // What dress() came to.
 struct TOILE_EXPORT DressReport {
   bool ok() const { return reasons.empty(); }
@@ -55,7 +51,7 @@ struct TOILE_EXPORT DressReport {
   std::vector<std::string> warnings;
   double simulated_s = 0;
   // One line for each.
-  std::string explain() const;
+  TOILE_EXPORT std::string explain() const;
 };
 
 // One advance().
@@ -67,12 +63,7 @@ struct TOILE_EXPORT StepReport {
   double step_min_s = 0, step_max_s = 0;
   int cg_iterations = 0;
   std::string diagnosis;  // of a step that could not be made however short: which triangles, and why
-  std::string explain() const;
-};
-
-// What is wrong with a state, by exact tests on float32 positions.
-struct Crossings {
-  int cloth_body_edges = 0, cloth_cloth_edges = 0;  // edges that pass through a triangle
+  TOILE_EXPORT std::string explain() const;
 };
 
 // All that decides how a simulation goes on, between two frames.
@@ -156,9 +147,12 @@ class TOILE_EXPORT Simulation {
   // Of the bits of all positions and velocities: 16 hexadecimal digits, as in report.json.
   std::string state_hash() const;
 
+  // Of the positions as float32, as files hold them.
   Crossings crossings() const;
 
   struct TOILE_HIDDEN Implementation;
+
+  const Implementation& implementation() const { return *implementation_; }  // for the library itself
 
  private:
   explicit Simulation(std::unique_ptr<Implementation> implementation);

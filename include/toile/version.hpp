@@ -4,7 +4,7 @@
 
 namespace toile {
 
-// "major.minor.patch" (semver.org).  Below 1.0 a new minor version may change the interface.
+// The version of the library that runs, "0.1.0": major, minor, patch.  Below 1.0 a new minor version may change what these headers declare.
 TOILE_EXPORT const char* version() noexcept;
 
 }  // namespace toile

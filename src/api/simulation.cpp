@@ -3,6 +3,7 @@
 #include "api/implementation.hpp"
 #include "io/file.hpp"
 #include "sim/recorder.hpp"
+#include "sim/rest_watch.hpp"
 #include "verify/verdict.hpp"
 
 #include <algorithm>
@@ -211,6 +212,7 @@ StepReport Simulation::advance(double h_s) {
     report.step_max_s = frame.step_max_s;
     report.cg_iterations = frame.cg_iterations;
     report.diagnosis = frame.diagnosis;
+    internal::add_frame(own.engine->report().drape, frame);
     if (report.reached) own.arrived();
     own.update_body();
     return report;

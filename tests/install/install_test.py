@@ -151,6 +151,11 @@ class Others:
         expect("state" in shared["two_corners"], f"no hash of a state: {shared['two_corners']}")
         for name, said in shared.items():
             expect(said == static[name], f"{name}: a shared libtoile says\n{said}and a static one\n{static[name]}")
+        asks = self.scratch / "asks_for_a_picture"
+        lib = next(prefix.rglob("libtoile.so")).parent
+        run(self.options.compiler, "-std=c++20", "-I", prefix / "include", source / "tests/install/no_pictures.cpp", "-L", lib, "-ltoile",
+            f"-Wl,-rpath,{lib}", "-o", asks)
+        expect("built without pictures" in run(asks), "asked for a picture, the library says something else")
         self.program_without_pictures(work)
 
     def program_without_pictures(self, work):

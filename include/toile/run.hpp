@@ -1,0 +1,48 @@
+// toile/run.hpp: runs as folders: what the program writes, from a simulation or from a scene, and pictures of it.    docs/reports.md
+#pragma once
+#include "toile/export.hpp"
+#include "toile/simulation.hpp"
+#include "toile/verify.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace toile {
+
+// Writes frames of a simulation as files that other programs read: cloth.obj, cloth.pc2, body.obj, body.pc2 and report.json.
+class TOILE_EXPORT RunWriter {
+ public:
+  // Makes the folder, or replaces a run of Toile's there, and writes frame 0: the simulation as it is now.  `fps` is how many frames a second has.
+  // Throws IoError for files there that are not Toile's, and when another process writes there.
+  RunWriter(const std::string& folder, const Simulation& simulation, double fps = 30);
+  RunWriter(RunWriter&&) noexcept;
+  RunWriter& operator=(RunWriter&&) noexcept;
+  // Not finished: the folder says so, and is no pass.
+  ~RunWriter();
+
+  // The next frame.  Throws InputError for a simulation with other vertices.
+  void add(const Simulation& simulation);
+  int frames() const;
+  // Writes the report; nothing can be added then.
+  Verdict finish();
+
+ private:
+  struct TOILE_HIDDEN Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+struct RunOptions {
+  int threads = 0;          // 0: one per core
+  double time_limit_s = 0;  // wall time that dressing may take; 0: any
+  std::function<bool()> cancelled = {};
+  std::function<void(const Progress&)> progress = {};
+};
+
+// A scene file from beginning to end, into a folder.  A run that is cancelled can be resumed by the program.
+TOILE_EXPORT Verdict run_scene(const std::string& path, const std::string& folder, const RunOptions& options = {});
+
+// preview.png and preview.mp4 of a run's folder.  Throws Error(usage) when the library was built without pictures.
+TOILE_EXPORT void preview(const std::string& folder);
+
+}  // namespace toile

@@ -1,0 +1,99 @@
+// Runs as folders, and the same scene by every way.
+#include "toile/run.hpp"
+
+#include "arrays.hpp"
+#include "io/scratch.hpp"
+#include "sim/simulate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace toile {
+namespace {
+
+using Scratch = internal::Scratch;
+
+std::string scene_text() {
+  return R"({"name": "drop", "cloth": [{"grid": {"width_m": 0.4, "height_m": 0.4, "edge_m": 0.04},
+    "placement": {"translation_m": [0, 0.1, 0], "rotation_deg": [-90, 0, 0]}}],
+    "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.3, "top_m": [0, 0, 0]}}, "time": {"fps": 30, "seconds": 1}})";
+}
+
+TEST(RunWriter, WritesWhatTheJudgeReads) {
+  const Scratch scratch;
+  const test::Arrays cloth = test::level_sheet(10, 0.03, 0.16), block = test::box({0, 0, 0}, 0.15);
+  Simulation sim(Cloth::from_arrays({.vertices_m = cloth.vertices_m, .faces = cloth.faces}),
+                 Body::from_arrays(block.vertices_m, block.faces));
+  const std::string folder = scratch / "run";
+  RunWriter writer(folder, sim, 30);
+  for (int k = 0; k < 20; ++k) {
+    ASSERT_TRUE(sim.advance(1.0 / 30).ok());
+    writer.add(sim);
+  }
+  EXPECT_FALSE(verify(folder).pass) << "it is not finished";
+  const Verdict written = writer.finish();
+  EXPECT_TRUE(written.pass) << written.explain();
+  EXPECT_EQ(written.frames, 21);
+  const Verdict read = verify(folder);
+  EXPECT_TRUE(read.pass) << read.explain();
+  EXPECT_EQ(read.frames, 21);
+  EXPECT_EQ(read.stretch_max, written.stretch_max);
+  EXPECT_THROW(writer.add(sim), Error);
+  std::ifstream report(folder + "/report.json");
+  const std::string text((std::istreambuf_iterator<char>(report)), {});
+  EXPECT_NE(text.find('"' + sim.state_hash() + '"'), std::string::npos);
+}
+
+TEST(RunWriter, RefusesAnotherCloth) {
+  const Scratch scratch;
+  const test::Arrays coarse = test::level_sheet(4, 0.05, 0), fine = test::level_sheet(5, 0.05, 0);
+  const Simulation one(Cloth::from_arrays({.vertices_m = coarse.vertices_m, .faces = coarse.faces}));
+  const Simulation other(Cloth::from_arrays({.vertices_m = fine.vertices_m, .faces = fine.faces}));
+  RunWriter writer(scratch / "run", one);
+  EXPECT_THROW(writer.add(other), InputError);
+  std::ofstream(scratch / "mine/cloth.obj");
+  std::filesystem::create_directories(scratch / "mine");
+  std::ofstream(scratch / "mine/cloth.obj") << "not Toile's\n";
+  EXPECT_THROW(RunWriter(scratch / "mine", one), IoError);
+}
+
+// The engine as the program calls it, a scene in memory, and the same frame by frame.
+TEST(Scene, EndsWithTheSameBitsByProgramLibraryAndLoop) {
+  const Scratch scratch;
+  const std::string path = scratch / "drop.json";
+  std::ofstream(path) << scene_text();
+  internal::RunOptions options;
+  options.directory = scratch / "program";
+  const std::string hash = internal::simulate(internal::parse_scene(scene_text(), path), options).state_hash;
+
+  Simulation whole = Simulation::from_scene(path);
+  EXPECT_TRUE(whole.run().ok());
+  EXPECT_EQ(whole.state_hash(), hash);
+
+  Simulation loop = Simulation::from_scene(path);
+  for (int k = 1; k < 30; ++k) ASSERT_TRUE(loop.advance(1 / 30.0).ok());
+  EXPECT_EQ(loop.state_hash(), hash);
+
+  const Verdict verdict = run_scene(path, scratch / "library");
+  EXPECT_TRUE(verdict.pass) << verdict.explain();
+  std::ifstream report(scratch / "library/report.json");
+  const std::string text((std::istreambuf_iterator<char>(report)), {});
+  EXPECT_NE(text.find('"' + hash + '"'), std::string::npos);
+}
+
+TEST(Check, FindsWhatIsWrongWithAPattern) {
+  const CheckReport good = check_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/skirt.json");
+  EXPECT_TRUE(good.usable) << good.explain();
+  const Scratch scratch;
+  std::ofstream(scratch / "bad.json") << R"({"pattern": {"panels": {"front": {"translation": [0, 0, 0],
+    "rotation": [0, 0, 0], "vertices": [[0, 0], [10, 0], [10, 10]], "edges": [{"endpoints": [0, 1]},
+    {"endpoints": [1, 2]}]}}, "stitches": []}})";
+  const CheckReport bad = check_pattern(scratch / "bad.json");
+  ASSERT_FALSE(bad.findings.empty());
+  EXPECT_NE(bad.explain().find("front"), std::string::npos);
+  EXPECT_THROW(check_pattern(scratch / "none.json"), IoError);
+}
+
+}  // namespace
+}  // namespace toile
