@@ -124,6 +124,13 @@ class Others:
 
     def package(self):
         prefix = self.install(self.options.build)
+        config = next(prefix.rglob("toileConfig.cmake")).read_text()
+        draws = "set(toile_PICTURES TRUE)" in config
+        for package in ("TBB", "fmt", "hwy", "yaml-cpp"):
+            expect(f"find_dependency({package})" in config, f"toileConfig.cmake does not look for {package}:\n{config}")
+        expect(draws == ("find_dependency(PNG)" in config) == ("find_dependency(embree" in config), f"pictures, or not?\n{config}")
+        for package in ("Eigen3", "nlohmann_json", "CLI11", "GTest", "benchmark"):
+            expect(package not in config, f"toileConfig.cmake looks for {package}, which nobody needs:\n{config}")
         self.examples(prefix)
         self.pkg_config(prefix)
         self.refuses_other_versions(prefix)
@@ -147,6 +154,7 @@ class Others:
         expect(not (prefix / "bin").exists(), "a program was installed")
         config = next(prefix.rglob("toileConfig.cmake")).read_text()
         expect("find_dependency(" not in config, "a shared library asks its users for libraries:\n" + config)
+        expect("set(toile_PICTURES FALSE)" in config, "toileConfig.cmake does not say that there are no pictures:\n" + config)
         shared, static = self.examples(prefix), self.examples(self.install(self.options.build))
         expect("state" in shared["two_corners"], f"no hash of a state: {shared['two_corners']}")
         for name, said in shared.items():
