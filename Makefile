@@ -71,6 +71,7 @@ format:
 
 packages:
 	@tools/install_packages.sh
+	@tools/python_environment.sh build/release
 
 clean:
 	rm -rf build

@@ -11,6 +11,7 @@ packages=(
   libhwy-dev                                                          # solver: vectors of the width the processor has
   libembree-dev libpng-dev ffmpeg                                     # preview: pictures and film
   libgtest-dev libbenchmark-dev python3                               # tests, benchmarks
+  python3-dev python3-venv                                            # the Python module
 )
 
 missing=()

@@ -38,7 +38,8 @@ struct SimulationOptions {
   Point wind_m_per_s{0, 0, 0};
   double air_density_kg_per_m3 = 1.2;  // 0: cloth moves as in a vacuum
   int threads = 0;                     // 0: one per core; the bits do not depend on it
-  // Asked while it works; true ends the call.  A simulation whose dressing was cancelled is as it was before.
+  // Asked while it works; true ends the call, but not the making of a simulation.  One whose dressing was cancelled is as it was before; a cancelled
+  // advance() leaves the last good step, from which the next one goes on.
   std::function<bool()> cancelled = {};
   std::function<void(const Progress&)> progress = {};
 };

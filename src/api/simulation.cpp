@@ -58,7 +58,7 @@ void Simulation::Implementation::make_engine() {
     engine_options.progress = [tell_caller = options.progress](const internal::Progress& p) {
       tell_caller({p.phase, p.share, p.seconds_left});
     };
-  engine_options.stop = options.cancelled;
+  if (options.cancelled) engine_options.stop = [this] { return !making && recipe->options.cancelled(); };
   begun = false;
   interaction = {};
   recipe->in_threads([&] {
@@ -71,7 +71,9 @@ void Simulation::Implementation::make() {
   make_engine();
   flat = internal::outfit_of_shapes(recipe->loaded.cloth);
   if (recipe->scene.cloth.front().is_sewn() && !recipe->loaded.start) return;
+  making = true;  // half made it would be none
   recipe->in_threads([&] { engine->put_on(); });
+  making = false;
   begin();
 }
 
@@ -87,13 +89,18 @@ void Simulation::Implementation::take_up(std::string_view bytes) {
 
 void Simulation::Implementation::begin() {
   engine->begin([this](internal::OutfitRun& run) {
-    scene_pins = run.events().pins.size();
-    scene_drags = run.events().drags.size();
+    begins(run);
     tell(run);
+    if (interaction.moves) lead_body(run);
   });
+  update_body();
+}
+
+void Simulation::Implementation::begins(const internal::OutfitRun& run) {
+  scene_pins = run.events().pins.size();
+  scene_drags = run.events().drags.size();
   begun = true;
   flat = {};
-  update_body();
 }
 
 internal::OutfitRun& Simulation::Implementation::live(std::string_view what) {
@@ -184,9 +191,14 @@ DressReport Simulation::run() {
   return translated([&] {
     Implementation& own = *implementation_;
     if (own.begun && own.engine->live().time_s() > 0) misuse("run: time has gone on already; reset() takes it back");
-    own.make();
+    own.make_engine();
+    own.flat = internal::outfit_of_shapes(own.recipe->loaded.cloth);
     own.recipe->in_threads([&] { own.engine->run(); });
-    own.begun = own.engine->has_begun();
+    if (own.engine->has_begun()) {
+      own.begins(own.engine->live());
+      own.interaction.moves = own.engine->report().motion_first_frame >= 0;
+      own.interaction.moves_from_s = own.interaction.moves ? own.engine->motion_from_s() : 0;
+    }
     own.update_body();
     return own.report();
   });
@@ -201,6 +213,7 @@ StepReport Simulation::advance(double h_s) {
     own.interaction.from_s = run.time_s();
     own.interaction.length_s = h_s;
     own.start_motion(run);
+    own.engine->go_on();
     internal::FrameReport frame;
     own.recipe->in_threads([&] { frame = run.frame(h_s); });
     StepReport report;

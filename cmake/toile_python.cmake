@@ -1,0 +1,10 @@
+# Which Python, and its nanobind: of build/.../python_env, where tools/python_environment.sh has made it, or of the system.  pip names its own.
+if(NOT SKBUILD AND NOT DEFINED Python_EXECUTABLE AND EXISTS ${CMAKE_BINARY_DIR}/python_env/bin/python)
+  set(Python_EXECUTABLE ${CMAKE_BINARY_DIR}/python_env/bin/python)
+endif()
+find_package(Python 3.10 COMPONENTS Interpreter Development.Module OPTIONAL_COMPONENTS Development.SABIModule)
+if(Python_FOUND)
+  execute_process(COMMAND ${Python_EXECUTABLE} -m nanobind --cmake_dir
+                  OUTPUT_VARIABLE nanobind_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  find_package(nanobind CONFIG QUIET)
+endif()

@@ -1,0 +1,120 @@
+// fabric.cpp: what cloth is made of.
+#include "module.hpp"
+
+#include <toile/fabric.hpp>
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+#include <nanobind/stl/vector.h>
+
+namespace toile::python {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace {
+
+struct Field {
+  const char* name;
+  double Fabric::*value;
+  const char* doc;
+};
+constexpr Field fields[] = {
+    {"density_kg_per_m2", &Fabric::density_kg_per_m2, "Mass per area, kg/m²."},
+    {"stretch_u_N_per_m", &Fabric::stretch_u_N_per_m, "Stiffness along the warp, N/m."},
+    {"stretch_v_N_per_m", &Fabric::stretch_v_N_per_m, "Stiffness along the weft, N/m."},
+    {"shear_N_per_m", &Fabric::shear_N_per_m, "Stiffness against shear, N/m."},
+    {"compression_ratio", &Fabric::compression_ratio,
+     "Of the stretch stiffness, in threads shorter than at rest; in (0, 1]."},
+    {"strain_limit", &Fabric::strain_limit, "No thread gets longer than 1 + this of its length as cut; 0: no limit."},
+    {"bend_u_N_m", &Fabric::bend_u_N_m, "Bending rigidity along the warp, N·m."},
+    {"bend_v_N_m", &Fabric::bend_v_N_m, "Bending rigidity along the weft, N·m."},
+    {"stretch_damping_s", &Fabric::stretch_damping_s, "Damping / stiffness of stretch, s."},
+    {"shear_damping_s", &Fabric::shear_damping_s, "Damping / stiffness of shear, s."},
+    {"bend_damping_s", &Fabric::bend_damping_s, "Damping / stiffness of bending, s."},
+    {"friction", &Fabric::friction, "Coefficient of friction, cloth on cloth and on the body."},
+    {"thickness_m", &Fabric::thickness_m, "Between two layers that touch, m."},
+};
+
+const Field& field(std::string_view name) {
+  for (const Field& known : fields)
+    if (known.name == name) return known;
+  std::string names = "name";
+  for (const Field& known : fields) names += std::string(", ") + known.name;
+  throw nb::type_error(("Fabric has no field `" + std::string(name) + "`; it has " + names).c_str());
+}
+
+void change(Fabric& fabric, const nb::dict& changes) {
+  for (const auto& [key, value] : changes) {
+    const auto name = nb::cast<std::string>(key);
+    try {
+      if (name == "name")
+        fabric.name = nb::cast<std::string>(value);
+      else
+        fabric.*field(name).value = nb::cast<double>(value);
+    } catch (const nb::cast_error&) {
+      throw nb::type_error(("Fabric: " + name + ": expected a " + (name == "name" ? "string" : "number")).c_str());
+    }
+  }
+}
+
+nb::dict fields_of(const Fabric& fabric) {
+  nb::dict all;
+  all["name"] = fabric.name;
+  for (const Field& known : fields) all[known.name] = fabric.*known.value;
+  return all;
+}
+
+}  // namespace
+
+void bind_fabric(nb::module_& module) {
+  nb::class_<Fabric> type(module, "Fabric",
+                          "What cloth is made of.  Source of the presets: docs/theory/fabrics.md.\n\n"
+                          "Stiffness is force per width, and bending moment per width per curvature: none of it depends on "
+                          "the mesh.\nA value: it does not change.  Fields that are not given are those of the default, a cotton.");
+  type.def("__init__",
+           [](Fabric* self, const nb::kwargs& changes) {
+             Fabric made;
+             change(made, changes);
+             new (self) Fabric(made);
+           })
+      .def(
+          "replace",
+          [](const Fabric& self, const nb::kwargs& changes) {
+            Fabric made = self;
+            change(made, changes);
+            return made;
+          },
+          "The same with some fields changed: toile.fabric('silk').replace(density_kg_per_m2=0.07).  "
+          "TypeError for a field that there is not.")
+      .def("fields", &fields_of, "All fields by name.")
+      .def_ro("name", &Fabric::name, "For messages and reports.")
+      .def("__eq__",
+           [](const Fabric& self, const nb::object& other) {
+             return nb::isinstance<Fabric>(other) && fields_of(self).equal(fields_of(nb::cast<const Fabric&>(other)));
+           })
+      .def("__hash__", [](const Fabric& self) { return nb::hash(nb::tuple(fields_of(self).values())); })
+      .def("__repr__",
+           [](const Fabric& self) {
+             std::string text;
+             for (const auto& [key, value] : fields_of(self))
+               text += (text.empty() ? "" : ", ") + nb::cast<std::string>(key) + "=" + nb::repr(value).c_str();
+             return "Fabric(" + text + ")";
+           })
+      .def("__getstate__", &fields_of)
+      .def("__setstate__", [](Fabric& self, const nb::dict& state) {
+        Fabric made;
+        change(made, state);
+        new (&self) Fabric(made);
+      });
+  for (const Field& known : fields) {
+    const auto value = known.value;
+    type.def_prop_ro(
+        known.name, [value](const Fabric& self) { return self.*value; }, known.doc);
+  }
+  module.def("fabric", &fabric, "name"_a,
+             "The preset of that name.  InputError, with the nearest name, for any that fabric_names() has not.");
+  module.def("fabric_names", &fabric_names, "The presets: silk, cotton, ...");
+}
+
+}  // namespace toile::python

@@ -1,0 +1,47 @@
+// runs.cpp: runs as folders.
+#include "module.hpp"
+#include "working.hpp"
+
+#include <toile/run.hpp>
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+namespace toile::python {
+
+using namespace nb::literals;
+
+namespace {
+
+Verdict whole_scene(const std::string& path, const std::string& folder, int threads, double time_limit_s,
+                    nb::object progress) {
+  Listener listener;
+  return listened(listener, std::move(progress), [&] {
+    RunOptions options;
+    options.threads = threads;
+    options.time_limit_s = time_limit_s;
+    options.cancelled = [&] { return listener.stop(); };
+    options.progress = [&](const Progress& told) { listener.tell(told); };
+    return run_scene(path, folder, options);
+  });
+}
+
+}  // namespace
+
+void bind_runs(nb::module_& module) {
+  nb::class_<RunWriter>(module, "RunWriter")
+      .def(
+          "__init__",
+          [](RunWriter* self, const std::string& folder, const Working& simulation, double fps) {
+            new (self) RunWriter(folder, simulation.look(), fps);
+          },
+          "folder"_a, "simulation"_a, "fps"_a)
+      .def(
+          "add", [](RunWriter& self, const Working& simulation) { self.add(simulation.look()); }, "simulation"_a)
+      .def_prop_ro("frames", &RunWriter::frames)
+      .def("finish", &RunWriter::finish, nb::call_guard<nb::gil_scoped_release>());
+  module.def("run_scene", &whole_scene, "path"_a, "folder"_a, "threads"_a, "time_limit_s"_a, "progress"_a.none());
+  module.def("preview", &preview, nb::call_guard<nb::gil_scoped_release>(), "folder"_a);
+}
+
+}  // namespace toile::python

@@ -1,0 +1,114 @@
+"""What cloth collides with: a person, or another closed surface, that may move."""
+
+from __future__ import annotations
+
+import os
+
+from numpy.typing import ArrayLike
+
+from . import _arrays, _toile
+from ._recipe import Made, file_path
+
+
+def _motion(given: str | os.PathLike[str]) -> str:
+    name = os.fspath(given)
+    return name if not name or name in Body.motion_names() else file_path(name)
+
+
+class Body(Made):
+    """A closed surface.  Made by one of the class methods below.
+
+    Pickles as it was made: arrays with their contents, a file with its path.
+    """
+
+    _core_type = _toile.Body
+
+    def __init__(self) -> None:
+        raise TypeError("a Body is made by Body.mannequin, from_file, from_arrays, from_frames, cylinder or none")
+
+    @classmethod
+    def none(cls) -> Body:
+        """No body: cloth hangs in the air."""
+        return cls._make("none")
+
+    @classmethod
+    def mannequin(cls, who: str, *, motion: str | os.PathLike[str] = "") -> Body:
+        """One of the program's own: "woman", "man" or "dancer" (docs/mannequin.md).
+
+        motion: one of motion_names(), a .pc2 file or a folder of OBJ files; empty: it stands.
+        """
+        return cls._make("mannequin", who=who, motion=_motion(motion))
+
+    @staticmethod
+    def motion_names() -> list[str]:
+        """Of the mannequins' motions (docs/motions.md)."""
+        return _toile.Body.motion_names()
+
+    @classmethod
+    def from_file(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        unit: str = "automatic",
+        motion: str | os.PathLike[str] = "",
+        fps: float = 30,
+        measurements: str | os.PathLike[str] = "",
+    ) -> Body:
+        """A closed mesh (OBJ).
+
+        unit          "automatic" (metres, or an error that says which unit would fit), "m", "dm" or "cm"
+        motion        a .pc2 file, a folder of OBJ files, or the name of a motion for upright meshes; empty: it stands
+        fps           frames a second of the motion's files
+        measurements  a YAML file (docs/howto/measurements.md); empty: the one beside the mesh, if there is one
+        """
+        return cls._make(
+            "from_file",
+            path=file_path(path),
+            unit=unit,
+            motion=_motion(motion),
+            fps=fps,
+            measurements=file_path(measurements) if os.fspath(measurements) else "",
+        )
+
+    @classmethod
+    def from_arrays(cls, vertices_m: ArrayLike, faces: ArrayLike) -> Body:
+        """A closed mesh: vertices_m (n, 3) in metres, faces (f, 3) counter-clockwise from outside.  Arrays are copied.
+
+        It stands, or goes where Simulation.set_body says.  Raises InputError for a surface that is not closed and for shapes
+        other than these.
+        """
+        return cls._make(
+            "from_arrays",
+            vertices_m=_arrays.own(_arrays.numbers(vertices_m, "vertices_m", ("vertices", 3))),
+            faces=_arrays.own(_arrays.integers(faces, "faces", ("faces", 3))),
+        )
+
+    @classmethod
+    def from_frames(cls, frames_m: ArrayLike, faces: ArrayLike, *, fps: float) -> Body:
+        """The same in motion: frames_m (frames, n, 3), `fps` of them in a second; the first is how it stands.
+
+        The motion begins at the first advance(); at its end the body stays.
+        """
+        return cls._make(
+            "from_frames",
+            frames_m=_arrays.own(_arrays.numbers(frames_m, "frames_m", ("frames", "vertices", 3))),
+            faces=_arrays.own(_arrays.integers(faces, "faces", ("faces", 3))),
+            fps=fps,
+        )
+
+    @classmethod
+    def cylinder(cls, *, radius_m: float = 0.2, height_m: float = 0.5, top_m: ArrayLike = (0, 0, 0)) -> Body:
+        """Upright, with rounded rims; top_m is the middle of its top."""
+        return cls._make("cylinder", radius_m=radius_m, height_m=height_m, top_m=_arrays.point(top_m, "top_m"))
+
+    def set_friction(self, friction: float) -> Body:
+        """Of cloth on it; otherwise the fabric's."""
+        return self._change("set_friction", friction=friction)
+
+    def set_offset(self, offset_m: float) -> Body:
+        """How far above it cloth rests; otherwise by the length of the cloth's edges."""
+        return self._change("set_offset", offset_m=offset_m)
+
+    def __repr__(self) -> str:
+        how, arguments = self._calls[0]
+        return f"<Body {how} {arguments.get('path') or arguments.get('who') or ''}>".replace(" >", ">")

@@ -1,0 +1,87 @@
+"""Runs as folders: what the program writes, judges and draws."""
+
+from __future__ import annotations
+
+import os
+from types import TracebackType
+
+from . import _toile
+from ._progress import ProgressCall, Shown
+from ._simulation import Simulation
+from ._toile import CheckReport, Verdict
+
+Path = str | os.PathLike[str]
+
+
+class RunWriter:
+    """Writes frames of a simulation as files that other programs read (docs/reports.md), in a `with` block:
+
+        with toile.RunWriter("out/walk", sim, fps=30) as run:
+            for frame in sim.frames(seconds=4, fps=30):
+                run.add()
+        print(run.verdict.explain())
+
+    A folder that was left by an exception says that it is not finished, and is no pass.
+    """
+
+    def __init__(self, folder: Path, simulation: Simulation, *, fps: float = 30) -> None:
+        """Makes the folder, or replaces a run of Toile's there, and writes frame 0: the simulation as it is now.
+
+        Raises IoError for files there that are not Toile's, and when another process writes there.
+        """
+        self._simulation = simulation
+        self._core = _toile.RunWriter(os.fspath(folder), simulation._core, fps)
+        self._verdict: Verdict | None = None
+
+    def add(self) -> None:
+        """The next frame: the simulation as it is now."""
+        self._core.add(self._simulation._core)
+
+    @property
+    def frames(self) -> int:
+        """How many are written."""
+        return self._core.frames
+
+    def finish(self) -> Verdict:
+        """Writes the report; nothing can be added then.  The end of the `with` block does it too."""
+        if self._verdict is None:
+            self._verdict = self._core.finish()
+        return self._verdict
+
+    @property
+    def verdict(self) -> Verdict | None:
+        """What finish() returned; None before."""
+        return self._verdict
+
+    def __enter__(self) -> RunWriter:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        if kind is None:
+            self.finish()
+
+
+def run_scene(
+    path: Path, folder: Path, *, threads: int = 0, time_limit_s: float = 0, progress: bool | ProgressCall | None = None
+) -> Verdict:
+    """A scene file from beginning to end, into a folder; time_limit_s is wall time that dressing may take, 0: any.
+
+    After a KeyboardInterrupt `toile resume` goes on with it.  Raises IoError and InputError.
+    """
+    with Shown(progress) as call:
+        return _toile.run_scene(os.fspath(path), os.fspath(folder), threads, time_limit_s, call)
+
+
+def verify(folder: Path) -> Verdict:
+    """Reads and measures every frame of a run's folder (docs/theory/verify.md).  Raises IoError and InputError."""
+    return _toile.verify(os.fspath(folder))
+
+
+def check_pattern(path: Path) -> CheckReport:
+    """What is wrong with a sewing pattern, or probably not meant; simulates nothing.  Raises IoError."""
+    return _toile.check_pattern(os.fspath(path))
+
+
+def preview(folder: Path) -> None:
+    """Draws preview.png and preview.mp4 of a run's folder.  Raises Error where Toile was built without pictures."""
+    _toile.preview(os.fspath(folder))
