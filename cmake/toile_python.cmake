@@ -1,6 +1,6 @@
 # Which Python, and its nanobind: of build/.../python_env, where tools/python_environment.sh has made it, or of the system.  pip names its own.
-if(NOT SKBUILD AND NOT DEFINED Python_EXECUTABLE AND EXISTS ${CMAKE_BINARY_DIR}/python_env/bin/python)
-  set(Python_EXECUTABLE ${CMAKE_BINARY_DIR}/python_env/bin/python)
+if(NOT SKBUILD AND NOT DEFINED Python_EXECUTABLE AND EXISTS ${PROJECT_BINARY_DIR}/python_env/bin/python)
+  set(Python_EXECUTABLE ${PROJECT_BINARY_DIR}/python_env/bin/python)
 endif()
 find_package(Python 3.10 COMPONENTS Interpreter Development.Module OPTIONAL_COMPONENTS Development.SABIModule)
 if(Python_FOUND)

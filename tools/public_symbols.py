@@ -5,7 +5,7 @@ Usage: public_symbols.py LIBRARY                  prints them
        public_symbols.py --check LIST LIBRARY     prints where they differ from the list; exit 1 if they do
        public_symbols.py --write LIST LIBRARY     writes the list (`make symbols`)
 
-A static library (.a) shows all that other files can be linked with, a shared one (.so) all that it exports, and that may be nothing but this.
+Shown is what is not hidden (TOILE_EXPORT), in a static library (.a) and in a shared one (.so), which may export nothing but this.
 Weak symbols are left out: they come with headers, and which of them are there depends on what a compiler inlines.  So are the tables of classes,
 which are weak for one compiler and not for another.
 """
@@ -20,13 +20,16 @@ table = re.compile(r"(?:vtable|typeinfo|typeinfo name) for (toile::(?!internal::
 
 
 def defined_symbols(library):
-    """[(type, demangled name)] of what other files can see."""
+    """[(binding, demangled name)] of what is defined and not hidden."""
     shared = ".so" in pathlib.Path(library).name
-    command = ["nm", "--extern-only", "--defined-only", "--demangle", "--format=posix", *(["--dynamic"] if shared else []), library]
-    lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
-    # NAME TYPE VALUE [SIZE]; names have spaces.
-    found = (re.fullmatch(r"(.+) ([A-Za-z]) [0-9a-f]*(?: [0-9a-f]*)?", line.strip()) for line in lines)
-    return [(match.group(2), match.group(1)) for match in found if match]
+    command = ["readelf", "--wide", "--dyn-syms" if shared else "--syms", library]
+    lines = subprocess.run(command, check=True, capture_output=True, text=True, errors="replace").stdout.splitlines()
+    # Num: Value Size Type Bind Vis Ndx Name
+    rows = [row for row in map(str.split, lines) if len(row) >= 8 and row[0].endswith(":") and row[0][:-1].isdigit()]
+    visible = [row for row in rows if row[4] != "LOCAL" and row[5] == "DEFAULT" and row[6] not in {"UND", "ABS"}]
+    mangled = "\n".join(row[7].partition("@")[0] for row in visible) + "\n"
+    names = subprocess.run(["c++filt"], input=mangled, check=True, capture_output=True, text=True).stdout.splitlines()
+    return [(row[4], name) for row, name in zip(visible, names)]
 
 
 def main():
@@ -36,9 +39,9 @@ def main():
     parser.add_argument("library")
     options = parser.parse_args()
     symbols = defined_symbols(options.library)
-    shown = sorted({name for kind, name in symbols if kind not in "VvWwu" and public.match(name)})
+    shown = sorted({name for binding, name in symbols if binding == "GLOBAL" and public.match(name)})
     if ".so" in pathlib.Path(options.library).name:
-        strangers = sorted({name for kind, name in symbols if kind != "A" and not public.match(name) and not table.match(name)})
+        strangers = sorted({name for _, name in symbols if not public.match(name) and not table.match(name)})
         if strangers:
             print("\n".join(f"{options.library} exports what is not public: {name}" for name in strangers[:20]))
             return 1

@@ -49,7 +49,7 @@ class TOILE_EXPORT Body {
   Body& set_friction(double friction);  // otherwise the fabric's
   Body& set_offset(double offset_m);    // how far above it cloth rests; otherwise by the length of the cloth's edges
 
-  struct Parts;
+  struct TOILE_HIDDEN Parts;
   const Parts& parts() const { return *parts_; }  // for the library itself
 
  private:

@@ -65,7 +65,7 @@ class TOILE_EXPORT Cloth {
   // x -> R x + t with R = Rz Ry Rx, about the origin.
   Cloth& place(const Point& translation_m, const Point& rotation_deg = {0, 0, 0});
 
-  struct Parts;
+  struct TOILE_HIDDEN Parts;
   const Parts& parts() const { return *parts_; }  // for the library itself
 
  private:

@@ -28,7 +28,7 @@ class TOILE_EXPORT RunWriter {
   Verdict finish();
 
  private:
-  struct Parts;
+  struct TOILE_HIDDEN Parts;
   std::unique_ptr<Parts> parts_;
 };
 

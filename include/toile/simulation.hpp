@@ -45,7 +45,7 @@ struct SimulationOptions {
 };
 
 // What dress() came to.
-struct DressReport {
+struct TOILE_EXPORT DressReport {
   bool ok() const { return reasons.empty(); }
   std::string ended;            // "still", "time", "seam_blocked", "step_collapsed", "time_limit", "interrupted" ...
   std::vector<Reason> reasons;  // why it is not worn as it should be; empty: it is
@@ -56,7 +56,7 @@ struct DressReport {
 };
 
 // One advance().
-struct StepReport {
+struct TOILE_EXPORT StepReport {
   bool ok() const { return reached; }
   bool reached = true;  // false: the cloth stays where the last good step left it, and time where it was
   bool cancelled = false;
@@ -154,7 +154,7 @@ class TOILE_EXPORT Simulation {
   // Of the positions as float32, as files hold them.
   Crossings crossings() const;
 
-  struct Implementation;
+  struct TOILE_HIDDEN Implementation;
 
   const Implementation& implementation() const { return *implementation_; }  // for the library itself
 

@@ -65,19 +65,19 @@ class Others:
     def build(self, build, *targets):
         run(self.cmake, "--build", build, "-j", "2", *(["--target", *targets] if targets else []))
 
-    def install(self, build, *more):
+    def install(self, build):
         """Installed in one place and moved to another: a package is made on one machine and used on another."""
-        first, prefix = self.scratch / "installed", self.scratch / "prefix"
-        run(self.cmake, "--install", build, "--prefix", first, *more)
+        first, prefix = self.scratch / "installed", self.scratch / f"prefix_{build.name}"
+        run(self.cmake, "--install", build, "--prefix", first)
         first.rename(prefix)
         found = {str(path.relative_to(prefix / "include")) for path in (prefix / "include").rglob("*") if path.is_file()}
         there = {f"toile/{path.name}" for path in (self.options.source / "include/toile").glob("*.hpp")}
         expect(found == there, f"include/ has {sorted(found)}, expected {sorted(there)}")
         return prefix
 
-    def examples(self, prefix, env=None):
-        """Builds all of them with no folder of headers but the prefix's, and runs them."""
-        build = self.scratch / "examples"
+    def examples(self, prefix):
+        """Builds all of them with no folder of headers but the prefix's, and runs them: {name: what it said}."""
+        build = self.scratch / f"examples_{prefix.name}"
         self.configure(self.options.source / "examples", build, f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
         for file, words in commands_of(build).items():
             expect(include_folders(words) == [str(prefix / "include")], f"{file} is compiled with headers of {include_folders(words)}")
@@ -85,16 +85,15 @@ class Others:
             strange = [w for w in words if w.startswith(("-D", "-f")) and w != "-DNDEBUG"]
             expect(not strange, f"{file}: the package adds {strange}")
         self.build(build)
-        folder = self.scratch / "run"
+        folder = self.scratch / f"run_{prefix.name}"
         folder.mkdir()
         os.symlink(self.options.source / "patterns", folder / "patterns")
         sources = sorted((self.options.source / "examples").glob("*.cpp"))
         expect(sources, "no example is there")
-        for source in sources:
-            said = run(build / source.stem, cwd=folder, env=env)
-            if source.stem == "version":
-                expect(said == f"toile {self.options.version}\n", f"version says {said!r}")
-        print(f"ran {len(sources)} examples")
+        said = {source.stem: run(build / source.stem, cwd=folder) for source in sources}
+        expect(said["version"] == f"toile {self.options.version}\n", f"version says {said['version']!r}")
+        print(f"ran {len(said)} examples")
+        return said
 
     def pkg_config(self, prefix):
         if shutil.which("pkg-config") is None:
@@ -125,6 +124,13 @@ class Others:
 
     def package(self):
         prefix = self.install(self.options.build)
+        config = next(prefix.rglob("toileConfig.cmake")).read_text()
+        draws = "set(toile_PICTURES TRUE)" in config
+        for package in ("TBB", "fmt", "hwy", "yaml-cpp"):
+            expect(f"find_dependency({package})" in config, f"toileConfig.cmake does not look for {package}:\n{config}")
+        expect(draws == ("find_dependency(PNG)" in config) == ("find_dependency(embree" in config), f"pictures, or not?\n{config}")
+        for package in ("Eigen3", "nlohmann_json", "CLI11", "GTest", "benchmark"):
+            expect(package not in config, f"toileConfig.cmake looks for {package}, which nobody needs:\n{config}")
         self.examples(prefix)
         self.pkg_config(prefix)
         self.refuses_other_versions(prefix)
@@ -135,7 +141,7 @@ class Others:
         work, source = self.options.work, self.options.source
         alone = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in optional_packages]
         # -Werror so that the objects are those of the build that runs the tests, and ccache has them.
-        told = self.configure(source, work, *alone, "-DBUILD_SHARED_LIBS=ON", "-DTOILE_WERROR=ON", "-DTOILE_CLI=AUTO")
+        told = self.configure(source, work, *alone, "-DBUILD_SHARED_LIBS=ON", "-DTOILE_WERROR=ON", "-DTOILE_CLI=AUTO", "-DTOILE_PYTHON=OFF")
         for line in ("Toile: the program `toile`: no: needs CLI11", "Toile: pictures: no: needs Embree 3 or 4 and libpng",
                      "Toile: tests: no: needs GoogleTest"):
             expect(line in told, f"the configuration does not say '{line}':\n{told}")
@@ -148,7 +154,16 @@ class Others:
         expect(not (prefix / "bin").exists(), "a program was installed")
         config = next(prefix.rglob("toileConfig.cmake")).read_text()
         expect("find_dependency(" not in config, "a shared library asks its users for libraries:\n" + config)
-        self.examples(prefix)
+        expect("set(toile_PICTURES FALSE)" in config, "toileConfig.cmake does not say that there are no pictures:\n" + config)
+        shared, static = self.examples(prefix), self.examples(self.install(self.options.build))
+        expect(re.search(r"\b[0-9a-f]{16}\b", shared["checkpoint"]), f"no hash of a state: {shared['checkpoint']}")
+        for name, said in shared.items():
+            expect(said == static[name], f"{name}: a shared libtoile says\n{said}and a static one\n{static[name]}")
+        asks = self.scratch / "asks_for_a_picture"
+        lib = next(prefix.rglob("libtoile.so")).parent
+        run(self.options.compiler, "-std=c++20", "-I", prefix / "include", source / "tests/install/no_pictures.cpp", "-L", lib, "-ltoile",
+            f"-Wl,-rpath,{lib}", "-o", asks)
+        expect("built without pictures" in run(asks), "asked for a picture, the library says something else")
         self.program_without_pictures(work)
 
     def program_without_pictures(self, work):

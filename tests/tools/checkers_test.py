@@ -106,7 +106,9 @@ class Checkers(unittest.TestCase):
     @unittest.skipIf(compiler is None, "there is no compiler in CXX or as c++")
     def test_public_symbols(self):
         source = ("#define OPEN __attribute__((visibility(\"default\")))\n"
-                  "namespace toile { OPEN int area(int x) { return x; } class OPEN Cloth { public: virtual ~Cloth(); }; Cloth::~Cloth() {}\n"
+                  "namespace toile { OPEN int area(int x) { return x; } class OPEN Cloth {\n"
+                  "public: virtual ~Cloth(); struct __attribute__((visibility(\"hidden\"))) Parts; }; Cloth::~Cloth() {}\n"
+                  "struct Cloth::Parts { void sew(); }; void Cloth::Parts::sew() {}\n"
                   "namespace { int own() { return 1; } } inline int in_header() { return 2; }\n"
                   "namespace internal { int hidden() { return own() + in_header(); } } }\n")
         with tempfile.TemporaryDirectory() as folder:
