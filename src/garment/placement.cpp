@@ -1,6 +1,7 @@
 #include "garment/placement.hpp"
 
 #include "core/parallel.hpp"
+#include "garment/flares.hpp"
 
 #include <Eigen/Geometry>
 
@@ -69,6 +70,12 @@ int edges_in_body(const GarmentMesh& garment, const BodyLines& body, const Vec3&
   return count;
 }
 
+Vec3 middle_of(std::span<const Vec3> x) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : x) box.extend(p);
+  return box.center();
+}
+
 }  // namespace
 
 Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size_t person_vertices) {
@@ -84,6 +91,7 @@ Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size
     placement.shift_m += raise;
     placement.raised_m = raise.y();
   }
+  hang_flares(garment, middle_of(body.positions()));
   const BodyLines lines(body);
   std::vector<Vec3> shifts;
   for (int y = 0; lowest_m + y * step_m <= highest_m + 1e-9; ++y) {
