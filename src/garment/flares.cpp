@@ -24,7 +24,9 @@ constexpr double flat_m = 1e-3;  // panels that are folded or bent already stay 
 constexpr double upright = 0.3;  // and those whose normal leans by more than 17 degrees
 constexpr double round = 0.1;    // of the radius: how far the inner side may be from a circle
 constexpr double like = 0.1;     // of their angles: rings that can be one cone
-constexpr int samples = 2000;    // of the line on the sphere: no edge gets longer by more than 1e-4
+constexpr double arc_share =
+    0.85;  // a notch turns by half of what its three points are apart about their centre, an arc of seven edges by 6/7
+constexpr int samples = 2000;  // of the line on the sphere: no edge gets longer by more than 1e-4
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -120,7 +122,7 @@ std::optional<Ring> ring_of(const GarmentMesh& garment, Index panel, std::span<c
   for (const Index i : outline)
     drawn.emplace_back(ring.right.dot(garment.x[at(i)] - on), ring.up.dot(garment.x[at(i)] - on));
   const Hollow hollow = deepest_hollow(drawn);
-  if (hollow.turn_rad < 0.8 * flared_rad) return std::nullopt;
+  if (hollow.turn_rad < 0.8 * flared_rad) return std::nullopt;  // it has a particle less at either end
   std::vector<Vec2> arc;
   const std::size_t n = outline.size();
   for (std::size_t k = 0; k < hollow.count + 2; ++k) {
@@ -134,6 +136,7 @@ std::optional<Ring> ring_of(const GarmentMesh& garment, Index panel, std::span<c
   double along = 0;
   std::vector<double> angle{0};
   for (std::size_t k = 0; k + 1 < arc.size(); ++k) angle.push_back(along += turn(arc[k] - centre, arc[k + 1] - centre));
+  if (-along < flared_rad || hollow.turn_rad < -arc_share * along) return std::nullopt;
   const Vec2 first = arc.front() - centre;
   ring.middle_rad = ieee_atan2(first.y(), first.x()) + 0.5 * along;
   if (ieee_sin(ring.middle_rad) > -0.5) return std::nullopt;  // open elsewhere than above
@@ -143,7 +146,7 @@ std::optional<Ring> ring_of(const GarmentMesh& garment, Index panel, std::span<c
     ring.outer_m = std::max(ring.outer_m, (drawn[k] - centre).norm());
     ring.angle_rad = std::max(ring.angle_rad, 2 * std::abs(turn(down, drawn[k] - centre)));
   }
-  if (ring.angle_rad < flared_rad) return std::nullopt;
+  if (ring.angle_rad > (1 + like) * std::abs(along)) return std::nullopt;  // a panel with a round hollow
   return ring;
 }
 

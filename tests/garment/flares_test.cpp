@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
+#include <string>
 
 namespace toile::internal {
 namespace {
@@ -100,6 +102,36 @@ TEST(Flares, OnlyRingsThatAreOpenAboveAreBent) {
   const Vec3s bent = again.x;
   EXPECT_EQ(hang_flares(again, Vec3::Zero()), 0) << "it is bent already";
   for (std::size_t i = 0; i < bent.size(); ++i) EXPECT_EQ(again.x[i], bent[i]);
+}
+
+// The crotch of trousers is a hollow of nearly half a turn, as a ring's inside is.
+TEST(Flares, NoPanelOfOurOwnGarmentsIsBent) {
+  for (const char* name : {"man_pants", "man_shirt", "tshirt", "skirt", "blouse"}) {
+    GarmentMesh garment = mesh_garment(load_pattern(TOILE_SOURCE_DIR "/patterns/" + std::string(name) + ".json"), 0.02);
+    EXPECT_EQ(hang_flares(garment, Vec3(0, 1, 0)), 0) << name;
+  }
+}
+
+// Half a turn inside, three quarters with what stands beside it.
+TEST(Flares, APanelWithARoundHollowIsNoRing) {
+  Panel panel = ring(220, 0.1, 0.5, Vec3(0, 1, 0.2));
+  panel.corners.insert(panel.corners.begin() + 2, {Vec2(0.3, 0.3), Vec2(0.1, 0.3)});
+  panel.corners.insert(panel.corners.end(), {Vec2(-0.1, 0.3), Vec2(-0.3, 0.3)});
+  panel.edges = {panel.edges[0], {}, {}, {}, panel.edges[2], {}, {}, {}};
+  for (std::size_t k = 0; k < panel.edges.size(); ++k) {
+    panel.edges[k].start = static_cast<Index>(k);
+    panel.edges[k].end = static_cast<Index>((k + 1) % panel.edges.size());
+  }
+  GarmentMesh garment = garment_of({panel});
+  EXPECT_EQ(hang_flares(garment, Vec3::Zero()), 0);
+}
+
+// Where the crotch of these trousers meets the inner leg; three points are always on a circle.
+TEST(Flares, ANotchIsNoRing) {
+  const std::string file = std::string(TOILE_SHARED_DATA) + "/patterns/random/g085_mean_female.json";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+  GarmentMesh garment = mesh_garment(load_pattern(file), 0.02);
+  EXPECT_EQ(hang_flares(garment, Vec3(0, 1, 0)), 0);
 }
 
 // Outside of the upper sewn to the inside of the lower, as GarmentCode draws its levels: each a little below the one before.
