@@ -1,17 +1,21 @@
 #include "garment/placement.hpp"
 
 #include "core/parallel.hpp"
+#include "garment/flares.hpp"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace toile::internal {
 namespace {
 
 constexpr double lowest_m = -0.12, highest_m = 0.16, step_m = 0.01;  // vertical shifts
 constexpr double depth_m = 0.04, depth_step_m = 0.02;                // forwards and backwards
+constexpr double farthest_out_m = 0.1;                               // of a panel on its own
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -42,6 +46,7 @@ class BodyLines {
 
 struct Blocked {
   int pairs = 0;
+  int lost = 0;  // seams of which every pair is blocked
   double cost =
       0;  // sum over seams of blocked^2 / pairs: a seam's free part leads the rest round the body, a seam wholly behind it is lost
 };
@@ -55,18 +60,58 @@ Blocked blocked_pairs(const GarmentMesh& garment, const BodyLines& body, const V
     blocked[at(pair.seam)] += 1;
     ++result.pairs;
   }
-  for (std::size_t s = 0; s < blocked.size(); ++s) result.cost += pairs[s] > 0 ? blocked[s] * blocked[s] / pairs[s] : 0;
+  for (std::size_t s = 0; s < blocked.size(); ++s) {
+    if (blocked[s] == 0) continue;
+    result.cost += blocked[s] * blocked[s] / pairs[s];
+    result.lost += blocked[s] == pairs[s] ? 1 : 0;
+  }
   return result;
 }
 
-int edges_in_body(const GarmentMesh& garment, const BodyLines& body, const Vec3& shift) {
+int edges_in_body(const GarmentMesh& garment, std::span<const Triangle> triangles, const BodyLines& body,
+                  const Vec3& shift) {
   int count = 0;
-  for (const Triangle& t : garment.mesh.triangles) {
+  for (const Triangle& t : triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (body.blocked(garment.x[at(t[k])] + shift, garment.x[at(t[(k + 1) % 3])] + shift)) ++count;
     }
   }
   return count;
+}
+
+int edges_in_body(const GarmentMesh& garment, const BodyLines& body, const Vec3& shift) {
+  return edges_in_body(garment, garment.mesh.triangles, body, shift);
+}
+
+// Panels that are in the body with this shift, each moved away from its middle until it is not: x, or nothing where one would have to go too far.
+std::optional<Vec3s> moved_out(const GarmentMesh& garment, const BodyLines& body, const Vec3& middle,
+                               const Vec3& shift) {
+  std::vector<std::vector<Triangle>> panels(garment.mesh.panel_names.size());
+  for (std::size_t t = 0; t < garment.mesh.triangles.size(); ++t)
+    panels[at(garment.mesh.panel[t])].push_back(garment.mesh.triangles[t]);
+  const std::vector<Index> panel_of = garment.panel_of_particle();
+  Vec3s x = garment.x;
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    if (panels[p].empty() || edges_in_body(garment, panels[p], body, shift) == 0) continue;
+    Vec3 out = Vec3::Zero();
+    for (const Triangle& t : panels[p])
+      out += (garment.x[at(t[1])] - garment.x[at(t[0])]).cross(garment.x[at(t[2])] - garment.x[at(t[0])]);
+    out.normalize();
+    if (out.dot(garment.x[at(panels[p].front()[0])] + shift - middle) < 0) out = -out;
+    double out_m = step_m;
+    while (out_m <= farthest_out_m + 1e-9 && edges_in_body(garment, panels[p], body, shift + out_m * out) > 0)
+      out_m += step_m;
+    if (out_m > farthest_out_m + 1e-9) return std::nullopt;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (panel_of[i] == static_cast<Index>(p)) x[i] += out_m * out;
+  }
+  return x;
+}
+
+Vec3 middle_of(std::span<const Vec3> x) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : x) box.extend(p);
+  return box.center();
 }
 
 }  // namespace
@@ -84,6 +129,8 @@ Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size
     placement.shift_m += raise;
     placement.raised_m = raise.y();
   }
+  const Vec3 middle = middle_of(body.positions());
+  hang_flares(garment, middle);
   const BodyLines lines(body);
   std::vector<Vec3> shifts;
   for (int y = 0; lowest_m + y * step_m <= highest_m + 1e-9; ++y) {
@@ -103,6 +150,17 @@ Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size
   std::size_t best = order.front();
   for (const std::size_t s : order) {
     if (edges_in_body(garment, lines, shifts[s]) == 0) {
+      best = s;
+      break;
+    }
+  }
+  // A collar that is drawn through the nape must not keep the shoulders' seams under the shoulders.
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return blocked[a].lost < blocked[b].lost; });
+  for (const std::size_t s : order) {
+    if (blocked[s].lost >= blocked[best].lost) break;
+    if (std::optional<Vec3s> x = moved_out(garment, lines, middle, shifts[s])) {
+      garment.x = std::move(*x);
       best = s;
       break;
     }

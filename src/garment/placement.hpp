@@ -2,7 +2,8 @@
 //
 // A seam closes cleanly when nothing of the body lies between its two sides.  Patterns are placed by eye, often a few centimetres off,
 // so small shifts of the whole garment are tried and the one with the least of its seams behind the body is taken; shifts that
-// would put a panel's edge into the body are not considered.
+// would put a panel's edge into the body are not considered, unless seams would be lost without them and such panels can be moved out on their own.
+// Rings are bent first (garment/flares.hpp).
 #pragma once
 #include "contact/proximity.hpp"
 #include "garment/garment_mesh.hpp"

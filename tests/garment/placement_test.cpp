@@ -108,6 +108,38 @@ TEST(Placement, PanelsThatNoShiftFreesAreCounted) {
   EXPECT_GT(placement.panel_crossings, 10);
 }
 
+// Shoulders: a block up to y = 0, 40 cm wide, that a tube's short sides are sewn through until the tube is 4 cm higher.  There a third panel, a collar, is in
+// the neck that stands on it; a dozen centimetres lower it would be in nothing.
+TEST(Placement, ACollarInTheNeckDoesNotKeepTheShouldersUnderTheShoulders) {
+  Pattern pattern = test::tube_pattern(0.2, 0.06, 0.3, {0, -0.005, 0});
+  for (const double collar_m : {0.005, 0.5}) {  // before the middle of the neck
+    pattern.panels.resize(2);
+    pattern.panels.push_back(test::front_rectangle(0.3, 0.02, Vec3(0, 0.08, collar_m)));
+    pattern.panels.back().name = "collar";
+    GarmentMesh garment = mesh_garment(pattern, 0.02);
+    const Vec3s drawn = garment.x;
+    std::vector<Vec3> x;
+    std::vector<Triangle> triangles;
+    for (const BodySurface& part : {box({0, -0.1, 0}, {0.2, 0.1, 0.1}), box({0, 0.27, 0}, {0.04, 0.2, 0.06})}) {
+      for (const auto& [a, b, c] : part.triangles()) {
+        const auto first = static_cast<Index>(x.size());
+        triangles.push_back({a + first, b + first, c + first});
+      }
+      x.insert(x.end(), part.positions().begin(), part.positions().end());
+    }
+    const Placement placement = place_garment(garment, BodySurface(x, triangles));
+    EXPECT_EQ(placement.blocked, 0);
+    EXPECT_EQ(placement.panel_crossings, 0);
+    EXPECT_NEAR(placement.shift_m.y(), 0.04, 1e-12);
+    const std::vector<Index> panel = garment.panel_of_particle();
+    const double out_m = collar_m == 0.005 ? 0.06 : 0;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      const Vec3 moved = garment.x[i] - drawn[i] - placement.shift_m;
+      EXPECT_LT((moved - Vec3(0, 0, panel[i] == 2 ? out_m : 0)).norm(), 1e-12) << "no other panel goes anywhere";
+    }
+  }
+}
+
 TEST(Placement, ATubeAroundASphereIsRaisedFromBelowItsMiddle) {
   // The sphere hangs low between the panels: their sides pass beside it (x = 9 cm), the bridge of samples does not cross it once they are
   // above 6 cm of its centre's height, since 9^2 + 6^2 > 10^2.
