@@ -78,7 +78,6 @@ struct Simulation::Implementation : internal::SimulationObserver {
   void take_up(std::string_view bytes);
   void make_engine();
   void begin();  // what is on hangs from now on
-  void begins(const internal::OutfitRun& run);
   // Throws unless everything is on.
   internal::OutfitRun& live(std::string_view what);
   internal::Vec3 along(const Way& way, double t_s) const;

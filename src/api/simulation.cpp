@@ -89,17 +89,13 @@ void Simulation::Implementation::take_up(std::string_view bytes) {
 
 void Simulation::Implementation::begin() {
   engine->begin([this](internal::OutfitRun& run) {
-    begins(run);
+    scene_pins = run.events().pins.size();
+    scene_drags = run.events().drags.size();
     tell(run);
   });
-  update_body();
-}
-
-void Simulation::Implementation::begins(const internal::OutfitRun& run) {
-  scene_pins = run.events().pins.size();
-  scene_drags = run.events().drags.size();
   begun = true;
   flat = {};
+  update_body();
 }
 
 internal::OutfitRun& Simulation::Implementation::live(std::string_view what) {
@@ -190,10 +186,9 @@ DressReport Simulation::run() {
   return translated([&] {
     Implementation& own = *implementation_;
     if (own.begun && own.engine->live().time_s() > 0) misuse("run: time has gone on already; reset() takes it back");
-    own.make_engine();
-    own.flat = internal::outfit_of_shapes(own.recipe->loaded.cloth);
+    own.make();
     own.recipe->in_threads([&] { own.engine->run(); });
-    if (own.engine->has_begun()) own.begins(own.engine->live());
+    own.begun = own.engine->has_begun();
     own.update_body();
     return own.report();
   });
