@@ -9,6 +9,7 @@ Checked in documents (*.md in the root and in docs/):
   `src/step/...`             the path exists; * and {a,b} must match something; <name> matches anything
   `Suite.Name`               a test of that name exists in tests/
   `name_m = 0.02`            a source in src/ gives that name that value
+  ```cpp ... ```             a program of examples/ has these lines, blank ones left out
 Checked in sources, scripts and build files:
   docs/...#anchor            the file and the heading exist
   reason codes               docs/reason-codes.md knows them
@@ -107,7 +108,18 @@ class Checker:
         elif anchor and not any(anchor[1:] in self.anchors.get(f, set()) for f in found):
             self.complain(path, number, f"'{name}{anchor}': there is no such heading")
 
+    def check_excerpts(self, path):
+        """Code in a document is part of a program that is built and run."""
+        def lines_of(text):
+            return "\n".join(line.strip() for line in text.splitlines() if line.strip())
+        programs = [lines_of(p.read_text()) for p in sorted((self.root / "examples").glob("*.cpp"))]
+        text = path.read_text()
+        for block in re.finditer(r"^```cpp\n(.*?)^```", text, re.DOTALL | re.MULTILINE):
+            if not any(lines_of(block.group(1)) in program for program in programs):
+                self.complain(path, text.count("\n", 0, block.start()) + 1, "this code is in no program of examples/")
+
     def check_document(self, path):
+        self.check_excerpts(path)
         for number, line in enumerate(without_code_blocks(path.read_text()), 1):
             for target in link.findall(line):
                 if not re.match(r"[a-z]+:", target):

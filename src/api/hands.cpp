@@ -63,19 +63,17 @@ void Simulation::Implementation::tell(internal::OutfitRun& run) {
     timed.to_s = std::numeric_limits<double>::infinity();
     events.drags.push_back(std::move(timed));
   }
-  if (interaction.moves) {
-    interaction.moves = false;
-    start_motion(run);
-  }
 }
 
 void Simulation::Implementation::start_motion(internal::OutfitRun& run) {
-  if (interaction.moves) return;
-  const auto& motion = engine->motion();
-  if (!motion && interaction.body_to.empty()) return;
+  if (interaction.moves || (!engine->motion() && interaction.body_to.empty())) return;
   interaction.moves = true;
   interaction.moves_from_s = run.time_s();
-  if (motion) {
+  lead_body(run);
+}
+
+void Simulation::Implementation::lead_body(internal::OutfitRun& run) {
+  if (const auto& motion = engine->motion()) {
     run.start_motion(motion->at);
     return;
   }

@@ -78,11 +78,13 @@ struct Simulation::Implementation : internal::SimulationObserver {
   void take_up(std::string_view bytes);
   void make_engine();
   void begin();  // what is on hangs from now on
+  void begins(const internal::OutfitRun& run);
   // Throws unless everything is on.
   internal::OutfitRun& live(std::string_view what);
   internal::Vec3 along(const Way& way, double t_s) const;
-  void tell(internal::OutfitRun& run);  // of the interaction
-  void start_motion(internal::OutfitRun& run);
+  void tell(internal::OutfitRun& run);          // of the interaction
+  void start_motion(internal::OutfitRun& run);  // when it is to, and has not
+  void lead_body(internal::OutfitRun& run);
   void update_body();
   void arrived();  // at the end of an advance()
   DressReport report();

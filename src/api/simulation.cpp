@@ -89,13 +89,18 @@ void Simulation::Implementation::take_up(std::string_view bytes) {
 
 void Simulation::Implementation::begin() {
   engine->begin([this](internal::OutfitRun& run) {
-    scene_pins = run.events().pins.size();
-    scene_drags = run.events().drags.size();
+    begins(run);
     tell(run);
+    if (interaction.moves) lead_body(run);
   });
+  update_body();
+}
+
+void Simulation::Implementation::begins(const internal::OutfitRun& run) {
+  scene_pins = run.events().pins.size();
+  scene_drags = run.events().drags.size();
   begun = true;
   flat = {};
-  update_body();
 }
 
 internal::OutfitRun& Simulation::Implementation::live(std::string_view what) {
@@ -186,9 +191,14 @@ DressReport Simulation::run() {
   return translated([&] {
     Implementation& own = *implementation_;
     if (own.begun && own.engine->live().time_s() > 0) misuse("run: time has gone on already; reset() takes it back");
-    own.make();
+    own.make_engine();
+    own.flat = internal::outfit_of_shapes(own.recipe->loaded.cloth);
     own.recipe->in_threads([&] { own.engine->run(); });
-    own.begun = own.engine->has_begun();
+    if (own.engine->has_begun()) {
+      own.begins(own.engine->live());
+      own.interaction.moves = own.engine->report().motion_first_frame >= 0;
+      own.interaction.moves_from_s = own.interaction.moves ? own.engine->motion_from_s() : 0;
+    }
     own.update_body();
     return own.report();
   });

@@ -69,6 +69,7 @@ class OutfitRun {
   void set_wind(const Vec3& m_per_s) { world_.air.wind_m_per_s = m_per_s; }
   // From the next frame on the body moves: at 0 s it is where it is now.
   void start_motion(BodyAt body_at);
+  double motion_from_s() const { return motion_start_s_; }
 
   double time_s() const { return frames_from_s_ + static_cast<double>(frames_) * frame_s_; }
   // Gravity, elastic and friction are what the scene says.

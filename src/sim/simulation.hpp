@@ -91,8 +91,8 @@ class Simulation {
   Index particles_of_first_panels() const { return cloth_.front().garment.mesh.particle_count; }
   bool body_moves() const { return motion_.has_value(); }
   const std::optional<BodyMovement>& motion() const { return motion_; }
-  const GarmentMesh& panels(std::size_t cloth) const { return cloth_[cloth].garment; }  // until it has begun
-  std::size_t cloths() const { return cloth_.size(); }
+  // On live()'s clock, of one whose body has begun to move.
+  double motion_from_s() const { return run_->motion_from_s(); }
   // Of a simulation that has begun.
   std::string state();
   Report& report() { return report_; }

@@ -179,6 +179,9 @@ class Checkers(unittest.TestCase):
         self.refuses(tool, {"docs/a.md": "`src/{io,solver}/*.cpp` `tests/*/gone_*.cpp`\n"}, "gone_")
         self.refuses(tool, {"docs/a.md": "`Mesh.IsTwo`\n"}, "'Mesh.IsTwo': there is no such test")
         self.refuses(tool, {"docs/a.md": "`gap_m = 0.002`\n"}, "'gap_m = 0.002': no source says so")
+        program = {"examples/a.cpp": "int main() {\n  run();\n\n  return 0;\n}\n"}
+        self.accepts(tool, {**program, "docs/a.md": "```cpp\nrun();\nreturn 0;\n```\n"})
+        self.refuses(tool, {**program, "docs/a.md": "\n```cpp\nrun();\nreturn 1;\n```\n"}, "docs/a.md:2: this code is in no program")
         self.refuses(tool, {"src/core/a.cpp": "// docs/gone.md\n"}, "src/core/a.cpp:1")
         self.refuses(tool, {"src/core/a.cpp": "// docs/units.md#mass.\n"}, "docs/units.md#mass")
         self.accepts(tool, {"docs/a.md": "```\n[x](gone.md)\n```\n\n    [y](gone.md)\n\n<https://example.org/gone.md>\n"})
