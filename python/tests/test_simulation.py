@@ -224,6 +224,8 @@ def test_states_of_others_and_broken_ones_are_refused(sheet, draped):
 
 def test_a_path_goes_on_after_set_state_and_not_where_it_had_not_begun(sheet):
     before = sheet.state()
+    sheet.pin([0])
+    held = sheet.state()
     path = zigzag(sheet.positions_m[[0]])
     advance(sheet, 1)
     sheet.pin([0], path_m=path, fps=30)
@@ -234,6 +236,11 @@ def test_a_path_goes_on_after_set_state_and_not_where_it_had_not_begun(sheet):
     sheet.set_state(state)
     advance(sheet, 2)
     assert sheet.state_hash == wanted
+    sheet.set_state(held)
+    advance(sheet, 2)
+    assert sheet.pinned == [0] and np.array_equal(sheet.positions_m[[0]], path[0])
+    sheet.set_state(held)
+    sheet.pin([0], path_m=path, fps=30)
     sheet.set_state(before)
     advance(sheet, 2)
     assert sheet.pinned == [] and sheet.positions_m[0, 1] < -0.01
