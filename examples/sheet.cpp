@@ -32,5 +32,6 @@ int main() {
   }
   sim.let_go(hand);
   const toile::Point& corner = sim.positions_m()[440];
-  std::printf("after %.2f s the free corner is at (%.3f, %.3f, %.3f) m\n", sim.time_s(), corner[0], corner[1], corner[2]);
+  std::printf("after %.2f s the free corner is at (%.3f, %.3f, %.3f) m\n", sim.time_s(), corner[0], corner[1],
+              corner[2]);
 }

@@ -214,7 +214,7 @@ def test_a_state_goes_on_with_the_same_bits_with_pins_hands_gravity_and_wind():
 
 def test_states_of_others_and_broken_ones_are_refused(sheet, draped):
     before = sheet.state_hash
-    broken = bytearray(sheet.state().bytes)
+    broken = bytearray(sheet.state().to_bytes())
     broken[len(broken) // 2] ^= 1
     for state in (draped.state(), toile.State(b""), toile.State(bytes(broken))):
         with pytest.raises(toile.InputError):

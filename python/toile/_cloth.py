@@ -15,7 +15,7 @@ from ._toile import Fabric
 FabricLike = Union[Fabric, str]
 
 
-def fabric(name: str, **changes: float) -> Fabric:
+def fabric(name: str, **changes: Any) -> Fabric:
     """The preset of that name ("silk", "cotton", "wool", "denim", "knit"), with some fields changed.
 
     Raises InputError, with the nearest name, for a name that fabric_names() has not, and TypeError for a field that
