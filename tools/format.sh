@@ -17,7 +17,7 @@ if [ -z "$tool" ]; then
 fi
 
 folders=()
-for folder in src apps bench include examples tests; do [ -d "$folder" ] && folders+=("$folder"); done
+for folder in src apps bench include examples tests python/src python/tests; do [ -d "$folder" ] && folders+=("$folder"); done
 mapfile -d '' files < <(find "${folders[@]}" \( -name '*.cpp' -o -name '*.hpp' \) -print0 | sort -z)
 if [ "${1:-}" = "--check" ]; then
   exec "$tool" --dry-run --Werror "${files[@]}"

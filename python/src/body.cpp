@@ -28,8 +28,7 @@ LengthUnit length_unit(std::string_view name) {
 
 Body from_file(const std::string& path, std::string_view unit, const std::string& motion, double fps,
                const std::string& measurements) {
-  return Body::from_file(path,
-                         {.unit = length_unit(unit), .motion = motion, .fps = fps, .measurements = measurements});
+  return Body::from_file(path, {.unit = length_unit(unit), .motion = motion, .fps = fps, .measurements = measurements});
 }
 
 Body from_frames(const FramesIn& frames_m, const FacesIn& body_faces, double fps) {

@@ -11,12 +11,18 @@ namespace {
 
 const char* name_of(ErrorCode code) {
   switch (code) {
-    case ErrorCode::usage: return "usage";
-    case ErrorCode::bad_input: return "bad_input";
-    case ErrorCode::bad_start: return "bad_start";
-    case ErrorCode::input_output: return "input_output";
-    case ErrorCode::resource_limit: return "resource_limit";
-    case ErrorCode::internal: return "internal";
+    case ErrorCode::usage:
+      return "usage";
+    case ErrorCode::bad_input:
+      return "bad_input";
+    case ErrorCode::bad_start:
+      return "bad_start";
+    case ErrorCode::input_output:
+      return "input_output";
+    case ErrorCode::resource_limit:
+      return "resource_limit";
+    case ErrorCode::internal:
+      return "internal";
   }
   return "internal";
 }

@@ -36,6 +36,13 @@ constexpr Field fields[] = {
     {"thickness_m", &Fabric::thickness_m, "Between two layers that touch, m."},
 };
 
+// For editors and type checkers; a test compares it with the fields.
+#define TOILE_FABRIC_FIELDS                                                                                       \
+  "name: str = ..., density_kg_per_m2: float = ..., stretch_u_N_per_m: float = ..., "                             \
+  "stretch_v_N_per_m: float = ..., shear_N_per_m: float = ..., compression_ratio: float = ..., "                  \
+  "strain_limit: float = ..., bend_u_N_m: float = ..., bend_v_N_m: float = ..., stretch_damping_s: float = ..., " \
+  "shear_damping_s: float = ..., bend_damping_s: float = ..., friction: float = ..., thickness_m: float = ..."
+
 const Field& field(std::string_view name) {
   for (const Field& known : fields)
     if (known.name == name) return known;
@@ -68,16 +75,19 @@ nb::dict fields_of(const Fabric& fabric) {
 }  // namespace
 
 void bind_fabric(nb::module_& module) {
-  nb::class_<Fabric> type(module, "Fabric",
-                          "What cloth is made of.  Source of the presets: docs/theory/fabrics.md.\n\n"
-                          "Stiffness is force per width, and bending moment per width per curvature: none of it depends on "
-                          "the mesh.\nA value: it does not change.  Fields that are not given are those of the default, a cotton.");
-  type.def("__init__",
-           [](Fabric* self, const nb::kwargs& changes) {
-             Fabric made;
-             change(made, changes);
-             new (self) Fabric(made);
-           })
+  nb::class_<Fabric> type(
+      module, "Fabric",
+      "What cloth is made of.  Source of the presets: docs/theory/fabrics.md.\n\n"
+      "Stiffness is force per width, and bending moment per width per curvature: none of it depends on "
+      "the mesh.\nA value: it does not change.  Fields that are not given are those of the default, a cotton.");
+  type.def(
+          "__init__",
+          [](Fabric* self, const nb::kwargs& changes) {
+            Fabric made;
+            change(made, changes);
+            new (self) Fabric(made);
+          },
+          nb::sig("def __init__(self, *, " TOILE_FABRIC_FIELDS ") -> None"))
       .def(
           "replace",
           [](const Fabric& self, const nb::kwargs& changes) {
@@ -85,9 +95,10 @@ void bind_fabric(nb::module_& module) {
             change(made, changes);
             return made;
           },
+          nb::sig("def replace(self, *, " TOILE_FABRIC_FIELDS ") -> Fabric"),
           "The same with some fields changed: toile.fabric('silk').replace(density_kg_per_m2=0.07).  "
           "TypeError for a field that there is not.")
-      .def("fields", &fields_of, "All fields by name.")
+      .def("fields", &fields_of, nb::sig("def fields(self) -> dict[str, str | float]"), "All fields by name.")
       .def_ro("name", &Fabric::name, "For messages and reports.")
       .def("__eq__",
            [](const Fabric& self, const nb::object& other) {

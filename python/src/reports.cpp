@@ -34,7 +34,8 @@ nb::bytes bytes_of(const State& state) { return nb::bytes(state.bytes().data(), 
 }  // namespace
 
 void bind_reports(nb::module_& module) {
-  nb::class_<DressReport>(module, "DressReport", "What Simulation.dress() came to.  True where it is worn as it should be.")
+  nb::class_<DressReport>(module, "DressReport",
+                          "What Simulation.dress() came to.  True where it is worn as it should be.")
       .def_prop_ro("ok", &DressReport::ok, "No reasons against it.")
       .def("__bool__", &DressReport::ok)
       .def_ro("ended", &DressReport::ended, "'still', 'time', 'seam_blocked', 'step_collapsed', 'time_limit' ...")
@@ -57,15 +58,15 @@ void bind_reports(nb::module_& module) {
       .def_ro("diagnosis", &StepReport::diagnosis,
               "Of a step that could not be made however short: which triangles, and why.")
       .def("explain", &StepReport::explain, "In one sentence.")
-      .def("_then", &then, "next"_a)
+      .def("then", &then, "next"_a, "Both as one, where `next` went on from here.")
       .def("__repr__", [](const StepReport& self) { return "<StepReport: " + self.explain() + ">"; });
 
   nb::class_<State>(module, "State",
                     "All that decides how a simulation goes on, between two frames (Simulation.state).\n\n"
                     "Bytes that can be kept, sent and pickled; they are checked when they are used.")
       .def(
-          "__init__", [](State* self, const nb::bytes& bytes) { new (self) State(text_of(bytes)); }, "bytes"_a)
-      .def_prop_ro("bytes", &bytes_of)
+          "__init__", [](State* self, const nb::bytes& data) { new (self) State(text_of(data)); }, "data"_a)
+      .def("to_bytes", &bytes_of, "What State() makes it of again.")
       .def_static(
           "load", [](const std::string& path) { return State::load(path); }, "path"_a,
           "Of a file that save() wrote.  IoError where it cannot be read.")

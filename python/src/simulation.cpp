@@ -67,8 +67,8 @@ void bind_simulation(nb::module_& module) {
           },
           "progress"_a.none())
       .def(
-          "advance",
-          [](Working& self, double h_s) { return self.work([=](Simulation& s) { return s.advance(h_s); }); }, "h_s"_a)
+          "advance", [](Working& self, double h_s) { return self.work([=](Simulation& s) { return s.advance(h_s); }); },
+          "h_s"_a)
       .def("reset", [](Working& self) { self.work([](Simulation& s) { return s.reset(), true; }); })
       .def("cancel", &Working::cancel, "Ends the call that is at work, from any thread.")
       .def_prop_ro("time_s", [](const Working& self) { return self.look().time_s(); })
@@ -77,7 +77,10 @@ void bind_simulation(nb::module_& module) {
       .def("velocities_m_per_s",
            [](const Working& self) { return copy_out<double>(self.look().velocities_m_per_s(), {3}); })
       .def("faces", [](const Working& self) { return copy_out<std::int32_t>(self.look().faces(), {3}); })
-      .def("uv_m", [](const Working& self) { return copy_out<double>(self.look().uv_m(), {3, 2}); })
+      .def("uv_m",
+           [](const Working& self) {
+             return copy_out<double>(self.look().uv_m(), {3, 2});
+           })
       .def("panel", [](const Working& self) { return copy_out<std::int32_t>(self.look().panel(), {}); })
       .def("panel_names", [](const Working& self) { return self.look().panel_names(); })
       .def("body_positions_m",
@@ -85,8 +88,7 @@ void bind_simulation(nb::module_& module) {
       .def("body_faces", [](const Working& self) { return copy_out<std::int32_t>(self.look().body_faces(), {3}); })
 
       .def(
-          "pin", [](Working& self, const IndicesIn& particles) { self.touch().pin(indices(particles)); },
-          "particles"_a)
+          "pin", [](Working& self, const IndicesIn& particles) { self.touch().pin(indices(particles)); }, "particles"_a)
       .def(
           "move_pins",
           [](Working& self, const IndicesIn& particles, const PointsIn& to_m) {
@@ -100,16 +102,14 @@ void bind_simulation(nb::module_& module) {
       .def("grab", &grab, "face"_a, "barycentric"_a, "stiffness_N_per_m"_a = grip.stiffness_N_per_m,
            "damping_N_s_per_m"_a = grip.damping_N_s_per_m, "max_force_N"_a = grip.max_force_N)
       .def(
-          "drag", [](Working& self, int hand, const Point& to_m) { self.touch().drag(hand, to_m); }, "hand"_a,
-          "to_m"_a)
+          "drag", [](Working& self, int hand, const Point& to_m) { self.touch().drag(hand, to_m); }, "hand"_a, "to_m"_a)
       .def(
           "let_go", [](Working& self, int hand) { self.touch().let_go(hand); }, "hand"_a)
       .def(
           "set_body", [](Working& self, const PointsIn& vertices_m) { self.touch().set_body(points(vertices_m)); },
           "vertices_m"_a)
       .def(
-          "set_gravity", [](Working& self, const Point& m_per_s2) { self.touch().set_gravity(m_per_s2); },
-          "m_per_s2"_a)
+          "set_gravity", [](Working& self, const Point& m_per_s2) { self.touch().set_gravity(m_per_s2); }, "m_per_s2"_a)
       .def(
           "set_wind", [](Working& self, const Point& m_per_s) { self.touch().set_wind(m_per_s); }, "m_per_s"_a)
 

@@ -13,6 +13,12 @@ import toile
 root = pathlib.Path(os.environ.get("TOILE_SOURCE_DIR", pathlib.Path(__file__).parents[2]))
 
 
+def one_core() -> None:
+    """For what is started from here.  Threads that wait for each other many times in a step are slow beside a busy build: 138 s for 4 s of work were seen."""
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+
+
 def sheet_arrays(cells: int = 8, edge_m: float = 0.04):
     """A level square of cloth, its middle at the origin."""
     line = (np.arange(cells + 1) - cells / 2) * edge_m

@@ -69,7 +69,7 @@ def test_reading_twice_is_no_copy_and_nobody_can_write(sheet):
     assert sheet.positions_m.ctypes.data == x.ctypes.data
     assert sheet.frame().positions_m.ctypes.data == x.ctypes.data
     assert sheet.faces.ctypes.data == sheet.faces.ctypes.data
-    for array in (x, sheet.velocities_m_per_s, sheet.faces, sheet.uv_m, sheet.panel, sheet.body_positions_m):
+    for array in (x, sheet.velocities_m_per_s, sheet.faces, sheet.uv_m, sheet.panel):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0
         with pytest.raises(ValueError):

@@ -1,9 +1,11 @@
 """Runs the Python that the documents show: every ```python block of a document, one after the other, in an empty folder."""
 
 import re
+import subprocess
+import sys
 
 import pytest
-from conftest import root
+from conftest import one_core, root
 
 documents = ["README.md", "docs/howto/python.md"]
 
@@ -13,15 +15,13 @@ def blocks(text):
 
 
 @pytest.mark.parametrize("document", documents)
-def test_the_code_of_a_document_runs(document, tmp_path, monkeypatch):
+def test_the_code_of_a_document_runs(document, tmp_path):
     code = blocks((root / document).read_text())
     assert code, f"{document} shows no Python"
     (tmp_path / "patterns").symlink_to(root / "patterns")
     (tmp_path / "scenes").symlink_to(root / "scenes")
-    monkeypatch.chdir(tmp_path)
-    space = {"__name__": "__main__"}
-    for k, block in enumerate(code):
-        exec(compile(block, f"{document} block {k + 1}", "exec"), space)
+    done = subprocess.run([sys.executable, "-"], input="\n".join(code), text=True, cwd=tmp_path, capture_output=True, preexec_fn=one_core)
+    assert done.returncode == 0, done.stderr
 
 
 def test_the_quick_start_is_short():

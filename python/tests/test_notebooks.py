@@ -1,9 +1,10 @@
 """Runs the notebooks, in Jupyter's kernel where it is installed and cell by cell in plain Python where it is not."""
 
 import json
+import os
 
 import pytest
-from conftest import root
+from conftest import one_core, root
 
 notebooks = sorted((root / "python/notebooks").glob("*.ipynb"))
 
@@ -31,6 +32,11 @@ def test_a_notebook_runs_and_is_stored_without_outputs(path, tmp_path, monkeypat
         return
     notebook = nbformat.read(path, as_version=4)
     monkeypatch.delenv("MPLBACKEND", raising=False)  # pictures go into the notebook
-    nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}).execute()
+    cores = os.sched_getaffinity(0)
+    one_core()
+    try:
+        nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}).execute()
+    finally:
+        os.sched_setaffinity(0, cores)
     drawn = [o for cell in notebook.cells for o in cell.get("outputs", []) if "image/png" in o.get("data", {})]
     assert drawn, "no cell drew anything"

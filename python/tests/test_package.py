@@ -26,13 +26,18 @@ def test_it_is_typed():
         assert word in stub, word
 
 
+def test_the_stub_of_fabric_names_its_fields():
+    words = re.search(r"def __init__\(self, \*, (name: str.*)\) -> None", (package / "_toile.pyi").read_text()).group(1)
+    assert [word.split(":")[0] for word in words.split(", ")] == list(toile.Fabric().fields())
+
+
 @pytest.mark.parametrize("name, thing", public, ids=[name for name, _ in public])
 def test_everything_public_says_what_it_is(name, thing):
     assert inspect.getdoc(thing), name
     if inspect.isclass(thing) and thing.__module__ != "toile._errors":
         for part, value in vars(thing).items():
             if not part.startswith("_") and (callable(value) or isinstance(value, (property, classmethod, staticmethod))):
-                plain = {"let_go", "panel_names", "warnings", "bytes", "cloth_body_edges", "cloth_cloth_edges"}  # their names do
+                plain = {"let_go", "panel_names", "warnings", "cloth_body_edges", "cloth_cloth_edges"}  # their names do
                 assert inspect.getdoc(value) or part in plain, f"{name}.{part}"
 
 

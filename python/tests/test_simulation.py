@@ -18,6 +18,7 @@ def advance(sim, frames=3):
 
 
 def test_time_goes_on_by_exactly_what_was_asked(sheet):
+    sheet.pin([0])
     assert sheet.time_s == 0
     step = sheet.advance(0.05)
     assert step.ok and bool(step) and step.steps >= 1 and step.cg_iterations > 0
@@ -213,7 +214,7 @@ def test_a_state_goes_on_with_the_same_bits_with_pins_hands_gravity_and_wind():
 
 def test_states_of_others_and_broken_ones_are_refused(sheet, draped):
     before = sheet.state_hash
-    broken = bytearray(sheet.state().bytes)
+    broken = bytearray(sheet.state().to_bytes())
     broken[len(broken) // 2] ^= 1
     for state in (draped.state(), toile.State(b""), toile.State(bytes(broken))):
         with pytest.raises(toile.InputError):
@@ -223,6 +224,8 @@ def test_states_of_others_and_broken_ones_are_refused(sheet, draped):
 
 def test_a_path_goes_on_after_set_state_and_not_where_it_had_not_begun(sheet):
     before = sheet.state()
+    sheet.pin([0])
+    held = sheet.state()
     path = zigzag(sheet.positions_m[[0]])
     advance(sheet, 1)
     sheet.pin([0], path_m=path, fps=30)
@@ -233,6 +236,11 @@ def test_a_path_goes_on_after_set_state_and_not_where_it_had_not_begun(sheet):
     sheet.set_state(state)
     advance(sheet, 2)
     assert sheet.state_hash == wanted
+    sheet.set_state(held)
+    advance(sheet, 2)
+    assert sheet.pinned == [0] and np.array_equal(sheet.positions_m[[0]], path[0])
+    sheet.set_state(held)
+    sheet.pin([0], path_m=path, fps=30)
     sheet.set_state(before)
     advance(sheet, 2)
     assert sheet.pinned == [] and sheet.positions_m[0, 1] < -0.01

@@ -11,9 +11,11 @@ from conftest import level_sheet, sheet_arrays
 import toile
 
 
-def slow(cells=60):
-    """Cloth whose advance() by 10 s takes minutes."""
-    return toile.Simulation(toile.Cloth(*sheet_arrays(cells, 0.01)), "cotton", threads=1)
+def slow(cells=80):
+    """Cloth that hangs, whose advance() by 10 s takes the better part of a minute."""
+    sim = toile.Simulation(toile.Cloth(*sheet_arrays(cells, 0.01)), "cotton", threads=1)
+    sim.pin([0, cells])
+    return sim
 
 
 class CtrlC:
@@ -35,25 +37,23 @@ class CtrlC:
 def heard(call, after_s=0.4):
     with CtrlC(after_s) as ctrl_c, pytest.raises(KeyboardInterrupt):
         call()
-    assert after_s * 0.9 < ctrl_c.took_s < after_s + 20  # the call would take minutes
+    assert after_s * 0.9 < ctrl_c.took_s < after_s + 10  # the call would take several times that
 
 
 def test_ctrl_c_ends_advance_and_the_simulation_goes_on():
     sim = slow()
-    sim.pin([0, 60])
     heard(lambda: sim.advance(10))
     assert sim.advance(1e-3).ok
 
 
 def test_ctrl_c_ends_dress_which_can_be_begun_again():
     sim = slow()
-    sim.pin([0, 60])
     heard(lambda: sim.dress(longest_s=1000))
     assert sim.dress(longest_s=0.01).ended != "interrupted"
 
 
 def test_ctrl_c_ends_a_batch():
-    batch = toile.Batch([slow(40) for _ in range(3)], threads=2)
+    batch = toile.Batch([slow() for _ in range(3)], threads=2)
     heard(lambda: batch.advance(10))
     assert all(step.ok for step in batch.advance(1e-3))
 

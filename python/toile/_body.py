@@ -54,7 +54,7 @@ class Body(Made):
         fps: float = 30,
         measurements: str | os.PathLike[str] = "",
     ) -> Body:
-        """A closed mesh (OBJ).
+        """A closed mesh (OBJ), read when a simulation is made with it, which raises IoError and InputError.
 
         unit          "automatic" (metres, or an error that says which unit would fit), "m", "dm" or "cm"
         motion        a .pc2 file, a folder of OBJ files, or the name of a motion for upright meshes; empty: it stands
@@ -74,8 +74,8 @@ class Body(Made):
     def from_arrays(cls, vertices_m: ArrayLike, faces: ArrayLike) -> Body:
         """A closed mesh: vertices_m (n, 3) in metres, faces (f, 3) counter-clockwise from outside.  Arrays are copied.
 
-        It stands, or goes where Simulation.set_body says.  Raises InputError for a surface that is not closed and for shapes
-        other than these.
+        It stands, or goes where Simulation.set_body says.  Raises InputError for shapes other than these, and when a simulation
+        is made with a surface that is not closed.
         """
         return cls._make(
             "from_arrays",

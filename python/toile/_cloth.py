@@ -15,7 +15,7 @@ from ._toile import Fabric
 FabricLike = Union[Fabric, str]
 
 
-def fabric(name: str, **changes: float) -> Fabric:
+def fabric(name: str, **changes: Any) -> Fabric:
     """The preset of that name ("silk", "cotton", "wool", "denim", "knit"), with some fields changed.
 
     Raises InputError, with the nearest name, for a name that fabric_names() has not, and TypeError for a field that
@@ -86,8 +86,8 @@ class Cloth(Made):
     def from_pattern(cls, path: str | os.PathLike[str], *, edge_m: float = 0.01) -> Cloth:
         """The panels of a sewing pattern (GarmentCode's JSON), which Simulation.dress() sews around the body.
 
-        edge_m: length of the triangles' edges.  Raises IoError where the file cannot be read, InputError where it is no such
-        pattern: file, place, expected, got.
+        edge_m: length of the triangles' edges.  The file is read when a simulation is made of it, which raises IoError where it
+        cannot be read and InputError where it is no such pattern (check_pattern() tells all that is wrong with it).
         """
         return cls._make("from_pattern", path=file_path(path), edge_m=edge_m)
 
@@ -105,7 +105,7 @@ class Cloth(Made):
         return self._change("set_fabric", fabric=as_fabric(fabric))
 
     def set_panel_fabric(self, panel: str, fabric: FabricLike) -> Cloth:
-        """Of one panel.  InputError for a panel that there is not."""
+        """Of one panel.  For a panel that there is not the making of a simulation raises InputError."""
         return self._change("set_panel_fabric", panel=panel, fabric=as_fabric(fabric))
 
     def set_panel_rest_stretch(self, panel: str, *, u: float = 1, v: float = 1) -> Cloth:

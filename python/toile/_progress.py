@@ -42,7 +42,8 @@ class TqdmBar:
     """The same by tqdm, where it is installed."""
 
     def __init__(self, tqdm: Any) -> None:
-        self._tqdm, self._bar, self._phase = tqdm, None, ""
+        self._tqdm, self._phase = tqdm, ""
+        self._bar: Any = None
 
     def __call__(self, phase: str, share: float, seconds_left: float | None) -> None:
         if phase != self._phase:

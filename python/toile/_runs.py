@@ -6,6 +6,7 @@ import os
 from types import TracebackType
 
 from . import _toile
+from ._errors import Error
 from ._progress import ProgressCall, Shown
 from ._simulation import Simulation
 from ._toile import CheckReport, Verdict
@@ -30,23 +31,33 @@ class RunWriter:
         Raises IoError for files there that are not Toile's, and when another process writes there.
         """
         self._simulation = simulation
-        self._core = _toile.RunWriter(os.fspath(folder), simulation._core, fps)
+        self._core: _toile.RunWriter | None = _toile.RunWriter(os.fspath(folder), simulation._core, fps)
+        self._frames = 0  # of a run that is finished
         self._verdict: Verdict | None = None
 
     def add(self) -> None:
         """The next frame: the simulation as it is now."""
+        if self._core is None:
+            raise Error("RunWriter.add: the run is finished")
         self._core.add(self._simulation._core)
 
     @property
     def frames(self) -> int:
         """How many are written."""
-        return self._core.frames
+        return self._frames if self._core is None else self._core.frames
 
     def finish(self) -> Verdict:
         """Writes the report; nothing can be added then.  The end of the `with` block does it too."""
-        if self._verdict is None:
+        if self._core is not None:
             self._verdict = self._core.finish()
+            self._let_go()
+        if self._verdict is None:
+            raise Error("RunWriter.finish: an exception has ended this run")
         return self._verdict
+
+    def _let_go(self) -> None:  # of the folder, which others may read and draw then
+        if self._core is not None:
+            self._frames, self._core = self._core.frames, None
 
     @property
     def verdict(self) -> Verdict | None:
@@ -59,6 +70,7 @@ class RunWriter:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
         if kind is None:
             self.finish()
+        self._let_go()
 
 
 def run_scene(

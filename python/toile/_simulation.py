@@ -134,7 +134,7 @@ class Simulation:
                 for particles, to_m in self._paths.at(end_s):
                     self._core.move_pins(particles, to_m)
                 part = self._core.advance(part_s)
-                report = part if report is None else report._then(part)
+                report = part if report is None else report.then(part)
                 if not report.ok:
                     break
         assert report is not None
@@ -287,6 +287,7 @@ class Simulation:
                 raise InputError(f"particle: expected one of a face, 0 to {len(self.positions_m) - 1}, got {particle}")
             face, corner = (int(k) for k in places[0])
             weights = tuple(float(k == corner) for k in range(3))  # type: ignore[assignment]
+        assert face is not None
         return self._core.grab(face, weights, **grip)
 
     def drag(self, hand: int, to_m: ArrayLike) -> None:
@@ -348,8 +349,8 @@ class Simulation:
     def __repr__(self) -> str:
         return f"<Simulation of {len(self.positions_m)} particles at {self.time_s:.3f} s>"
 
-    def _seen(self, what: str) -> Any:
-        array = self._read.get(what)
+    def _seen(self, what: str) -> NDArray[Any]:
+        array: NDArray[Any] | None = self._read.get(what)
         if array is None:
             array = self._read[what] = getattr(self._core, what)()
         return array
