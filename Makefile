@@ -1,5 +1,5 @@
 # The commands of the README.  Everything real happens in CMake; this file only says what is run.
-.PHONY: configure build demo test test-golden test-clang test-sanitizers test-long bench settings tidy format symbols clean packages
+.PHONY: configure build demo test test-golden test-clang test-sanitizers test-long bench settings tidy format symbols clean packages python-environment
 JOBS ?= $(shell nproc)
 
 # Prerequisites one after the other, with -j too: `packages` comes before what needs them.
@@ -18,7 +18,7 @@ demo: packages configure
 	build/release/toile demo
 
 # And the program by clang, its hashes and its lower modules.
-test: packages build test-golden
+test: packages python-environment build test-golden
 	ctest --preset release -LE long -j $(JOBS)
 
 # The scenes whose last state is known to the bit, and the modules whose arithmetic everything else rests on, by clang.
@@ -69,9 +69,12 @@ tidy: build
 format:
 	tools/format.sh
 
+# What the Python module is built and tested with, from PyPI; without a registry within reach the module is left out.
+python-environment: packages
+	@tools/python_environment.sh build/release
+
 packages:
 	@tools/install_packages.sh
-	@tools/python_environment.sh build/release
 
 clean:
 	rm -rf build

@@ -1,6 +1,7 @@
 // body.cpp: what cloth collides with.
 #include "arrays.hpp"
 #include "module.hpp"
+#include "named.hpp"
 
 #include <toile/body.hpp>
 #include <toile/error.hpp>
@@ -18,17 +19,10 @@ using namespace nb::literals;
 
 namespace {
 
-LengthUnit length_unit(std::string_view name) {
-  constexpr std::pair<std::string_view, LengthUnit> units[] = {
-      {"automatic", LengthUnit::automatic}, {"m", LengthUnit::m}, {"dm", LengthUnit::dm}, {"cm", LengthUnit::cm}};
-  for (const auto& [known, unit] : units)
-    if (known == name) return unit;
-  throw InputError("unit: expected one of automatic, m, dm, cm, got `" + std::string(name) + "`");
-}
-
 Body from_file(const std::string& path, std::string_view unit, const std::string& motion, double fps,
                const std::string& measurements) {
-  return Body::from_file(path, {.unit = length_unit(unit), .motion = motion, .fps = fps, .measurements = measurements});
+  return Body::from_file(
+      path, {.unit = named("unit", unit, length_units), .motion = motion, .fps = fps, .measurements = measurements});
 }
 
 Body from_frames(const FramesIn& frames_m, const FacesIn& body_faces, double fps) {

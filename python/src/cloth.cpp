@@ -1,6 +1,7 @@
 // cloth.cpp: garments and pieces of cloth before anything moves.
 #include "arrays.hpp"
 #include "module.hpp"
+#include "named.hpp"
 
 #include <toile/cloth.hpp>
 
@@ -28,6 +29,14 @@ Cloth from_arrays(const PointsIn& vertices_m, const FacesIn& cloth_faces, const 
   return Cloth::from_arrays(arrays);
 }
 
+constexpr Names<RestShape, 3> rest_shapes{
+    {{"automatic", RestShape::automatic}, {"drawing", RestShape::drawing}, {"start", RestShape::start}}};
+
+Cloth from_file(const std::string& path, std::string_view unit, std::string_view rest_shape) {
+  return Cloth::from_file(
+      path, {.unit = named("unit", unit, length_units), .rest_shape = named("rest_shape", rest_shape, rest_shapes)});
+}
+
 }  // namespace
 
 void bind_cloth(nb::module_& module) {
@@ -37,6 +46,7 @@ void bind_cloth(nb::module_& module) {
           "from_pattern",
           [](const std::string& path, double edge_m) { return Cloth::from_pattern(path, {.edge_m = edge_m}); },
           nb::call_guard<nb::gil_scoped_release>(), "path"_a, "edge_m"_a)
+      .def_static("from_file", &from_file, nb::call_guard<nb::gil_scoped_release>(), "path"_a, "unit"_a, "rest_shape"_a)
       .def_static(
           "grid",
           [](double width_m, double height_m, double edge_m) {

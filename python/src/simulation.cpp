@@ -82,6 +82,7 @@ void bind_simulation(nb::module_& module) {
              return copy_out<double>(self.look().uv_m(), {3, 2});
            })
       .def("panel", [](const Working& self) { return copy_out<std::int32_t>(self.look().panel(), {}); })
+      .def("warnings", [](const Working& self) { return self.look().warnings(); })
       .def("panel_names", [](const Working& self) { return self.look().panel_names(); })
       .def("body_positions_m",
            [](const Working& self) { return copy_out<double>(self.look().body_positions_m(), {3}); })

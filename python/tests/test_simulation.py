@@ -314,3 +314,17 @@ def test_frames_end_with_a_warning_where_a_step_cannot_be_made(sheet):
     with pytest.warns(RuntimeWarning, match="frames end at 0.067 s: too fast"):
         frames = list(sheet.frames(1, fps=30))
     assert [frame.step.ok for frame in frames] == [True, True, False]
+
+
+def test_a_modelled_garment_hangs_as_it_lies(tmp_path):
+    file = tmp_path / "flag.obj"
+    file.write_text("v 0 0 0\nv 20 0 0\nv 0 20 0\nv 20 20 0\nv 20 0 0\nv 40 0 0\nv 20 20 0\nv 40 20 0\n"
+                    "g left\nf 1 2 4\nf 1 4 3\ng right\nf 5 6 8\nf 5 8 7\n")
+    sim = toile.Simulation(toile.Cloth.from_file(file, unit="cm"))
+    assert sim.positions_m.shape == (6, 3) and sim.panel_names == ["left", "right"]
+    assert "2 vertices lie where another one does" in sim.warnings[0] and "vt" in sim.warnings[1]
+    sim.pin([2])
+    advance(sim, 10)
+    assert sim.positions_m[2, 1] == 0.2 and sim.positions_m[5, 1] < 0.15
+    with pytest.raises(toile.InputError, match="rest_shape: expected one of automatic, drawing, start"):
+        toile.Cloth.from_file(file, rest_shape="cut")

@@ -92,6 +92,21 @@ class Cloth(Made):
         return cls._make("from_pattern", path=file_path(path), edge_m=edge_m)
 
     @classmethod
+    def from_file(cls, path: str | os.PathLike[str], *, unit: str = "m", rest_shape: str = "automatic") -> Cloth:
+        """A garment that is modelled already (OBJ): worn as it lies, not sewn.
+
+        Its groups are its panels; vertices at one place are one particle.  What was not taken as it stands is in
+        Simulation.warnings.
+
+        unit        of its coordinates: "m", "dm" or "cm"
+        rest_shape  "drawing": as its vt in metres say it was cut; "start": as it starts, vt says where the warp runs;
+                    "automatic": the drawing, if it is in metres
+
+        The file is read when a simulation is made of it, which raises IoError or InputError.
+        """
+        return cls._make("from_file", path=file_path(path), unit=unit, rest_shape=rest_shape)
+
+    @classmethod
     def grid(cls, *, width_m: float = 1, height_m: float = 1, edge_m: float = 0.02) -> Cloth:
         """A rectangle, upright in the plane z = 0, facing +z, its middle at the origin."""
         return cls._make("grid", width_m=width_m, height_m=height_m, edge_m=edge_m)

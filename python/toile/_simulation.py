@@ -209,6 +209,11 @@ class Simulation:
         return self._seen("panel")
 
     @property
+    def warnings(self) -> list[str]:
+        """What of the files was not taken as it stands, and what is probably not meant."""
+        return self._core.warnings()
+
+    @property
     def panel_names(self) -> list[str]:
         return self._core.panel_names()
 
