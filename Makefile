@@ -1,5 +1,5 @@
 # The commands of the README.  Everything real happens in CMake; this file only says what is run.
-.PHONY: configure build demo test test-golden test-clang test-sanitizers test-long bench settings tidy format symbols clean packages python-environment
+.PHONY: configure build demo test test-golden test-clang test-sanitizers test-long bench settings tidy format symbols clean packages python-environment api-reference
 JOBS ?= $(shell nproc)
 
 # Prerequisites one after the other, with -j too: `packages` comes before what needs them.
@@ -62,6 +62,10 @@ settings: configure
 symbols: configure
 	@cmake --build --preset release --target toile_library -j $(JOBS)
 	tools/public_symbols.py --write tests/api/symbols.txt build/release/lib/libtoile.a
+
+# docs/api.md, after a change of include/toile or of a docstring.
+api-reference:
+	tools/api_reference.py
 
 # These need clang's tools, which `packages` does not install.
 tidy: build

@@ -17,19 +17,16 @@ struct RunWriter::Parts {
   Parts(const std::string& directory, const Simulation& simulation, double fps);
 
   internal::Stopwatch watch;
-  internal::RunFolder folder;
-  internal::RunWriter writer;
+  // Until it is finished: then the folder is anybody's.
+  std::optional<internal::RunFolder> folder;
+  std::optional<internal::RunWriter> writer;
   std::optional<internal::Recorder> recorder;
   internal::Report report;
   std::size_t vertices = 0, body_vertices = 0;
   std::string state_hash;
-  bool finished = false;
 };
 
-RunWriter::Parts::Parts(const std::string& directory, const Simulation& simulation, double fps)
-    : folder(directory, internal::RunFolder::Use::new_run,
-             {"toile::RunWriter", {}, std::string(internal::toile_version())}, {}),
-      writer(folder) {
+RunWriter::Parts::Parts(const std::string& directory, const Simulation& simulation, double fps) {
   const Simulation::Implementation& made = simulation.implementation();
   if (!made.begun)
     throw internal::Error(internal::ExitCode::usage,
@@ -40,14 +37,19 @@ RunWriter::Parts::Parts(const std::string& directory, const Simulation& simulati
   report.input_hash = internal::hex_of(made.recipe->input_hash);
   report.threads = internal::available_threads();
   report.motion_first_frame = -1;
-  folder.set_facts([&](internal::JsonText& json) { internal::add_facts(json, report); });
+  folder.emplace(directory, internal::RunFolder::Use::new_run,
+                 internal::RunFolder::Owner{"toile::RunWriter", {}, std::string(internal::toile_version())},
+                 std::span<const std::string>{});
+  writer.emplace(*folder);
+  folder->set_facts([&](internal::JsonText& json) { internal::add_facts(json, report); });
   internal::Outfit outfit = made.engine->outfit();
   outfit.mesh = made.mesh();
   vertices = made.state().x.size();
   body_vertices = made.body_x.size();
   report.vertices = static_cast<int>(vertices);
   state_hash = simulation.state_hash();
-  recorder.emplace(writer, outfit, outfit.rest_stretch, fps, made.engine->body_triangles(), made.body_x);
+  recorder.emplace(*writer, outfit, outfit.rest_stretch, fps, made.engine->body_triangles(), made.body_x);
+  report.frames = writer->cloth_frames();
 }
 
 RunWriter::RunWriter(const std::string& folder, const Simulation& simulation, double fps)
@@ -64,7 +66,7 @@ void RunWriter::add(const Simulation& simulation) {
   translated([&] {
     Parts& own = *parts_;
     const Simulation::Implementation& made = simulation.implementation();
-    if (own.finished) throw internal::Error(internal::ExitCode::usage, "RunWriter::add: the run is finished");
+    if (!own.writer) throw internal::Error(internal::ExitCode::usage, "RunWriter::add: the run is finished");
     if (made.state().x.size() != own.vertices || made.body_x.size() != own.body_vertices)
       throw internal::InputError(
           "", "simulation",
@@ -73,29 +75,31 @@ void RunWriter::add(const Simulation& simulation) {
     own.recorder->frame(made.state().x, made.body_x);
     own.report.drape = made.engine->report().drape;
     own.report.drape.simulated_s = simulation.time_s();
+    own.report.frames = own.writer->cloth_frames();
     own.state_hash = simulation.state_hash();
   });
 }
 
-int RunWriter::frames() const { return parts_->writer.cloth_frames(); }
+int RunWriter::frames() const { return parts_->report.frames; }
 
 Verdict RunWriter::finish() {
   return translated([&] {
     Parts& own = *parts_;
-    if (own.finished) throw internal::Error(internal::ExitCode::usage, "RunWriter::finish: the run is finished");
+    if (!own.writer) throw internal::Error(internal::ExitCode::usage, "RunWriter::finish: the run is finished");
     own.report.state_hash = own.state_hash;
-    own.report.frames = own.writer.cloth_frames();
     own.report.ended = "time";
     own.report.audit = own.recorder->report();
     own.report.verdict = internal::judge(own.report.audit, {});
     own.report.seconds_total = own.watch.seconds();
-    own.writer.finish(
+    own.writer->finish(
         [&](const std::vector<internal::WrittenFile>& files) {
           own.report.files = files;
           return internal::to_json(own.report);
         },
         false);
-    own.finished = true;
+    own.recorder.reset();
+    own.writer.reset();
+    own.folder.reset();
     return verdict_of(own.report.audit, own.report.verdict);
   });
 }

@@ -40,9 +40,12 @@ TEST(RunWriter, WritesWhatTheJudgeReads) {
   EXPECT_EQ(read.frames, 21);
   EXPECT_NEAR(read.stretch_max, written.stretch_max, 1e-6) << "the drawing is rounded in the file";
   EXPECT_THROW(writer.add(sim), Error);
+  EXPECT_EQ(writer.frames(), 21);
   std::ifstream report(folder + "/report.json");
   const std::string text((std::istreambuf_iterator<char>(report)), {});
   EXPECT_NE(text.find('"' + sim.state_hash() + '"'), std::string::npos);
+  const RunWriter over_it(folder, sim);  // the folder is free again, while the first writer lives
+  EXPECT_EQ(over_it.frames(), 1);
 }
 
 TEST(RunWriter, RefusesAnotherCloth) {
