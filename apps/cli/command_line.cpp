@@ -110,24 +110,14 @@ std::string one_line(std::string text) {
   return printable(text);
 }
 
-}  // namespace
+struct Commands {
+  CLI::App *demo, *dress, *run, *check, *verify, *preview, *resume, *untangle, *bench;
+};
 
-bool wants_json(int argc, const char* const* argv) {
-  return std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
-}
-
-CommandLine parse_command_line(int argc, const char* const* argv) {
-  CommandLine line;
-  line.words.assign(argv + std::min(argc, 1), argv + argc);
-  for (int i = 0; i < argc; ++i) line.typed += (i == 0 ? "" : " ") + std::string(i == 0 ? "toile" : argv[i]);
-
-  CLI::App app("Toile: sewing pattern and body in, clothing out.", "toile");
-  app.set_version_flag("--version", std::string(toile_version()));
-  app.require_subcommand(0, 1);
-  std::string name;
-
+// `demo_name` is what `demo` was given.
+Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) {
   CLI::App* demo = app.add_subcommand("demo", "Run a scene that is built in: no files needed");
-  demo->add_option("NAME", name, "Name of the demo (default: tshirt)");
+  demo->add_option("NAME", demo_name, "Name of the demo (default: tshirt)");
   demo->add_flag("--list", line.list, "List the demos");
   add_garment_options(*demo, line);
 
@@ -191,7 +181,48 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         ->add_option("--time-limit", line.time_limit_s,
                      "Seconds that dressing may take, up to the motion; then what there is is written; 0: any")
         ->check(CLI::Range(0.0, 1e9));
+  return {demo, dress, run, check, verify, preview, resume, untangle, bench};
+}
 
+// CLI::Range lets NaN pass.
+void require_finite(const CommandLine& line) {
+  for (const auto& [option, value] : {std::pair{"--resolution", line.resolution_cm},
+                                      {"--fps", line.fps},
+                                      {"--seconds", line.seconds},
+                                      {"--max-memory", line.limits.memory_mb},
+                                      {"--max-frames", line.limits.frames},
+                                      {"--max-hours", line.limits.hours}})
+    if (value && !std::isfinite(*value))
+      throw Error(ExitCode::usage, std::string(option) + ": expected a finite number");
+}
+
+void settle_bench(const CLI::App& bench, CommandLine& line) {
+  if (bench.get_subcommands().empty())
+    throw Error(ExitCode::usage, "bench: expected paper, scaling, stiffness, micro or torture");
+  line.inputs = {bench.get_subcommands().front()->get_name()};
+  if (line.sizes.empty() && line.inputs.front() == "scaling") line.sizes = {500, 899, 2602, 7359};
+  if (line.repeats == 0) line.repeats = line.inputs.front() == "micro" ? 9 : 1;
+  if (line.sizes.empty()) line.sizes = {2602};
+  if (line.limit_sizes.empty()) line.limit_sizes = {2602, 8800, 100000};
+}
+
+}  // namespace
+
+bool wants_json(int argc, const char* const* argv) {
+  return std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
+}
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+  CommandLine line;
+  line.words.assign(argv + std::min(argc, 1), argv + argc);
+  for (int i = 0; i < argc; ++i) line.typed += (i == 0 ? "" : " ") + std::string(i == 0 ? "toile" : argv[i]);
+
+  CLI::App app("Toile: sewing pattern and body in, clothing out.", "toile");
+  app.set_version_flag("--version", std::string(toile_version()));
+  app.require_subcommand(0, 1);
+  std::string name;
+
+  const Commands known = add_commands(app, line, name);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -209,31 +240,16 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         "a command is missing: demo, dress, run, check, verify, preview, resume, untangle or bench (toile --help)");
 
   const CLI::App* chosen = app.get_subcommands().front();
-  for (const auto& [option, value] : {std::pair{"--resolution", line.resolution_cm},
-                                      {"--fps", line.fps},
-                                      {"--seconds", line.seconds},
-                                      {"--max-memory", line.limits.memory_mb},
-                                      {"--max-frames", line.limits.frames},
-                                      {"--max-hours", line.limits.hours}})
-    if (value && !std::isfinite(*value))
-      throw Error(ExitCode::usage, std::string(option) + ": expected a finite number");  // Range lets NaN pass
+  require_finite(line);
   using Command = CommandLine::Command;
   const std::pair<const CLI::App*, Command> commands[] = {
-      {demo, Command::demo},     {dress, Command::dress},       {run, Command::run},
-      {check, Command::check},   {verify, Command::verify},     {preview, Command::preview},
-      {resume, Command::resume}, {untangle, Command::untangle}, {bench, Command::bench}};
+      {known.demo, Command::demo},     {known.dress, Command::dress},       {known.run, Command::run},
+      {known.check, Command::check},   {known.verify, Command::verify},     {known.preview, Command::preview},
+      {known.resume, Command::resume}, {known.untangle, Command::untangle}, {known.bench, Command::bench}};
   for (const auto& [command, value] : commands)
     if (command == chosen) line.command = value;
-  if (chosen == bench && bench->get_subcommands().empty())
-    throw Error(ExitCode::usage, "bench: expected paper, scaling, stiffness, micro or torture");
-  if (chosen == bench) {
-    line.inputs = {bench->get_subcommands().front()->get_name()};
-    if (line.sizes.empty() && line.inputs.front() == "scaling") line.sizes = {500, 899, 2602, 7359};
-    if (line.repeats == 0) line.repeats = line.inputs.front() == "micro" ? 9 : 1;
-    if (line.sizes.empty()) line.sizes = {2602};
-    if (line.limit_sizes.empty()) line.limit_sizes = {2602, 8800, 100000};
-  }
-  if (chosen == demo && !name.empty()) line.inputs = {name};
+  if (chosen == known.bench) settle_bench(*known.bench, line);
+  if (chosen == known.demo && !name.empty()) line.inputs = {name};
   return line;
 }
 

@@ -146,6 +146,22 @@ void refuse_inputs(const CommandLine& line) {
         throw IoError(printable(input), "is an input, which would be written over: name another file with --out");
 }
 
+// The cloth's file with the cloth as it is now; of the report what passes through what, as somebody will read it.
+std::string text_of(const ClothFile& cloth, const SolidMesh& solid, UntangleReport& report) {
+  Vec3s all = cloth.mesh.positions;
+  for (std::size_t k = 0; k < cloth.particles.size(); ++k)
+    all[static_cast<std::size_t>(cloth.particles[k])] = cloth.x[k];
+  const std::string text = with_positions(cloth.text, all, cloth.name);
+  const ObjMesh written = parse_obj(text, cloth.name);
+  report.cloth_crossings = static_cast<int>(find_cloth_crossings(written.triangles, written.positions).size());
+  report.body_crossings = 0;
+  if (!solid.triangles.empty())
+    report.body_crossings = static_cast<int>(
+        find_body_crossings(written.triangles, written.positions, solid.triangles, solid.positions).size());
+  report.resolved = report.cloth_crossings + report.body_crossings == 0;
+  return text;
+}
+
 }  // namespace
 
 ExitCode untangle_command(const CommandLine& line) {
@@ -168,19 +184,7 @@ ExitCode untangle_command(const CommandLine& line) {
       });
   progress.clear();
 
-  // What counts is the file as somebody will read it.
-  Vec3s all = cloth.mesh.positions;
-  for (std::size_t k = 0; k < cloth.particles.size(); ++k)
-    all[static_cast<std::size_t>(cloth.particles[k])] = cloth.x[k];
-  const std::string text = with_positions(cloth.text, all, cloth.name);
-  const ObjMesh written = parse_obj(text, cloth.name);
-  report.cloth_crossings = static_cast<int>(find_cloth_crossings(written.triangles, written.positions).size());
-  report.body_crossings = 0;
-  if (!solid.triangles.empty())
-    report.body_crossings = static_cast<int>(
-        find_body_crossings(written.triangles, written.positions, solid.triangles, solid.positions).size());
-  report.resolved = report.cloth_crossings + report.body_crossings == 0;
-
+  const std::string text = text_of(cloth, solid, report);
   const std::string out = out_path(line, report.resolved);
   make_directories(std::filesystem::path(out).parent_path().string());
   AtomicFile file(out);

@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 namespace {
@@ -29,7 +30,7 @@ int main(int argc, char** argv) {
   engine.put_on();
   engine.begin();
 
-  const std::string path = std::string(std::tmpnam(nullptr)) + ".json";
+  const std::string path = (std::filesystem::temp_directory_path() / "toile_library_cost.json").string();
   if (std::FILE* file = std::fopen(path.c_str(), "w")) {
     std::fputs(scene_text, file);
     std::fclose(file);

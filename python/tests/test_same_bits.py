@@ -13,17 +13,35 @@ twin = os.environ.get("TOILE_TWIN", "")
 program = os.environ.get("TOILE_PROGRAM", "")
 
 
-@pytest.mark.skipif(not twin, reason="TOILE_TWIN does not name the C++ program that does the same")
-def test_python_and_cpp_have_the_same_bits():
+def made():
     cloth = toile.Cloth.grid(width_m=0.32, height_m=0.32, edge_m=0.04).set_fabric("wool")
     cloth.place((0.01, 0.02, 0), rotation_deg=(-90, 0, 0))
-    sim = toile.Simulation(cloth, body=toile.Body.cylinder(radius_m=0.08, height_m=0.2).set_friction(0.2), threads=2)
-    sim.pin([0])
-    hand = sim.grab(7, (0.25, 0.25, 0.5))
-    for k in range(6):
+    return toile.Simulation(cloth, body=toile.Body.cylinder(radius_m=0.08, height_m=0.2).set_friction(0.2), threads=2)
+
+
+def pull(sim, hand, first, end):
+    for k in range(first, end):
         sim.drag(hand, (0.1, 0.05 + 0.01 * k, 0.1))
         assert sim.advance(1 / 30).ok
-    assert sim.state_hash == subprocess.run([twin], check=True, capture_output=True, text=True).stdout.strip()
+
+
+@pytest.mark.skipif(not twin, reason="TOILE_TWIN does not name the C++ program that does the same")
+def test_python_and_cpp_have_the_same_bits_and_take_each_others_states(tmp_path):
+    def by_cpp(*words):
+        return subprocess.run([twin, *words], check=True, capture_output=True, text=True, cwd=tmp_path).stdout.strip()
+
+    sim = made()
+    sim.pin([0])
+    hand = sim.grab(7, (0.25, 0.25, 0.5))
+    pull(sim, hand, 0, 3)
+    sim.state().save(tmp_path / "python.state")
+    pull(sim, hand, 3, 6)
+    assert sim.state_hash == by_cpp()
+    assert sim.state_hash == by_cpp("python.state")
+    other = made()
+    other.set_state(toile.State.load(tmp_path / "twin.state"))
+    pull(other, hand, 3, 6)
+    assert other.state_hash == sim.state_hash
 
 
 @pytest.mark.skipif(not program, reason="TOILE_PROGRAM does not name the program `toile`")

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace toile::internal {
@@ -28,19 +29,10 @@ struct Box {
 
 constexpr int samples = 16;  // of an edge, for middles, boxes and areas: to some per mille
 
-}  // namespace
+using Partners = std::map<Side, Partner>;
 
-Boundary find_boundary(const Pattern& pattern) {
-  Boundary boundary;
-  std::map<Side, Partner> partner;
-  DisjointSets sets(pattern.panels.size());
-  for (const Stitch& stitch : pattern.stitches) {
-    const Side a{stitch.a.panel, stitch.a.edge}, b{stitch.b.panel, stitch.b.edge};
-    partner[a] = {b, stitch.right_wrong};
-    partner[b] = {a, stitch.right_wrong};
-    sets.join(stitch.a.panel, stitch.b.panel);
-  }
-  const std::vector<Index> representative = sets.representatives();
+// Pieces that no stitch connects, into boundary.pieces.  Returns the piece of each panel.
+std::vector<Index> find_pieces(const Pattern& pattern, std::span<const Index> representative, Boundary& boundary) {
   std::vector<Index> piece(pattern.panels.size(), -1);
   std::vector<Box> boxes;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
@@ -79,46 +71,70 @@ Boundary find_boundary(const Pattern& pattern) {
     mine.high_m = boxes[k].high;
   }
 
+  return piece;
+}
+
+// The edges that are open from `side` on, as far as they go round.
+Opening walk_along(const Pattern& pattern, const Partners& partner, std::size_t edges, Side side,
+                   std::map<Side, char>& passed) {
+  Opening opening;
+  Box box;
+  bool forward = true;
+  while (passed.try_emplace(side, 1).second) {
+    const Panel& panel = pattern.panels[at(side.first)];
+    const PanelEdge& edge = panel.edges[at(side.second)];
+    const double length = edge_length_m(panel, edge);
+    opening.edges.push_back({side.first, side.second});
+    opening.girth_m += length;
+    Vec3 middle = Vec3::Zero();
+    const std::vector<Vec2> points = sample_edge(panel, edge, samples);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const Vec3 placed = panel.place(points[k]);
+      box.add(placed);
+      middle += (k == 0 || k + 1 == points.size() ? 0.5 : 1.0) / samples * placed;
+    }
+    opening.middle_m += length * middle;
+    const auto step = [&](const Side& from) {
+      const auto count = static_cast<Index>(pattern.panels[at(from.first)].edges.size());
+      return Side{from.first, (from.second + (forward ? 1 : count - 1)) % count};
+    };
+    side = step(side);
+    for (std::size_t crossed = 0; crossed <= edges; ++crossed) {
+      const auto found = partner.find(side);
+      if (found == partner.end()) break;
+      if (found->second.right_wrong) forward = !forward;
+      side = step(found->second.side);
+    }
+  }
+  if (opening.girth_m > 0) opening.middle_m /= opening.girth_m;
+  opening.low_m = box.low;
+  opening.high_m = box.high;
+  return opening;
+}
+
+}  // namespace
+
+Boundary find_boundary(const Pattern& pattern) {
+  Boundary boundary;
+  Partners partner;
+  DisjointSets sets(pattern.panels.size());
+  for (const Stitch& stitch : pattern.stitches) {
+    const Side a{stitch.a.panel, stitch.a.edge}, b{stitch.b.panel, stitch.b.edge};
+    partner[a] = {b, stitch.right_wrong};
+    partner[b] = {a, stitch.right_wrong};
+    sets.join(stitch.a.panel, stitch.b.panel);
+  }
+  const std::vector<Index> piece = find_pieces(pattern, sets.representatives(), boundary);
+
   std::map<Side, char> passed;
   std::size_t edges = 0;
   for (const Panel& panel : pattern.panels) edges += panel.edges.size();
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     for (std::size_t e = 0; e < pattern.panels[p].edges.size(); ++e) {
-      Side side{static_cast<Index>(p), static_cast<Index>(e)};
+      const Side side{static_cast<Index>(p), static_cast<Index>(e)};
       if (partner.contains(side) || passed.contains(side)) continue;
-      Opening opening;
+      Opening opening = walk_along(pattern, partner, edges, side, passed);
       opening.piece = piece[p];
-      Box box;
-      bool forward = true;
-      while (passed.try_emplace(side, 1).second) {
-        const Panel& panel = pattern.panels[at(side.first)];
-        const PanelEdge& edge = panel.edges[at(side.second)];
-        const double length = edge_length_m(panel, edge);
-        opening.edges.push_back({side.first, side.second});
-        opening.girth_m += length;
-        Vec3 middle = Vec3::Zero();
-        const std::vector<Vec2> points = sample_edge(panel, edge, samples);
-        for (std::size_t k = 0; k < points.size(); ++k) {
-          const Vec3 placed = panel.place(points[k]);
-          box.add(placed);
-          middle += (k == 0 || k + 1 == points.size() ? 0.5 : 1.0) / samples * placed;
-        }
-        opening.middle_m += length * middle;
-        const auto step = [&](const Side& from) {
-          const auto count = static_cast<Index>(pattern.panels[at(from.first)].edges.size());
-          return Side{from.first, (from.second + (forward ? 1 : count - 1)) % count};
-        };
-        side = step(side);
-        for (std::size_t crossed = 0; crossed <= edges; ++crossed) {
-          const auto found = partner.find(side);
-          if (found == partner.end()) break;
-          if (found->second.right_wrong) forward = !forward;
-          side = step(found->second.side);
-        }
-      }
-      if (opening.girth_m > 0) opening.middle_m /= opening.girth_m;
-      opening.low_m = box.low;
-      opening.high_m = box.high;
       boundary.openings.push_back(std::move(opening));
     }
   }
