@@ -3,10 +3,12 @@
 
 #include <toile/simulation.hpp>
 
+#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace toile::python {
 
@@ -68,10 +70,10 @@ void bind_reports(nb::module_& module) {
           "__init__", [](State* self, const nb::bytes& data) { new (self) State(text_of(data)); }, "data"_a)
       .def("to_bytes", &bytes_of, "What State() makes it of again.")
       .def_static(
-          "load", [](const std::string& path) { return State::load(path); }, "path"_a,
+          "load", [](const std::filesystem::path& path) { return State::load(path.string()); }, "path"_a,
           "Of a file that save() wrote.  IoError where it cannot be read.")
       .def(
-          "save", [](const State& self, const std::string& path) { self.save(path); }, "path"_a,
+          "save", [](const State& self, const std::filesystem::path& path) { self.save(path.string()); }, "path"_a,
           "IoError where it cannot be written.")
       .def("__eq__",
            [](const State& self, const nb::object& other) {
