@@ -5,7 +5,6 @@
 #include "body/motion.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace toile {
 namespace {
@@ -25,11 +24,6 @@ internal::SceneMotion motion_of(const std::string& given, double fps) {
     motion.fps = fps;
   }
   return motion;
-}
-
-void require_at_least_zero(const char* what, double value) {
-  if (!std::isfinite(value) || value < 0)
-    throw internal::InputError("", what, "a number that is not below zero", std::to_string(value));
 }
 
 }  // namespace
@@ -68,6 +62,7 @@ Body Body::from_file(const std::string& path, const BodyFileOptions& options) {
     parts->body.mesh = path;
     parts->body.measurements = options.measurements;
     parts->body.unit = static_cast<internal::LengthUnit>(options.unit);
+    require_above_zero("fps", options.fps);
     if (!options.motion.empty()) parts->body.motion = motion_of(options.motion, options.fps);
     return Body(std::move(parts));
   });
@@ -82,8 +77,7 @@ Body Body::from_frames(std::span<const Point> frames_m, std::size_t vertices, st
     if (vertices == 0 || frames_m.empty() || frames_m.size() % vertices != 0)
       throw internal::InputError("", "frames_m", "whole frames of " + std::to_string(vertices) + " vertices",
                                  std::to_string(frames_m.size()) + " points");
-    if (!std::isfinite(fps) || !(fps > 0))
-      throw internal::InputError("", "fps", "a number above zero", std::to_string(fps));
+    require_above_zero("fps", fps);
     auto arrays = std::make_shared<internal::SceneBodyArrays>();
     arrays->frames = engine_vectors(frames_m);
     arrays->vertices = vertices;
@@ -98,6 +92,9 @@ Body Body::from_frames(std::span<const Point> frames_m, std::size_t vertices, st
 
 Body Body::cylinder(const CylinderOptions& options) {
   return translated([&] {
+    require_above_zero("radius_m", options.radius_m);
+    require_above_zero("height_m", options.height_m);
+    require_finite("top_m", options.top_m);
     auto parts = std::make_unique<Parts>();
     parts->body.kind = internal::SceneBody::Kind::cylinder;
     parts->body.cylinder = {options.radius_m, options.height_m, engine_vector(options.top_m)};

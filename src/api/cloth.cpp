@@ -5,21 +5,10 @@
 #include "sim/cloth_arrays.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 namespace toile {
 namespace {
-
-void require_length(const char* what, double length_m) {
-  if (!std::isfinite(length_m) || !(length_m > 0))
-    throw internal::InputError("", what, "a length above zero", std::to_string(length_m));
-}
-
-void require_finite(const char* what, const Point& p) {
-  if (!std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); }))
-    throw internal::InputError("", what, "finite numbers", "infinity or not a number");
-}
 
 // Its own of this panel.
 internal::ScenePanel& panel_of(internal::SceneCloth& cloth, std::string_view name) {
@@ -47,7 +36,7 @@ Cloth::~Cloth() = default;
 
 Cloth Cloth::from_pattern(const std::string& path, const PatternOptions& options) {
   return translated([&] {
-    require_length("edge_m", options.edge_m);
+    require_above_zero("edge_m", options.edge_m);
     auto parts = std::make_unique<Parts>();
     parts->cloth.pattern = path;
     parts->cloth.resolution_m = options.edge_m;
@@ -70,9 +59,9 @@ Cloth Cloth::from_file(const std::string& path, const MeshFileOptions& options) 
 
 Cloth Cloth::grid(const GridOptions& options) {
   return translated([&] {
-    require_length("width_m", options.width_m);
-    require_length("height_m", options.height_m);
-    require_length("edge_m", options.edge_m);
+    require_above_zero("width_m", options.width_m);
+    require_above_zero("height_m", options.height_m);
+    require_above_zero("edge_m", options.edge_m);
     auto parts = std::make_unique<Parts>();
     parts->cloth.grid = internal::SceneGrid{options.width_m, options.height_m, options.edge_m};
     parts->cloth.name = "sheet";
@@ -120,9 +109,8 @@ Cloth& Cloth::set_panel_fabric(std::string_view panel, const Fabric& fabric) {
 
 Cloth& Cloth::set_panel_rest_stretch(std::string_view panel, double u, double v) {
   translated([&] {
-    for (const double b : {u, v})
-      if (!std::isfinite(b) || !(b > 0))
-        throw internal::InputError("", "rest stretch", "a factor above zero", std::to_string(b));
+    require_above_zero("u", u);
+    require_above_zero("v", v);
   });
   internal::ScenePanel& own = panel_of(parts_->cloth, panel);
   own.rest_stretch_u = u;

@@ -1,6 +1,24 @@
 #include "api/parts.hpp"
 
+#include <cmath>
+#include <string>
+
 namespace toile {
+
+void require_finite(const char* what, const Point& p) {
+  for (const double x : p)
+    if (!std::isfinite(x)) throw internal::InputError("", what, "finite numbers", std::to_string(x));
+}
+
+void require_above_zero(const char* what, double value) {
+  if (!std::isfinite(value) || !(value > 0))
+    throw internal::InputError("", what, "a finite number above zero", std::to_string(value));
+}
+
+void require_at_least_zero(const char* what, double value) {
+  if (!std::isfinite(value) || value < 0)
+    throw internal::InputError("", what, "a finite number that is not below zero", std::to_string(value));
+}
 
 void throw_translated() {
   try {

@@ -11,11 +11,6 @@ namespace {
 // Of an advance(): the last step ends where the way does, to the bit, although its time is a sum.
 constexpr double arrived_share = 1 - 1e-9;
 
-void require_finite(const char* what, const Point& p) {
-  if (!std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); }))
-    throw internal::InputError("", what, "finite numbers", "infinity or not a number");
-}
-
 void require_particle(std::int32_t particle, std::size_t count) {
   if (particle < 0 || static_cast<std::size_t>(particle) >= count)
     throw internal::InputError("", "particles", "numbers from 0 to " + std::to_string(count - 1),
@@ -164,8 +159,10 @@ int Simulation::grab(const Grip& grip) {
     for (const double b : grip.barycentric) sum += b;
     if (!(std::abs(sum - 1) < 1e-6))
       throw internal::InputError("", "barycentric", "three shares that add up to 1", std::to_string(sum));
-    if (!(grip.stiffness_N_per_m > 0) || !(grip.damping_N_s_per_m >= 0) || !(grip.max_force_N > 0))
-      throw internal::InputError("", "grip", "a stiffness and a force above zero, and no damping below", "others");
+    require_above_zero("stiffness_N_per_m", grip.stiffness_N_per_m);
+    require_at_least_zero("damping_N_s_per_m", grip.damping_N_s_per_m);
+    if (!(grip.max_force_N > 0))  // it may be infinite
+      throw internal::InputError("", "max_force_N", "a force above zero", std::to_string(grip.max_force_N));
     Implementation::Hand hand;
     hand.number = own.interaction.hands_ever++;
     hand.particle = triangles[static_cast<std::size_t>(grip.face)];

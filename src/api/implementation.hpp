@@ -77,6 +77,16 @@ struct Simulation::Implementation : internal::SimulationObserver {
   // Of one that is not made: as it was when this was written.  Throws internal::InputError.
   void take_up(std::string_view bytes);
   void make_engine();
+  // A call that throws leaves everything as it was made.
+  template <class Work>
+  void unless_it_throws(const Work& work) {
+    try {
+      recipe->in_threads(work);
+    } catch (...) {
+      make();
+      throw;
+    }
+  }
   void begin();  // what is on hangs from now on
   void begins(const internal::OutfitRun& run);
   // Throws unless everything is on.

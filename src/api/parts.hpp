@@ -34,6 +34,11 @@ decltype(auto) translated(Work&& work) {
   }
 }
 
+// Of an argument; throw internal::InputError naming it.
+void require_finite(const char* what, const Point& p);
+void require_above_zero(const char* what, double value);     // and finite
+void require_at_least_zero(const char* what, double value);  // likewise
+
 internal::Fabric engine_fabric(const Fabric& fabric);
 
 inline internal::Vec3 engine_vector(const Point& p) { return {p[0], p[1], p[2]}; }

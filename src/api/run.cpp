@@ -8,7 +8,6 @@
 #include "sim/recorder.hpp"
 #include "sim/simulate.hpp"
 
-#include <cmath>
 #include <optional>
 
 namespace toile {
@@ -54,8 +53,7 @@ RunWriter::Parts::Parts(const std::string& directory, const Simulation& simulati
 
 RunWriter::RunWriter(const std::string& folder, const Simulation& simulation, double fps)
     : parts_(translated([&] {
-        if (!std::isfinite(fps) || !(fps > 0))
-          throw internal::InputError("", "fps", "a number above zero", std::to_string(fps));
+        require_above_zero("fps", fps);
         return std::make_unique<Parts>(folder, simulation, fps);
       })) {}
 RunWriter::RunWriter(RunWriter&&) noexcept = default;

@@ -2,6 +2,7 @@
 
 #include "api/implementation.hpp"
 #include "io/file.hpp"
+#include "sim/budget.hpp"
 #include "sim/recorder.hpp"
 #include "sim/rest_watch.hpp"
 #include "verify/verdict.hpp"
@@ -34,10 +35,9 @@ internal::Scene scene_of(std::span<const Cloth> cloths, const Body& body, const 
   scene.air.wind_m_per_s = engine_vector(options.wind_m_per_s);
   scene.air.density_kg_per_m3 = options.air_density_kg_per_m3;
   scene.until_still = true;
-  if (!std::isfinite(scene.gravity_m_per_s2.sum()) || !std::isfinite(scene.air.wind_m_per_s.sum()) ||
-      !std::isfinite(scene.air.density_kg_per_m3) || scene.air.density_kg_per_m3 < 0)
-    throw internal::InputError("", "gravity, wind and air density", "finite numbers, the density not below zero",
-                               "something else");
+  require_finite("gravity_m_per_s2", options.gravity_m_per_s2);
+  require_finite("wind_m_per_s", options.wind_m_per_s);
+  require_at_least_zero("air_density_kg_per_m3", options.air_density_kg_per_m3);
   return scene;
 }
 
@@ -45,6 +45,7 @@ internal::Scene scene_of(std::span<const Cloth> cloths, const Body& body, const 
 
 Simulation::Implementation::Recipe::Recipe(internal::Scene made_scene, SimulationOptions made_options)
     : options(std::move(made_options)), scene(std::move(made_scene)) {
+  internal::require_budget(scene, internal::read_text_file, {});
   internal::Hash hash;
   internal::add_to_hash(scene, hash);
   in_threads([&] { loaded = internal::load_scene(scene, internal::read_text_file, hash); });
@@ -135,10 +136,10 @@ void Simulation::Implementation::judge(DressReport& to) {
 
 namespace {
 
-template <class Implementation = Simulation::Implementation>
-std::unique_ptr<Implementation> make_simulation(internal::Scene scene, const SimulationOptions& options) {
-  auto made = std::make_unique<Implementation>(
-      std::make_shared<const typename Implementation::Recipe>(std::move(scene), options));
+std::unique_ptr<Simulation::Implementation> make_simulation(internal::Scene scene, const SimulationOptions& options) {
+  using Implementation = Simulation::Implementation;
+  auto made =
+      std::make_unique<Implementation>(std::make_shared<const Implementation::Recipe>(std::move(scene), options));
   made->make();
   return made;
 }
@@ -165,19 +166,19 @@ Simulation Simulation::from_scene(const std::string& path, const SimulationOptio
 DressReport Simulation::dress(double longest_s, double time_limit_s) {
   return translated([&] {
     Implementation& own = *implementation_;
-    if (!std::isfinite(longest_s) || !(longest_s > 0) || !std::isfinite(time_limit_s) || time_limit_s < 0)
-      throw internal::InputError("", "longest_s and time_limit_s", "times above zero", "something else");
+    require_above_zero("longest_s", longest_s);
+    require_at_least_zero("time_limit_s", time_limit_s);
     const bool sewn = own.recipe->scene.cloth.front().is_sewn();
     if (own.begun && (sewn || own.engine->live().time_s() > 0))
       misuse("dress: it is on already, and time has gone on; reset() takes it off");
     own.engine->limit_dressing(longest_s, time_limit_s);
-    bool good = true;
-    own.recipe->in_threads([&] {
+    own.unless_it_throws([&] {
+      bool good = true;
       if (!own.begun) {
         good = own.engine->put_on();
         if (good) own.begin();
       }
-      if (good && !own.engine->stopped_short()) good = own.engine->drape();
+      if (good && !own.engine->stopped_short()) own.engine->drape();
       own.engine->judge_worn();
     });
     own.update_body();
@@ -193,7 +194,7 @@ DressReport Simulation::run() {
     if (own.begun && own.engine->live().time_s() > 0) misuse("run: time has gone on already; reset() takes it back");
     own.make_engine();
     own.flat = internal::outfit_of_shapes(own.recipe->loaded.cloth);
-    own.recipe->in_threads([&] { own.engine->run(); });
+    own.unless_it_throws([&] { own.engine->run(); });
     if (own.engine->has_begun()) {
       own.begins(own.engine->live());
       own.interaction.moves = own.engine->report().motion_first_frame >= 0;

@@ -72,8 +72,11 @@ class Simulation {
   void limit_dressing(double longest_s, double time_limit_s);
   // Of a drape that is over: is it worn, as far as that can be told without measuring?
   void judge_worn();
-  // After a stop: what comes is stopped only if it is asked for again.
-  void go_on() { user_stopped_ = false; }
+  // After a stop, or once dressing is over: what comes is stopped only if it is asked for again.
+  void go_on() {
+    user_stopped_ = false;
+    options_.time_limit_s = 0;
+  }
   // Until it is at rest, where that is awaited, or its time is over.  False: it ended for a bad reason, which failure() has.
   bool drape();
   // From here on frames are the caller's.

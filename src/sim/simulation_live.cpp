@@ -29,7 +29,8 @@ void Simulation::begin(const std::function<void(OutfitRun&)>& prepare) {
   report_.ended = "time";
   end_startup();
   if (resumed) {
-    if (place_.phase == RunPhase::drape) restore(*run_);
+    // In motion, run() restores once the body moves; who prepares has seen to that.
+    if (prepare || place_.phase == RunPhase::drape) restore(*run_);
     return;
   }
   place_ = {RunPhase::drape, scene_.cloth.size() - 1, 0};

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <numbers>
 #include <thread>
 
@@ -139,6 +140,18 @@ TEST(Simulation, LiesOnABodyThatTheCallerLeads) {
   const Crossings crossings = sim.crossings();
   EXPECT_EQ(crossings.cloth_body_edges, 0);
   EXPECT_EQ(crossings.cloth_cloth_edges, 0);
+}
+
+TEST(Simulation, TheTimeThatDressingMayTakeIsForDressingAlone) {
+  Simulation sim(sheet(0.16), block());
+  const DressReport cut = sim.dress(4, 1e-9);
+  EXPECT_EQ(cut.ended, "time_limit");
+  EXPECT_FALSE(cut.ok());
+  for (int k = 0; k < 3; ++k) {
+    const StepReport step = sim.advance(1.0 / 30);
+    EXPECT_TRUE(step.ok()) << step.explain();
+  }
+  EXPECT_GT(sim.time_s(), 0.09);
 }
 
 TEST(Simulation, FollowsABodyOfFrames) {
@@ -343,7 +356,22 @@ TEST(Simulation, SaysWhatCannotBeMeant) {
   Arrays open = test::box({0, 0, 0}, 1);
   open.faces.pop_back();
   EXPECT_THROW(Simulation(sheet(2), Body::from_arrays(open.vertices_m, open.faces)), InputError);
+  EXPECT_NE(message_of<InputError>([] { Body::cylinder({.radius_m = -1}); }).find("radius_m"), std::string::npos);
+  EXPECT_NE(message_of<InputError>([] {
+              Simulation(sheet(1), Body::none(), {.wind_m_per_s = {0, std::numeric_limits<double>::infinity(), 0}});
+            }).find("wind_m_per_s"),
+            std::string::npos);
+  try {
+    Simulation(Cloth::grid({.width_m = 30, .height_m = 30, .edge_m = 5e-4}));
+    ADD_FAILURE() << "eight thousand million triangles";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::resource_limit) << error.what();
+  }
   Simulation sim(sheet(1));
+  EXPECT_NE(message_of<InputError>([&] {
+              sim.grab({.stiffness_N_per_m = std::numeric_limits<double>::infinity()});
+            }).find("stiffness_N_per_m"),
+            std::string::npos);
   EXPECT_THROW(sim.advance(0), InputError);
   EXPECT_THROW(sim.advance(std::nan("")), InputError);
   EXPECT_THROW(sim.pin(std::vector<std::int32_t>{-1}), InputError);
