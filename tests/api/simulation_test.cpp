@@ -119,6 +119,9 @@ TEST(Simulation, AHandPullsAndLetsGo) {
     ASSERT_TRUE(sim.advance(1.0 / 30).ok());
   }
   EXPECT_NEAR(sim.positions_m()[static_cast<std::size_t>(sim.faces()[100][0])][1], from[1] + 0.3, 0.05);
+  for (int k = 0; k < 30; ++k) ASSERT_TRUE(sim.advance(1.0 / 30).ok());
+  EXPECT_NEAR(sim.positions_m()[static_cast<std::size_t>(sim.faces()[100][0])][1], from[1] + 0.3, 5e-3)
+      << "a hand that is told nothing rests where it is";
   sim.let_go(hand);
   EXPECT_NE(message_of<InputError>([&] { sim.drag(hand, from); }).find("hand"), std::string::npos);
   ASSERT_TRUE(sim.advance(1.0 / 30).ok());
