@@ -23,8 +23,6 @@ constexpr double h_s = 1.0 / 60;
 constexpr int pcg_iterations = 50;
 constexpr double query_range_m = 5e-3, ccd_separation_m = 1e-4;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 class Stopwatches {
  public:
   Stopwatches(BenchRuns& runs, std::vector<BenchRow>& rows) : runs_(&runs), rows_(&rows) {}

@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::size_t grain = 512;  // triangles per block of work
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 }  // namespace
 
 Air::Air(const ClothModel& model, const BlockPattern& pattern)

@@ -21,8 +21,6 @@ constexpr double least_whole = 0.5;           // of the vertices, in the piece t
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 class Surface {
  public:
   Surface(std::span<const Vec3> x, std::span<const Triangle> triangles)

@@ -18,8 +18,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 double signed_volume(const SolidMesh& solid) {
   double six = 0;
   for (const auto& [a, b, c] : solid.triangles)

@@ -20,8 +20,6 @@ constexpr double least_area_m2 = 1e-9;                                          
 using Matrix = Eigen::SparseMatrix<double>;
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 double cotangent(const Vec3& apex, const Vec3& a, const Vec3& b) {
   const Vec3 p = a - apex, q = b - apex;
   const double area = p.cross(q).norm();

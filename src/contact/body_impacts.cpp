@@ -17,8 +17,6 @@ using Mover = BodyImpactWorkspace::Mover;
 constexpr double separation_share = 0.1;  // of r: the largest xi
 constexpr std::size_t grain = 512;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 template <class Triangles>
 void move_triangles(const Triangles& triangles, std::span<const Vec3> start, std::span<const Vec3> end,
                     std::vector<Mover>& movers) {

@@ -18,8 +18,6 @@ namespace {
 constexpr std::size_t grain = 4096;
 constexpr int least_exponent = -960;  // of a coordinate; 2^(whole_bits + 960) is still a double
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 void check_finite(std::span<const Vec3> x) {
   for (std::size_t i = 0; i < x.size(); ++i)
     if (!x[i].allFinite())

@@ -18,8 +18,6 @@ constexpr double floor_share = 0.999;     // of d_0, where that is not above it
 constexpr double no_floor_m = 1e-7;       // nothing that begins so near is a gap of ours
 constexpr double no_gap_m = 1e-12;        // pairs that coincide have no side to be kept on
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 std::array<Vec3, 4> gather(const std::array<Index, 4>& particle, std::span<const Vec3> x) {
   return {x[at(particle[0])], x[at(particle[1])], x[at(particle[2])], x[at(particle[3])]};
 }

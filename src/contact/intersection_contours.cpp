@@ -8,8 +8,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // A segment's pair of triangles (smaller, larger) and one crossing at its end.
 struct SegmentEnd {
   std::array<Index, 2> pair;

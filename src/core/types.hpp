@@ -12,6 +12,8 @@
 namespace toile::internal {
 
 using Index = std::int32_t;  // a particle, triangle, edge ...; -1 where documented means "none"
+// As the containers of the standard library want it.
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;

@@ -10,8 +10,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 using Side = std::pair<Index, Index>;  // panel, edge
 
 struct Partner {

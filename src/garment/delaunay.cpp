@@ -12,7 +12,6 @@ namespace toile::internal {
 
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 std::size_t next(std::size_t k) { return k == 2 ? 0 : k + 1; }
 std::size_t previous(std::size_t k) { return k == 0 ? 2 : k - 1; }
 

@@ -28,8 +28,6 @@ constexpr double arc_share =
     0.85;  // a notch turns by half of what its three points are apart about their centre, an arc of seven edges by 6/7
 constexpr int samples = 2000;  // of the line on the sphere: no edge gets longer by more than 1e-4
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 struct Ring {
   Index panel = -1;
   std::vector<Index> particles, inner;  // `inner`: along the side nearest to the centre

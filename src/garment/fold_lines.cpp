@@ -11,8 +11,6 @@ namespace {
 
 using Ring = std::vector<Index>;  // a piece's outline, as numbers of points
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 double signed_area(const Ring& ring, const std::vector<Vec2>& points) {
   double twice = 0;
   for (std::size_t k = 0; k < ring.size(); ++k) {

@@ -20,8 +20,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 std::string side_name(const Pattern& pattern, const StitchSide& side) {
   const Panel& panel = pattern.panels[at(side.panel)];
   return printable(panel.name) + "." + std::to_string(panel.file_number(side.edge));

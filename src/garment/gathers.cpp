@@ -15,8 +15,6 @@ namespace {
 constexpr double least_area = 0.02;
 constexpr double fine_edge_m = 0.01;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 using Pair = std::pair<Index, Index>;  // of particles, the smaller first
 
 struct Piece {  // of a gathered seam, in the drawing

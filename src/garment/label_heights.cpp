@@ -8,8 +8,6 @@ namespace {
 
 constexpr double pull_N_per_m = 20, give_m = 0.02, damping_s = 0.02;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 }  // namespace
 
 LabelSprings::LabelSprings(const GarmentMesh& garment, std::span<const LabelHeight> heights) {

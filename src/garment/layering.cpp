@@ -15,8 +15,6 @@ namespace {
 constexpr double parallel = 0.98;  // cosine between normals of panels that can cover each other: 11 degrees
 constexpr double beside_m = 1e-3;  // panels that share less than this, edge along edge, do not cover each other
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 struct Sheet {
   std::vector<Triangle> triangles;
   std::vector<Index> particles;

@@ -21,8 +21,6 @@ namespace {
 // A round mends one thing, and its time goes with the number of edges; a file with more faults is told what it was until there.
 constexpr std::size_t most_edge_rounds = 200'000, least_rounds = 5, most_rounds = 200;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Of a problem: what it is called when the numbers in the file may have moved.
 using Kind = std::pair<std::string_view, std::string>;
 Kind kind_of(const LintFinding& finding, const Pattern& pattern) {

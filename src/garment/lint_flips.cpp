@@ -27,8 +27,6 @@ constexpr double inward = 0.25;          // out above looks inward
 constexpr double clearly_nearer = 1.15;  // seams as placed / seams turned
 constexpr int least_seams = 2;           // to other panels: one seam alone does not say how a panel lies
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 struct Fit {
   int seams = 0, twisted = 0;
   double as_placed_m = 0, other_way_m = 0;

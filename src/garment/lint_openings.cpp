@@ -24,8 +24,6 @@ constexpr double trunk_area_m2 = 0.3;
 // An opening lies around the axis of the garment when its middle is this near to it, as a part of its width: a leg's is half a width away.
 constexpr double around_axis = 0.25, at_axis = 0.75;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 bool has_label(const Pattern& pattern, const Opening& opening, std::string_view label) {
   return std::any_of(opening.edges.begin(), opening.edges.end(),
                      [&](const StitchSide& side) { return pattern.panels[at(side.panel)].label == label; });

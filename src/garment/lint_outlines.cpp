@@ -17,8 +17,6 @@ constexpr double gap_m = 0.002, gap_of_outline = 0.01, gap_of_edge = 0.5;
 // A choice is taken when what it makes of the seams is this much better than the next.
 constexpr double clearly = 1.2;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 class OutlineLint {
  public:
   OutlineLint(LintContext& context, Index index)

@@ -27,8 +27,6 @@ constexpr double mirror_near_m = 0.03, mirror_reach_m = 0.15;
 constexpr std::size_t most_turned = 500;  // stitches, each turned in turn: the time goes with the square
 constexpr double far_m = 2;               // between ends of a seam: more than a person is tall
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Letters to be put in, left out or changed between two names.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);

@@ -29,8 +29,6 @@ constexpr double neck_height = 0.85;   // of the height: top of a neck opening
 // What a number may have been meant in, as multiples of the length read: cm for inches, m for cm, mm for cm ...
 constexpr std::array<double, 6> factors{2.54, 1 / 2.54, 10, 0.1, 100, 0.01};
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // At most three digits behind the point, and no zeros at the end.
 std::string number(double value) {
   std::string text = fixed_text(value, 3);

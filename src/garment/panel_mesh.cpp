@@ -14,8 +14,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 double signed_area(std::span<const Vec2> outline) {
   double twice = 0;
   for (std::size_t i = 0; i < outline.size(); ++i) {

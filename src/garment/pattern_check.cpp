@@ -25,7 +25,6 @@ namespace {
 
 using Part = PatternFault::Part;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 bool within(Index i, std::size_t size) { return i >= 0 && at(i) < size; }
 
 std::string number_text(double value) {

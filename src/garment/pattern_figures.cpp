@@ -18,8 +18,6 @@ constexpr double height_agrees_m = 0.025;
 // Cloth is cut to the waist or wider: 0.97 of it is the least of those 60.
 constexpr double waist_agrees = 0.93;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 template <class Labels>
 bool is_among(std::string_view label, const Labels& labels) {
   return std::find(std::begin(labels), std::end(labels), label) != std::end(labels);

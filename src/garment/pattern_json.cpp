@@ -24,8 +24,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // The file's name without folder and ending; a file called plainly "specification" has its name from the folder.
 std::string pattern_name(std::string_view path) {
   const auto last_part = [](std::string_view p) {

@@ -12,8 +12,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 double& number_of(JsonValue& value) {
   if (value.number() == nullptr) value.value = 0.0;
   return std::get<double>(value.value);

@@ -16,8 +16,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 constexpr std::string_view mark_colour = "#d00000", note_colour = "#3060c0", line_colour = "#303030",
                            text_colour = "#606060";
 constexpr double usual_cm = 70;  // a panel's height for which texts are made; of larger ones they grow with it

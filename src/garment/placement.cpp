@@ -17,8 +17,6 @@ constexpr double lowest_m = -0.12, highest_m = 0.16, step_m = 0.01;  // vertical
 constexpr double depth_m = 0.04, depth_step_m = 0.02;                // forwards and backwards
 constexpr double farthest_out_m = 0.1;                               // of a panel on its own
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 bool crosses(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 n = (b - a).cross(c - a), d = q - p;
   const double from = n.dot(p - a), to = n.dot(q - a);

@@ -14,8 +14,6 @@ namespace {
 
 constexpr double half_laid_rad = 85.0 / 180 * std::numbers::pi;  // layers lie 10 degrees apart
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 bool same(const StitchSide& a, const StitchSide& b) { return a.panel == b.panel && a.edge == b.edge; }
 
 const PanelEdge& edge_of(const Pattern& pattern, const StitchSide& side) {

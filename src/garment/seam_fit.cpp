@@ -3,12 +3,6 @@
 #include "garment/pattern_check.hpp"
 
 namespace toile::internal {
-namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 std::optional<SeamEnds> seam_ends(const Pattern& pattern, const Stitch& stitch) {
   if (is_dart(pattern, stitch)) return std::nullopt;
   const Panel &panel_a = pattern.panels[at(stitch.a.panel)], &panel_b = pattern.panels[at(stitch.b.panel)];

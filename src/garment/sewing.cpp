@@ -16,8 +16,6 @@ constexpr double thinning_per_frame = 0.95;
 constexpr double least_thickness = 0.1, thickness_growth = 1.1;  // per frame of the drape
 constexpr double coincident_m = 1e-7;  // below it the direction of a pair means nothing: its spring is isotropic
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // [particle] mass-weighted mean over the class that `merged` names, at the class's own particle.
 std::vector<Vec3> class_means(std::span<const Index> merged, std::span<const double> mass_kg, std::span<const Vec3> a) {
   std::vector<Vec3> sum(a.size(), Vec3::Zero());

@@ -11,8 +11,6 @@ namespace {
 
 constexpr double shoulder_from = 0.6, shoulder_to = 1;  // of the way from the body's middle to an arm's root
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 Vec2 frontal(const Vec3& p) { return {p.x(), p.y()}; }
 
 // [panel] middle of its particles.

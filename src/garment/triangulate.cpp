@@ -20,8 +20,6 @@ namespace {
 constexpr double margin_ratio = 0.6;  // lattice points keep this share of an edge from the outline
 constexpr int smoothing_sweeps = 6;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Inserts the lattice row by row.  The walk to a point starts at its neighbour in the row or, behind a gap, at the
 // nearest point of the row before: the way there seldom leaves the outline, and where it does the search of all faces
 // is right.

@@ -18,8 +18,6 @@ constexpr double longest_ratio = 1.35;  // of the target edge: longer ones lower
 constexpr double least_gain = 1e-4;     // in quality; below it a change is not worth keeping
 constexpr int rounds = 12;  // ordinary panels need two or three; a very fine side beside a coarse one uses them all
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 struct Plane {  // a point or vector in grid steps, with fractions
   double x = 0, y = 0;
 };

@@ -16,8 +16,6 @@ namespace {
 
 constexpr double reach_m = 16.0;  // the farthest a point may be from the centre, per axis: 2^24 grid steps
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 std::string point_name(Index i) { return "point " + std::to_string(i); }
 
 // True when the closed segments ab and cd have a point in common.

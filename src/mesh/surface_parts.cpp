@@ -8,12 +8,6 @@
 #include <utility>
 
 namespace toile::internal {
-namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 SurfaceParts surface_parts(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
   DisjointSets sets(positions.size());
   for (const Triangle& t : triangles) {

@@ -5,8 +5,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // A weld joins particles that are apart now: a triangle may lose a corner to it, an edge may get a third triangle.
 void check_weld(const std::string& where, const GarmentMesh& garment) {
   const auto& triangles = garment.mesh.triangles;

@@ -12,8 +12,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Below this share of a right angle's the vertical says nothing about a plane.
 constexpr double level = 1e-3;
 

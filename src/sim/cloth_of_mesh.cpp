@@ -15,8 +15,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // A drawing in metres has the surface's area, but for what ease and gathers take; one of a texture is off by the size of the garment.
 constexpr double metric_ratio = 1.5;
 // Of a triangle's longer sides: below, it has no area in the drawing.

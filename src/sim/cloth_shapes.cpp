@@ -17,8 +17,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // A rectangle by its drawing: `where(x, y)` places a point, and `uv(x, y)` is its grain.
 // `joined`: the side at the largest x is the one at x = 0.
 struct Drawing {

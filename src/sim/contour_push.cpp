@@ -14,8 +14,6 @@ constexpr double push_share = 0.6;    // of the mean edge
 constexpr double least_sweep = 1e-3;  // of it: a sweep that hardly takes the contour along is no cheaper than that
 constexpr double least_sine = 0.1;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 std::vector<double> particle_areas(std::span<const Triangle> triangles, std::span<const Vec3> x) {
   std::vector<double> area(x.size(), 0);
   for (const Triangle& t : triangles) {

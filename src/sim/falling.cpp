@@ -14,8 +14,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Calls work(part, first particle).
 template <class Work>
 void for_parts(std::span<const OutfitPart> parts, const Work& work) {

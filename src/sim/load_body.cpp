@@ -21,8 +21,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 BodyMovement movement_of(BodyMotion motion, std::string name, Hash& inputs) {
   motion.add_to(inputs);
   const double duration_s = motion.duration_s();

@@ -7,8 +7,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Every triangle is cut as it is: rest lengths are those of x.  The threads of neighbours do not line up, which is why the
 // fabric is the same both ways.
 ClothMesh cut_as_it_is(std::span<const Triangle> triangles, std::span<const Vec3> x) {

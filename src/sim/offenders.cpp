@@ -9,8 +9,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Copies triangles with the vertices that they use.
 class Copy {
  public:

@@ -14,8 +14,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 bool is_set(const Vec3& v) { return !v.isZero(0); }
 
 Index nearest_particle(std::span<const Vec3> x, const Vec3& p) {

@@ -25,8 +25,6 @@ constexpr double farthest_drawing_m =
     0.02;  // a point of the drawing may lie outside the other mesh by a curve's sagitta
 constexpr double farthest_body_m = 1e-3;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 Vec3 flat(const Vec2& p) { return {p.x(), p.y(), 0}; }
 
 // The triangles of one panel of the run, found by a point of the drawing.

@@ -12,8 +12,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 bool is_closed(std::span<const Vec3> x, std::span<const Triangle> triangles) {
   try {
     check_closed("body", x, triangles);

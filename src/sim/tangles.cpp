@@ -17,8 +17,6 @@ constexpr double moves_in_s = 1.0 / 30;  // what it is to be moved: it goes no f
 constexpr int patience = 20;             // looks without progress until contours are pushed another way
 constexpr int ways = 3;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 }  // namespace
 
 Tangles::Tangles(const Topology& topology, std::span<const Triangle> triangles)

@@ -37,8 +37,6 @@ constexpr int most_settling = 30, most_halved = 3;
 constexpr double thin = 0.1, thicker = 1.3;  // share of the thickness once nothing crosses, and its growth per step
 constexpr double settled_m = 0.05 * edge_m;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 Fabric fabric() {
   Fabric f;
   f.stretch_u_N_per_m = f.stretch_v_N_per_m = 3000;

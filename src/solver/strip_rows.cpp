@@ -6,12 +6,6 @@
 #include <algorithm>
 
 namespace toile::internal {
-namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 Index StripRows::time(Index place) const {
   return place - *(std::upper_bound(begin_.begin(), begin_.end(), place) - 1);
 }

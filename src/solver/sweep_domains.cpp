@@ -8,8 +8,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Two for up to 16,000 particles, then more; below a thousand particles waiting costs more than is gained.  Few enough that a band does not
 // reach over most of a strip: what it couples would be of one epoch.
 std::size_t wanted_domains(const BlockPattern& pattern) {

@@ -26,8 +26,6 @@ constexpr double look_back = -0.9;       // cosine between normals of faces that
 constexpr double least_sine2 = 0.1;      // between two faces at the start of a step it is 0.19 at least
 constexpr double over = 0.87;            // cosine between a face's normal and the way from it to what lies over it
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Of a force lambda n + mu m + what leads along the crease: lambda and mu.
 std::array<double, 2> along_normals(const Vec3& force, const Vec3& n, const Vec3& m) {
   const double c = n.dot(m), f_n = n.dot(force), f_m = m.dot(force), s2 = std::max(1 - c * c, least_sine2);

@@ -27,8 +27,6 @@ constexpr double at_rest = 0.04;  // of r: way of a pair in a step up to which i
 constexpr double same_side =
     0.7;  // cosine between the normals of a contact before and after its vertex came to another face
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // The vertices whose contact this is; -1: none.  Edges that pass over edges are other contacts all the time.
 std::array<Index, 2> vertices_of(ContactKind kind, bool body, const std::array<Index, 5>& feature) {
   if (body || kind == ContactKind::edge_edge) return {-1, -1};

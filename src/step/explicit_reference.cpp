@@ -8,8 +8,6 @@ namespace {
 
 constexpr int power_iterations = 200;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // A start without symmetry: the fractional parts of multiples of the golden ratio.
 Vec3s rough(std::size_t n) {
   Vec3s u(n);

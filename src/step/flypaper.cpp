@@ -15,8 +15,6 @@ constexpr double room_above = 0.5, room_again = 0.6;  // r
 constexpr double closes_by = 1e-3;                    // r per step: less is rounding, or a narrow place that turns
 constexpr std::size_t grain = 256;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 }  // namespace
 
 Flypaper::Flypaper(const BodySurface* body, std::size_t particles, double offset_m)

@@ -13,8 +13,6 @@ namespace {
 constexpr double rest_share = 0.45;      // of the shortest rest edge: pairs that are neighbours at rest do not repel
 constexpr double neighbour_share = 1.5;  // of the thickness: ways along edges are up to 15 % longer than straight ones
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Where the first feature of a pair ends among its particles.
 std::size_t first_feature(ContactKind kind) { return kind == ContactKind::edge_edge ? 2 : 1; }
 

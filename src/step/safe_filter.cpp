@@ -14,8 +14,6 @@ constexpr double cut_share = 0.9;      // of the earliest impact
 constexpr int shrinking_growths = 3;   // after these a zone's relative motion is stopped
 constexpr int most_growths = 50;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Of the impact's particles, 1/kg: 0 for the body's, and unless `pinched` is empty for all but what is pinched with room.
 std::array<double, 4> inverse_masses(const Impact& impact, std::span<const double> inverse_mass,
                                      std::span<const Pinched> pinched) {

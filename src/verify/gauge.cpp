@@ -12,8 +12,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 using Cell = std::tuple<Index, long, long>;  // panel, column, row
 
 // Where the plane meets a triangle: at two of its edges, as shares from the smaller particle to the larger.

@@ -7,8 +7,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 std::optional<ClosedSurface> surface_of(const std::vector<Triangle>& triangles, std::span<const Vec3> x) {
   if (triangles.empty()) return std::nullopt;
   return ClosedSurface(triangles, x);

@@ -16,8 +16,6 @@ namespace {
 constexpr double opposite = -0.5;  // n . n'
 constexpr double just_outside_m = 1e-5;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 Vec3 unit_normal(const Triangle& t, std::span<const Vec3> x) {
   const Vec3 n = (x[at(t[1])] - x[at(t[0])]).cross(x[at(t[2])] - x[at(t[0])]);
   const double length = n.norm();

@@ -14,8 +14,6 @@
 
 namespace toile::internal::test {
 
-inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 inline std::size_t edge_count(std::span<const Triangle> triangles) {
   std::set<std::pair<Index, Index>> edges;
   for (const Triangle& t : triangles)

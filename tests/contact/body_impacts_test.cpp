@@ -18,8 +18,6 @@ using test::Random;
 
 constexpr double r_m = 2.5e-3;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 using Names = std::set<std::pair<ContactKind, std::array<Index, 4>>>;
 
 struct Scene {

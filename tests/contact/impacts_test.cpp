@@ -18,8 +18,6 @@ using contact_test::add_sheet;
 using contact_test::Mesh;
 using contact_test::Random;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 struct Query {
   explicit Query(Mesh start_mesh, std::vector<Index> merged = {})
       : mesh(std::move(start_mesh)),

@@ -15,8 +15,6 @@ namespace {
 using contact_test::Mesh;
 using contact_test::Random;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Positions are shaken first, so nothing lies in a plane by design.
 std::vector<SurfaceCrossing> all_crossings(const Mesh& mesh, const Topology& topology) {
   std::vector<SurfaceCrossing> found;

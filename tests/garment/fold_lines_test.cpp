@@ -11,8 +11,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 constexpr double side_m = 0.2, edge_m = 0.02;
 constexpr int pieces = 10;  // of each side
 

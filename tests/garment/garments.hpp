@@ -12,8 +12,6 @@
 
 namespace toile::internal::test {
 
-inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // A panel with straight edges; edge k runs from corner k to corner k + 1.
 inline Panel straight_panel(std::string name, std::vector<Vec2> corners, const Vec3& translation) {
   Panel panel;

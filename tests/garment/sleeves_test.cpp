@@ -11,8 +11,6 @@
 namespace toile::internal {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 bool is_sleeve(const GarmentMesh& garment, Index panel) {
   return garment.mesh.panel_names[at(panel)].find("sleeve") != std::string::npos;
 }

@@ -17,8 +17,6 @@ using test::ClothRun;
 using test::Sheet;
 using test::stack;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Two horizontal sheets as one mesh: the lower at y = 0, the upper `gap_m` above it and a quarter of an edge aside, so that its vertices
 // lie over faces.  The first half of the particles is the lower sheet.
 Vec3 momentum(const ClothModel& model, const Vec3s& v) {

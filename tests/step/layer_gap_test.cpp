@@ -17,8 +17,6 @@ using test::Sheet;
 
 constexpr double edge_m = 0.02;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 LayerGap gap_of(const ClothModel& model, const Vec3s& x) {
   return ContactRows(model, nullptr, {}, 0, 0, {}).layer_gap(x);
 }

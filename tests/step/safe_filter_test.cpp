@@ -18,8 +18,6 @@ using test::Random;
 using test::Sheet;
 using test::stack;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 struct Filter {
   explicit Filter(const Sheet& sheet)
       : mesh(sheet.mesh),
