@@ -26,12 +26,12 @@ Drape::Drape(const Scene& scene) : scene_(scene) {
     shapes.push_back(load_cloth(scene_, cloth, read_text_file, unused));
     edge_m = std::max(edge_m, shapes.back().edge_m);
   }
-  LoadedBody loaded = load_body(scene_.body, unused);
-  add_solids(scene_.solids, loaded, unused);
-  if (!loaded.solid.positions.empty())
-    body_.emplace(std::move(loaded.solid.positions), std::move(loaded.solid.triangles));
+  JoinedColliders joined = load_colliders(scene_.body, scene_.solids, unused).joined;
+  if (!joined.surface.positions.empty())
+    body_.emplace(std::move(joined.surface.positions), std::move(joined.surface.triangles),
+                  std::move(joined.vertex_collider));
   outfit_ = outfit_of_shapes(shapes);
-  step_ = step_options(scene_, shapes.front().fabrics.front(), edge_m);
+  step_ = step_options(scene_, edge_m);
   run_.emplace(scene_, outfit_, body(), step_, Settling{}, nullptr);
   run_->set_events(events_of(outfit_, shapes));
 }

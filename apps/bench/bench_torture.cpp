@@ -77,8 +77,9 @@ void jitter(Scene& scene, int seed) {
 }
 
 bool moves(const Scene& scene) {
-  return scene.body.motion.has_value() || std::any_of(scene.solids.begin(), scene.solids.end(),
-                                                      [](const SceneSolid& solid) { return !solid.moves.empty(); });
+  return scene.body.motion.has_value() ||
+         std::any_of(scene.solids.begin(), scene.solids.end(),
+                     [](const SceneCollider& solid) { return solid.moves_by_itself(); });
 }
 
 int expected_frames(const Scene& scene) {

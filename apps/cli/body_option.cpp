@@ -4,21 +4,29 @@
 
 namespace toile::internal {
 
-SceneBody body_option(const CommandLine& line) {
-  SceneBody body;
+LengthUnit unit_option(const CommandLine& line) {
+  if (line.body_unit == "m") return LengthUnit::m;
+  if (line.body_unit == "dm") return LengthUnit::dm;
+  if (line.body_unit == "cm") return LengthUnit::cm;
+  return LengthUnit::automatic;
+}
+
+SceneCollider body_option(const CommandLine& line) {
+  SceneCollider body;
+  body.worn = true;
   if (line.body == "mannequin" || line.body == "woman" || line.body == "dancer" || line.body == "man") {
-    body.kind = SceneBody::Kind::mannequin;
-    if (line.body != "mannequin") body.mannequin = mannequin_kind(line.body);
+    SceneMannequin mannequin;
+    if (line.body != "mannequin") mannequin.who = mannequin_kind(line.body);
+    body.shape = mannequin;
     if (!line.measurements.empty())
       throw Error(ExitCode::usage, "--measurements: expected a body from a file, got " + line.body);
     return body;
   }
-  body.kind = SceneBody::Kind::mesh;
-  body.mesh = line.body;
-  body.measurements = line.measurements;
-  if (line.body_unit == "m") body.unit = LengthUnit::m;
-  if (line.body_unit == "dm") body.unit = LengthUnit::dm;
-  if (line.body_unit == "cm") body.unit = LengthUnit::cm;
+  SceneMesh mesh;
+  mesh.path = line.body;
+  mesh.measurements = line.measurements;
+  mesh.unit = unit_option(line);
+  body.shape = std::move(mesh);
   return body;
 }
 

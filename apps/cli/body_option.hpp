@@ -6,6 +6,7 @@
 namespace toile::internal {
 
 // A mannequin by its name (always in metres), or a file; without a motion.
-SceneBody body_option(const CommandLine& line);
+SceneCollider body_option(const CommandLine& line);
+LengthUnit unit_option(const CommandLine& line);  // of --body-unit
 
 }  // namespace toile::internal

@@ -103,16 +103,16 @@ std::string check_scene(const std::string& path, const std::string& text, const 
     vertices += cloth.back().garment.mesh.particle_count;
     triangles += cloth.back().garment.mesh.triangle_count();
   }
-  LoadedBody body = load_body(scene.body, hash);
-  add_solids(scene.solids, body, hash);
-  if (!scene.start.empty()) start_from(scene.start, cloth, body.solid.positions);
+  const LoadedColliders colliders = load_colliders(scene.body, scene.solids, hash);
+  const JoinedColliders& body = colliders.joined;
+  if (!scene.start.empty()) start_from(scene.start, cloth, body.surface.positions);
   json.member("kind", "scene");
   json.member("vertices", vertices);
   json.member("triangles", triangles);
-  json.member("body_vertices", body.solid.positions.size());
+  json.member("body_vertices", body.surface.positions.size());
   std::string said = fmt::sprintf("scene, cloth of %d vertices and %d triangles, body of %zu vertices%s\n", vertices,
-                                  triangles, body.solid.positions.size(), body.movement ? ", moving" : "");
-  for (const std::string& note : body.warnings) said += "  note: " + note + '\n';
+                                  triangles, body.surface.positions.size(), body.movement ? ", moving" : "");
+  for (const std::string& note : colliders.warnings) said += "  note: " + note + '\n';
   return said + budget;
 }
 
@@ -120,7 +120,7 @@ Checked check_file(const CommandLine& line, const std::string& path, JsonText& j
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".obj" || ending == ".OBJ") {
     refuse_other_files(line, false, path);
-    return {check_mesh(path, body_option(line).unit, json)};
+    return {check_mesh(path, unit_option(line), json)};
   }
   if (ending != ".json" && ending != ".JSON") {
     read_file(path);  // a missing file is told as such

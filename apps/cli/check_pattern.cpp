@@ -66,7 +66,7 @@ std::string load_as_dress_does(const CommandLine& line, const std::string& path,
   dressed.name = pattern.name;
   dressed.seconds = Scene::longest_dress_s;
   dressed.until_still = true;
-  dressed.body.kind = SceneBody::Kind::mannequin;
+  dressed.body.shape = SceneMannequin{};
   dressed.cloth.emplace_back().pattern = path;
   dressed.cloth.front().set_edge_m(resolution_m);
   const std::string budget =
@@ -118,9 +118,9 @@ std::optional<BodyFigures> figures_of(const CommandLine& line, std::string& note
     throw Error(ExitCode::usage, "--measurements: expected --body beside it");
   if (line.body.empty()) return std::nullopt;
   Hash hash;
-  const LoadedBody body = load_body(body_option(line), hash);
-  BodyFigures figures = body_figures(body.solid.positions, body.solid.triangles, body.measurements);
-  add_arms(figures, find_arms(body.solid.positions, body.solid.triangles));
+  const Collider body = load_collider(body_option(line), hash);
+  BodyFigures figures = body_figures(body.surface.positions, body.surface.triangles, body.measurements);
+  add_arms(figures, find_arms(body.surface.positions, body.surface.triangles));
   for (const std::string& note : body.warnings) notes += "  note: " + note + '\n';
   const std::string odd = body.measurements ? odd_pose(*body.measurements, figures) : "";
   if (!odd.empty()) notes += "  note: " + odd + '\n';

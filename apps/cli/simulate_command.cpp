@@ -94,9 +94,9 @@ bool looks_like_a_file(const std::string& text) {
   return text.ends_with(".pc2") || text.find_first_of("/%") != std::string::npos || std::filesystem::exists(text);
 }
 
-SceneBody dress_body(const CommandLine& line) {
-  SceneBody body = body_option(line);
-  const bool mannequin = body.kind == SceneBody::Kind::mannequin;
+SceneCollider dress_body(const CommandLine& line) {
+  SceneCollider body = body_option(line);
+  const bool mannequin = body.as<SceneMannequin>() != nullptr;
   if (mannequin && !line.body_unit.empty()) throw Error(ExitCode::usage, "--body-unit: mannequins are in metres");
   if (line.motion.empty()) return body;
   SceneMotion motion;

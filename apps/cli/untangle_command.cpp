@@ -61,7 +61,7 @@ SolidMesh load_solid(const CommandLine& line) {
   if (line.body_unit == "dm") units_per_m = 10;
   if (line.body_unit == "cm") units_per_m = 100;
   Hash hash;
-  SolidMesh solid = load_body(body_option(line), hash).solid;
+  SolidMesh solid = load_collider(body_option(line), hash).surface;
   for (Vec3& p : solid.positions) p *= units_per_m;
   return solid;
 }

@@ -88,6 +88,9 @@ class TOILE_EXPORT Simulation {
   explicit Simulation(const Cloth& cloth, const Body& body = Body::none(), const SimulationOptions& options = {});
   explicit Simulation(std::span<const Cloth> cloths, const Body& body = Body::none(),
                       const SimulationOptions& options = {});
+  // With solids beside the body that is worn, which may be none.
+  Simulation(std::span<const Cloth> cloths, const Body& body, std::span<const Body> solids,
+             const SimulationOptions& options = {});
   // What a scene file says, in memory: no folder is made.
   static Simulation from_scene(const std::string& path, const SimulationOptions& options = {});
   Simulation(Simulation&&) noexcept;
@@ -116,9 +119,12 @@ class TOILE_EXPORT Simulation {
   std::span<const CornerUvs> uv_m() const;      // [face]
   std::span<const std::int32_t> panel() const;  // [face] a number below panel_names().size()
   const std::vector<std::string>& panel_names() const;
-  // The body; empty if there is none.
+  // The body and the solids, in this order, as one surface; empty if there is none.
   std::span<const Point> body_positions_m() const;
   std::span<const Face> body_faces() const;
+  // Each by itself: the body, if there is one, then the solids.
+  int collider_count() const;
+  std::span<const Point> collider_positions_m(int collider) const;
 
   // Holds particles where they are, until they are released.
   void pin(std::span<const std::int32_t> particles);
@@ -138,8 +144,9 @@ class TOILE_EXPORT Simulation {
   void drag(int hand, const Point& to_m);
   void let_go(int hand);
 
-  // Where a body of arrays or a file without motion shall be at the end of the next advance(), each vertex on a straight way.
-  void set_body(std::span<const Point> vertices_m);
+  // Where the body, or the solid, shall be at the end of the next advance(), each vertex on a straight way.  Of one without a motion of its own.
+  void set_body(std::span<const Point> vertices_m) { set_collider(0, vertices_m); }
+  void set_collider(int collider, std::span<const Point> vertices_m);
   void set_gravity(const Point& m_per_s2);
   void set_wind(const Point& m_per_s);
 

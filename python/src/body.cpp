@@ -9,9 +9,13 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace toile::python {
 
@@ -56,6 +60,31 @@ void bind_body(nb::module_& module) {
             return Body::cylinder({.radius_m = radius_m, .height_m = height_m, .top_m = top_m});
           },
           "radius_m"_a, "height_m"_a, "top_m"_a)
+      .def_static("sphere", &Body::sphere, "radius_m"_a, "edge_m"_a)
+      .def_static("box", &Body::box, "size_m"_a)
+      .def_static(
+          "revolved",
+          [](const std::vector<std::array<double, 2>>& profile_m, double edge_m) {
+            return Body::revolved(profile_m, edge_m);
+          },
+          "profile_m"_a, "edge_m"_a)
+      .def(
+          "place",
+          [](Body& self, const Point& translation_m, const Point& rotation_deg) {
+            self.place(translation_m, rotation_deg);
+          },
+          "translation_m"_a, "rotation_deg"_a)
+      .def(
+          "set_moves",
+          [](Body& self, const std::vector<std::tuple<double, Point, Point, double>>& keys) {
+            std::vector<BodyKey> path;
+            for (const auto& [t_s, shift_m, rotation_deg, scale] : keys)
+              path.push_back({t_s, shift_m, rotation_deg, scale});
+            self.set_moves(path);
+          },
+          "keys"_a)
+      .def(
+          "set_inside_out", [](Body& self, bool inside_out) { self.set_inside_out(inside_out); }, "inside_out"_a)
       .def(
           "set_friction", [](Body& self, double friction) { self.set_friction(friction); }, "friction"_a)
       .def(

@@ -13,17 +13,20 @@ using namespace nb::literals;
 
 namespace {
 
-void make(Working* self, const std::vector<const Cloth*>& cloths, const Body& body, const Point& gravity_m_per_s2,
-          const Point& wind_m_per_s, double air_density_kg_per_m3, int threads) {
+void make(Working* self, const std::vector<const Cloth*>& cloths, const Body& body,
+          const std::vector<const Body*>& solids, const Point& gravity_m_per_s2, const Point& wind_m_per_s,
+          double air_density_kg_per_m3, int threads) {
   std::vector<Cloth> copies;
   for (const Cloth* cloth : cloths) copies.push_back(*cloth);
+  std::vector<Body> beside;
+  for (const Body* solid : solids) beside.push_back(*solid);
   const nb::gil_scoped_release others_may_run;
   new (self) Working([&](SimulationOptions options) {
     options.gravity_m_per_s2 = gravity_m_per_s2;
     options.wind_m_per_s = wind_m_per_s;
     options.air_density_kg_per_m3 = air_density_kg_per_m3;
     options.threads = threads;
-    return Simulation(copies, body, options);
+    return Simulation(copies, body, beside, options);
   });
 }
 
@@ -51,8 +54,8 @@ void bind_simulation(nb::module_& module) {
   module.attr("gravity_m_per_s2") = nb::tuple(nb::cast(defaults.gravity_m_per_s2));
   module.attr("air_density_kg_per_m3") = defaults.air_density_kg_per_m3;
   nb::class_<Working>(module, "Simulation")
-      .def("__init__", &make, "cloths"_a, "body"_a, "gravity_m_per_s2"_a, "wind_m_per_s"_a, "air_density_kg_per_m3"_a,
-           "threads"_a)
+      .def("__init__", &make, "cloths"_a, "body"_a, "solids"_a, "gravity_m_per_s2"_a, "wind_m_per_s"_a,
+           "air_density_kg_per_m3"_a, "threads"_a)
       .def_static("from_scene", &from_scene, nb::call_guard<nb::gil_scoped_release>(), "path"_a, "threads"_a)
       .def(
           "dress",
@@ -86,6 +89,13 @@ void bind_simulation(nb::module_& module) {
       .def("panel_names", [](const Working& self) { return self.look().panel_names(); })
       .def("body_positions_m",
            [](const Working& self) { return copy_out<double>(self.look().body_positions_m(), {3}); })
+      .def("collider_count", [](const Working& self) { return self.look().collider_count(); })
+      .def(
+          "collider_positions_m",
+          [](const Working& self, int collider) {
+            return copy_out<double>(self.look().collider_positions_m(collider), {3});
+          },
+          "collider"_a)
       .def("body_faces", [](const Working& self) { return copy_out<std::int32_t>(self.look().body_faces(), {3}); })
 
       .def(
@@ -107,8 +117,11 @@ void bind_simulation(nb::module_& module) {
       .def(
           "let_go", [](Working& self, int hand) { self.touch().let_go(hand); }, "hand"_a)
       .def(
-          "set_body", [](Working& self, const PointsIn& vertices_m) { self.touch().set_body(points(vertices_m)); },
-          "vertices_m"_a)
+          "set_collider",
+          [](Working& self, int collider, const PointsIn& vertices_m) {
+            self.touch().set_collider(collider, points(vertices_m));
+          },
+          "collider"_a, "vertices_m"_a)
       .def(
           "set_gravity", [](Working& self, const Point& m_per_s2) { self.touch().set_gravity(m_per_s2); }, "m_per_s2"_a)
       .def(

@@ -1,12 +1,18 @@
-"""What cloth collides with: a person, or another closed surface, that may move."""
+"""What cloth collides with: a person, or another closed surface, that may move.
+
+Of a simulation one body is worn: garments are dressed on it.  All others are solids, beside it.
+"""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 from numpy.typing import ArrayLike
 
 from . import _arrays, _toile
+from ._errors import InputError
 from ._recipe import Made, file_path
 
 
@@ -24,7 +30,9 @@ class Body(Made):
     _core_type = _toile.Body
 
     def __init__(self) -> None:
-        raise TypeError("a Body is made by Body.mannequin, from_file, from_arrays, from_frames, cylinder or none")
+        raise TypeError(
+            "a Body is made by Body.mannequin, from_file, from_arrays, from_frames, cylinder, sphere, box, revolved or none"
+        )
 
     @classmethod
     def none(cls) -> Body:
@@ -101,12 +109,61 @@ class Body(Made):
         """Upright, with rounded rims; top_m is the middle of its top."""
         return cls._make("cylinder", radius_m=radius_m, height_m=height_m, top_m=_arrays.point(top_m, "top_m"))
 
+    @classmethod
+    def sphere(cls, radius_m: float, *, edge_m: float = 0.02) -> Body:
+        """Around the origin; edges of its triangles are at most edge_m long."""
+        return cls._make("sphere", radius_m=radius_m, edge_m=edge_m)
+
+    @classmethod
+    def box(cls, size_m: ArrayLike) -> Body:
+        """Around the origin: size_m along x, y and z."""
+        return cls._make("box", size_m=_arrays.point(size_m, "size_m"))
+
+    @classmethod
+    def revolved(cls, profile_m: ArrayLike, *, edge_m: float = 0.02) -> Body:
+        """What an outline sweeps around the y axis: profile_m (n, 2), distance from it and height, in metres.
+
+        From the axis to the axis, or a closed curve beside it.  Raises InputError when a simulation is made with another one.
+        """
+        outline = _arrays.numbers(profile_m, "profile_m", ("points", 2))
+        return cls._make("revolved", profile_m=[(float(r), float(y)) for r, y in outline], edge_m=edge_m)
+
+    def place(self, translation_m: ArrayLike = (0, 0, 0), *, rotation_deg: ArrayLike = (0, 0, 0)) -> Body:
+        """Where a solid stands: turned first (R = Rz Ry Rx), then shifted."""
+        return self._change(
+            "place",
+            translation_m=_arrays.point(translation_m, "translation_m"),
+            rotation_deg=_arrays.point(rotation_deg, "rotation_deg"),
+        )
+
+    def set_moves(self, keys: Iterable[Mapping[str, Any]]) -> Body:
+        """How a solid moves from the first advance() on, about its own place: straight from key to key.
+
+        A key is a mapping: t_s (ascending), and shift_m, rotation_deg and scale, each as in the key before where it is left out.
+        Raises InputError for other words, or times that do not ascend.
+        """
+        path: list[tuple[float, Any, Any, float]] = []
+        shift, turned, scale = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 1.0
+        for key in keys:
+            unknown = set(key) - {"t_s", "shift_m", "rotation_deg", "scale"}
+            if unknown or "t_s" not in key:
+                raise InputError(f"keys: expected t_s, shift_m, rotation_deg and scale, got {sorted(key)}")
+            shift = _arrays.point(key.get("shift_m", shift), "shift_m")
+            turned = _arrays.point(key.get("rotation_deg", turned), "rotation_deg")
+            scale = float(key.get("scale", scale))
+            path.append((float(key["t_s"]), shift, turned, scale))
+        return self._change("set_moves", keys=path)
+
+    def set_inside_out(self, inside_out: bool = True) -> Body:
+        """A solid seen from inside: a room."""
+        return self._change("set_inside_out", inside_out=inside_out)
+
     def set_friction(self, friction: float) -> Body:
-        """Of cloth on it; otherwise the fabric's."""
+        """Of cloth on it.  Otherwise, of a solid, the worn body's; of that one, the fabric's."""
         return self._change("set_friction", friction=friction)
 
     def set_offset(self, offset_m: float) -> Body:
-        """How far above it cloth rests; otherwise by the length of the cloth's edges."""
+        """How far above it cloth rests.  Otherwise, of a solid, the worn body's; of that one by the length of the cloth's edges."""
         return self._change("set_offset", offset_m=offset_m)
 
     def __repr__(self) -> str:

@@ -51,6 +51,7 @@ class Simulation:
         fabric: FabricLike | None = None,
         body: Body | None = None,
         *,
+        solids: Sequence[Body] = (),
         gravity_m_per_s2: ArrayLike = _toile.gravity_m_per_s2,
         wind_m_per_s: ArrayLike = (0, 0, 0),
         air_density_kg_per_m3: float = _toile.air_density_kg_per_m3,
@@ -61,7 +62,8 @@ class Simulation:
         Cloth that is no pattern hangs at once where it starts; what begins through itself or the body is taken apart first.
 
         fabric                 of all panels without one of their own: a Fabric, or the name of a preset; None: the cloth's own
-        body                   what it collides with; None: nothing
+        body                   what it is worn by, or falls on; None: nothing
+        solids                 what it collides with besides: they stand, or move by themselves
         gravity_m_per_s2       y is up
         wind_m_per_s           of the air around it
         air_density_kg_per_m3  0: cloth moves as in a vacuum
@@ -74,10 +76,14 @@ class Simulation:
                 one.set_fabric(made_of)
         if body is not None and not isinstance(body, Body):
             raise TypeError(f"body: expected a toile.Body or None, got {type(body).__name__}")
+        for solid in solids:
+            if not isinstance(solid, Body):
+                raise TypeError(f"solids: expected toile.Body, got {type(solid).__name__}")
         self._begin(
             {
                 "cloths": cloths,
                 "body": Body.none() if body is None else copy(body),
+                "solids": [copy(solid) for solid in solids],
                 "gravity_m_per_s2": _arrays.point(gravity_m_per_s2, "gravity_m_per_s2"),
                 "wind_m_per_s": _arrays.point(wind_m_per_s, "wind_m_per_s"),
                 "air_density_kg_per_m3": float(air_density_kg_per_m3),
@@ -97,6 +103,7 @@ class Simulation:
             self._core = _toile.Simulation.from_scene(recipe["scene"], recipe["threads"])
         else:
             own = {**recipe, "cloths": [c._core for c in recipe["cloths"]], "body": recipe["body"]._core}
+            own["solids"] = [solid._core for solid in recipe["solids"]]
             self._core = _toile.Simulation(**own)
         self._recipe = recipe
         self._paths = Paths()
@@ -219,13 +226,22 @@ class Simulation:
 
     @property
     def body_positions_m(self) -> Floats:
-        """(b, 3) of the body's vertices; (0, 3) without a body."""
+        """(b, 3) of the vertices of the body and the solids, in this order; (0, 3) without any."""
         return self._seen("body_positions_m")
 
     @property
     def body_faces(self) -> Integers:
-        """(g, 3) of the body."""
+        """(g, 3) of the body and the solids."""
         return self._seen("body_faces")
+
+    @property
+    def colliders(self) -> int:
+        """How many there are: the body, if there is one, and the solids."""
+        return self._core.collider_count()
+
+    def collider_positions_m(self, collider: int) -> Floats:
+        """(c, 3) of the vertices of one: 0 is the body, or the first solid where there is none.  Raises InputError."""
+        return self._core.collider_positions_m(collider)
 
     def crossings(self) -> Crossings:
         """How many edges pass through a triangle, by exact tests."""
@@ -304,7 +320,12 @@ class Simulation:
 
     def set_body(self, vertices_m: ArrayLike) -> None:
         """Where a body without a motion shall be at the end of the next advance(), each vertex (b, 3) on a straight way."""
-        self._core.set_body(_arrays.numbers(vertices_m, "vertices_m", (len(self.body_positions_m), 3)))
+        self.set_collider(0, vertices_m)
+
+    def set_collider(self, collider: int, vertices_m: ArrayLike) -> None:
+        """The same of a solid; 0 is the body, or the first solid where there is none."""
+        vertices = len(self.collider_positions_m(collider))
+        self._core.set_collider(collider, _arrays.numbers(vertices_m, "vertices_m", (vertices, 3)))
 
     def set_gravity(self, m_per_s2: ArrayLike) -> None:
         """From now on."""

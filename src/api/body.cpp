@@ -48,8 +48,7 @@ std::vector<std::string> Body::motion_names() {
 Body Body::mannequin(std::string_view who, const std::string& motion) {
   return translated([&] {
     auto parts = std::make_unique<Parts>();
-    parts->body.kind = internal::SceneBody::Kind::mannequin;
-    parts->body.mannequin = internal::mannequin_kind(who);
+    parts->body.shape = internal::SceneMannequin{internal::mannequin_kind(who)};
     if (!motion.empty()) parts->body.motion = motion_of(motion, internal::SceneMotion{}.fps);
     return Body(std::move(parts));
   });
@@ -58,10 +57,8 @@ Body Body::mannequin(std::string_view who, const std::string& motion) {
 Body Body::from_file(const std::string& path, const BodyFileOptions& options) {
   return translated([&] {
     auto parts = std::make_unique<Parts>();
-    parts->body.kind = internal::SceneBody::Kind::mesh;
-    parts->body.mesh = path;
-    parts->body.measurements = options.measurements;
-    parts->body.unit = static_cast<internal::LengthUnit>(options.unit);
+    parts->body.shape =
+        internal::SceneMesh{path, static_cast<internal::LengthUnit>(options.unit), options.measurements};
     require_above_zero("fps", options.fps);
     if (!options.motion.empty()) parts->body.motion = motion_of(options.motion, options.fps);
     return Body(std::move(parts));
@@ -69,7 +66,7 @@ Body Body::from_file(const std::string& path, const BodyFileOptions& options) {
 }
 
 Body Body::from_arrays(std::span<const Point> vertices_m, std::span<const Face> faces) {
-  return from_frames(vertices_m, vertices_m.size(), faces, internal::SceneBodyArrays{}.fps);
+  return from_frames(vertices_m, vertices_m.size(), faces, internal::SceneArrays::Frames{}.fps);
 }
 
 Body Body::from_frames(std::span<const Point> frames_m, std::size_t vertices, std::span<const Face> faces, double fps) {
@@ -78,14 +75,13 @@ Body Body::from_frames(std::span<const Point> frames_m, std::size_t vertices, st
       throw internal::InputError("", "frames_m", "whole frames of " + std::to_string(vertices) + " vertices",
                                  std::to_string(frames_m.size()) + " points");
     require_above_zero("fps", fps);
-    auto arrays = std::make_shared<internal::SceneBodyArrays>();
-    arrays->frames = engine_vectors(frames_m);
+    auto arrays = std::make_shared<internal::SceneArrays::Frames>();
+    arrays->x = engine_vectors(frames_m);
     arrays->vertices = vertices;
     arrays->triangles.assign(faces.begin(), faces.end());
     arrays->fps = fps;
     auto parts = std::make_unique<Parts>();
-    parts->body.kind = internal::SceneBody::Kind::arrays;
-    parts->body.arrays = std::move(arrays);
+    parts->body.shape = internal::SceneArrays{std::move(arrays)};
     return Body(std::move(parts));
   });
 }
@@ -96,21 +92,88 @@ Body Body::cylinder(const CylinderOptions& options) {
     require_above_zero("height_m", options.height_m);
     require_finite("top_m", options.top_m);
     auto parts = std::make_unique<Parts>();
-    parts->body.kind = internal::SceneBody::Kind::cylinder;
-    parts->body.cylinder = {options.radius_m, options.height_m, engine_vector(options.top_m)};
+    parts->body.shape = internal::SceneCylinder{options.radius_m, options.height_m, engine_vector(options.top_m)};
+    return Body(std::move(parts));
+  });
+}
+
+Body Body::sphere(double radius_m, double edge_m) {
+  return translated([&] {
+    require_above_zero("radius_m", radius_m);
+    require_above_zero("edge_m", edge_m);
+    auto parts = std::make_unique<Parts>();
+    parts->body.shape = internal::SceneSphere{radius_m};
+    parts->body.edge_m = edge_m;
+    return Body(std::move(parts));
+  });
+}
+
+Body Body::box(const Point& size_m) {
+  return translated([&] {
+    for (const double side : size_m) require_above_zero("size_m", side);
+    auto parts = std::make_unique<Parts>();
+    parts->body.shape = internal::SceneBox{engine_vector(size_m)};
+    return Body(std::move(parts));
+  });
+}
+
+Body Body::revolved(std::span<const std::array<double, 2>> profile_m, double edge_m) {
+  return translated([&] {
+    require_above_zero("edge_m", edge_m);
+    internal::SceneRevolved shape;
+    for (const auto& [distance, height] : profile_m) {
+      require_finite("profile_m", {distance, height, 0});
+      shape.profile_m.emplace_back(distance, height);
+    }
+    auto parts = std::make_unique<Parts>();
+    parts->body.shape = std::move(shape);
+    parts->body.edge_m = edge_m;
     return Body(std::move(parts));
   });
 }
 
 Body& Body::set_friction(double friction) {
   translated([&] { require_at_least_zero("friction", friction); });
-  parts_->body.friction = friction;
+  parts_->body.contact.friction = friction;
   return *this;
 }
 
 Body& Body::set_offset(double offset_m) {
   translated([&] { require_at_least_zero("offset_m", offset_m); });
-  parts_->body.offset_m = offset_m;
+  parts_->body.contact.offset_m = offset_m;
+  return *this;
+}
+
+Body& Body::place(const Point& translation_m, const Point& rotation_deg) {
+  translated([&] {
+    require_finite("translation_m", translation_m);
+    require_finite("rotation_deg", rotation_deg);
+  });
+  parts_->body.translation_m = engine_vector(translation_m);
+  parts_->body.rotation_deg = engine_vector(rotation_deg);
+  parts_->body.moves.centre() = parts_->body.translation_m;
+  return *this;
+}
+
+Body& Body::set_moves(std::span<const BodyKey> keys) {
+  translated([&] {
+    std::vector<internal::RigidKey> path;
+    for (const BodyKey& key : keys) {
+      require_at_least_zero("t_s", key.t_s);
+      require_finite("shift_m", key.shift_m);
+      require_finite("rotation_deg", key.rotation_deg);
+      require_above_zero("scale", key.scale);
+      if (!path.empty() && key.t_s <= path.back().t_s)
+        throw internal::InputError("", "t_s", "times that ascend", std::to_string(key.t_s));
+      path.push_back({key.t_s, engine_vector(key.shift_m), engine_vector(key.rotation_deg), key.scale});
+    }
+    parts_->body.moves = internal::RigidPath(std::move(path), parts_->body.translation_m);
+  });
+  return *this;
+}
+
+Body& Body::set_inside_out(bool inside_out) {
+  parts_->body.inside_out = inside_out;
   return *this;
 }
 

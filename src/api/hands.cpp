@@ -31,6 +31,15 @@ internal::Vec3 Simulation::Implementation::along(const Way& way, double t_s) con
   return way.from + std::max(0.0, share) * (way.to - way.from);
 }
 
+const internal::JoinedColliders::Part& Simulation::Implementation::collider(int number) const {
+  const auto all = engine->colliders();
+  if (all.empty()) throw internal::Error(internal::ExitCode::usage, "there is no body");
+  if (number < 0 || static_cast<std::size_t>(number) >= all.size())
+    throw internal::InputError("", "collider", "a number from 0 to " + std::to_string(all.size() - 1),
+                               std::to_string(number));
+  return all[static_cast<std::size_t>(number)];
+}
+
 void Simulation::Implementation::tell(internal::OutfitRun& run) {
   internal::Events& events = run.events();
   events.pins.resize(scene_pins);
@@ -68,14 +77,17 @@ void Simulation::Implementation::start_motion(internal::OutfitRun& run) {
 }
 
 void Simulation::Implementation::lead_body(internal::OutfitRun& run) {
-  if (const auto& motion = engine->motion()) {
-    run.start_motion(motion->at);
-    return;
-  }
-  run.start_motion([this](double since_s, std::span<internal::Vec3> x) {
-    const double t_s = interaction.moves_from_s + since_s;
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = along({interaction.body_from[i], interaction.body_to[i]}, t_s);
-  });
+  run.start_motion([this](double since_s, std::span<internal::Vec3> x) { lead(since_s, x); });
+}
+
+// What moves by itself does so; what the caller leads is on its way.
+void Simulation::Implementation::lead(double since_s, std::span<internal::Vec3> x) const {
+  if (const auto& motion = engine->motion()) motion->at.function()(since_s, x);
+  if (interaction.body_to.empty()) return;
+  const double t_s = interaction.moves_from_s + since_s;
+  for (const internal::JoinedColliders::Part& part : engine->colliders())
+    for (std::size_t i = part.first_vertex; !part.moves && i < part.first_vertex + part.vertices; ++i)
+      x[i] = along({interaction.body_from[i], interaction.body_to[i]}, t_s);
 }
 
 void Simulation::Implementation::arrived() {
@@ -85,13 +97,9 @@ void Simulation::Implementation::arrived() {
 }
 
 void Simulation::Implementation::update_body() {
-  if (!interaction.body_to.empty()) {
-    body_x = interaction.body_from;
-  } else if (interaction.moves && engine->motion()) {
-    engine->motion()->at(engine->live().time_s() - interaction.moves_from_s, engine->body_x(), body_x);
-  } else {
-    body_x.assign(engine->body_x().begin(), engine->body_x().end());
-  }
+  body_x.assign(engine->body_x().begin(), engine->body_x().end());
+  if (!interaction.body_to.empty()) body_x = interaction.body_from;
+  if (interaction.moves) lead(engine->live().time_s() - interaction.moves_from_s, body_x);
 }
 
 void Simulation::pin(std::span<const std::int32_t> particles) {
@@ -207,19 +215,19 @@ void Simulation::let_go(int hand) {
   });
 }
 
-void Simulation::set_body(std::span<const Point> vertices_m) {
+void Simulation::set_collider(int collider, std::span<const Point> vertices_m) {
   translated([&] {
     Implementation& own = *implementation_;
     own.live("set_body");
-    if (own.engine->motion())
-      throw internal::Error(internal::ExitCode::usage, "set_body: this body has a motion of its own");
-    if (own.body_x.empty()) throw internal::Error(internal::ExitCode::usage, "set_body: there is no body");
-    if (vertices_m.size() != own.body_x.size())
-      throw internal::InputError("", "vertices_m", std::to_string(own.body_x.size()) + " vertices",
+    const internal::JoinedColliders::Part& part = own.collider(collider);
+    if (part.moves) throw internal::Error(internal::ExitCode::usage, "set_body: this body has a motion of its own");
+    if (vertices_m.size() != part.vertices)
+      throw internal::InputError("", "vertices_m", std::to_string(part.vertices) + " vertices",
                                  std::to_string(vertices_m.size()));
     for (const Point& p : vertices_m) require_finite("vertices_m", p);
-    if (own.interaction.body_from.empty()) own.interaction.body_from = own.body_x;
-    own.interaction.body_to = engine_vectors(vertices_m);
+    if (own.interaction.body_from.empty()) own.interaction.body_from = own.interaction.body_to = own.body_x;
+    const auto to = engine_vectors(vertices_m);
+    std::copy(to.begin(), to.end(), own.interaction.body_to.begin() + static_cast<std::ptrdiff_t>(part.first_vertex));
   });
 }
 

@@ -95,6 +95,8 @@ struct Simulation::Implementation : internal::SimulationObserver {
   void tell(internal::OutfitRun& run);          // of the interaction
   void start_motion(internal::OutfitRun& run);  // when it is to, and has not
   void lead_body(internal::OutfitRun& run);
+  void lead(double since_s, std::span<internal::Vec3> x) const;
+  const internal::JoinedColliders::Part& collider(int number) const;  // throws if there is none
   void update_body();
   void arrived();  // at the end of an advance()
   DressReport report();

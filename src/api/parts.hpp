@@ -20,7 +20,7 @@ struct Cloth::Parts {
 };
 
 struct Body::Parts {
-  internal::SceneBody body;
+  internal::SceneCollider body;
 };
 
 // What `work` throws becomes an error of toile/error.hpp.

@@ -16,7 +16,8 @@ namespace {
 
 [[noreturn]] void misuse(const std::string& message) { throw internal::Error(internal::ExitCode::usage, message); }
 
-internal::Scene scene_of(std::span<const Cloth> cloths, const Body& body, const SimulationOptions& options) {
+internal::Scene scene_of(std::span<const Cloth> cloths, const Body& body, std::span<const Body> solids,
+                         const SimulationOptions& options) {
   if (cloths.empty()) throw internal::InputError("", "cloths", "at least one", "none");
   internal::Scene scene;
   scene.name = "simulation";
@@ -31,6 +32,13 @@ internal::Scene scene_of(std::span<const Cloth> cloths, const Body& body, const 
     scene.cloth.push_back(std::move(one));
   }
   scene.body = body.parts().body;
+  scene.body.worn = true;
+  if (is_placed(scene.body))
+    throw internal::InputError("", "body", "a body that stands where it was made, as it is worn", "one that is placed");
+  for (const Body& solid : solids) {
+    if (!solid.parts().body.exists()) throw internal::InputError("", "solids", "surfaces", "Body::none()");
+    scene.solids.push_back(solid.parts().body);
+  }
   scene.gravity_m_per_s2 = engine_vector(options.gravity_m_per_s2);
   scene.air.wind_m_per_s = engine_vector(options.wind_m_per_s);
   scene.air.density_kg_per_m3 = options.air_density_kg_per_m3;
@@ -155,7 +163,11 @@ Simulation::Simulation(const Cloth& cloth, const Body& body, const SimulationOpt
     : Simulation(std::span(&cloth, 1), body, options) {}
 
 Simulation::Simulation(std::span<const Cloth> cloths, const Body& body, const SimulationOptions& options)
-    : implementation_(translated([&] { return make_simulation(scene_of(cloths, body, options), options); })) {}
+    : Simulation(cloths, body, {}, options) {}
+
+Simulation::Simulation(std::span<const Cloth> cloths, const Body& body, std::span<const Body> solids,
+                       const SimulationOptions& options)
+    : implementation_(translated([&] { return make_simulation(scene_of(cloths, body, solids, options), options); })) {}
 
 Simulation Simulation::from_scene(const std::string& path, const SimulationOptions& options) {
   return translated([&] {
@@ -248,6 +260,13 @@ std::span<const CornerUvs> Simulation::uv_m() const { return view(implementation
 std::span<const std::int32_t> Simulation::panel() const { return implementation_->mesh().panel; }
 const std::vector<std::string>& Simulation::panel_names() const { return implementation_->mesh().panel_names; }
 std::span<const Point> Simulation::body_positions_m() const { return view(implementation_->body_x); }
+int Simulation::collider_count() const { return static_cast<int>(implementation_->engine->colliders().size()); }
+std::span<const Point> Simulation::collider_positions_m(int collider) const {
+  return translated([&] {
+    const internal::JoinedColliders::Part& part = implementation_->collider(collider);
+    return body_positions_m().subspan(part.first_vertex, part.vertices);
+  });
+}
 std::span<const Face> Simulation::body_faces() const { return implementation_->engine->body_triangles(); }
 
 std::string Simulation::state_hash() const {

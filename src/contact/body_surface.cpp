@@ -62,12 +62,14 @@ double arc_cosine(double x) {
 
 }  // namespace
 
-BodySurface::BodySurface(std::vector<Vec3> positions, std::vector<Triangle> triangles)
+BodySurface::BodySurface(std::vector<Vec3> positions, std::vector<Triangle> triangles,
+                         std::vector<Index> vertex_collider)
     : start_(std::move(positions)),
       end_(start_),
       moved_(start_.size(), 1),
       still_(start_.size(), 1),
       triangles_(std::move(triangles)),
+      vertex_collider_(std::move(vertex_collider)),
       topology_(build_topology(static_cast<Index>(start_.size()), triangles_)),
       tree_(start_, triangles_),
       tree_now_(tree_),

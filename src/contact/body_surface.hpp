@@ -34,7 +34,8 @@ struct BodyPoint {
 class BodySurface {
  public:
   BodySurface() = default;
-  BodySurface(std::vector<Vec3> positions, std::vector<Triangle> triangles);
+  // It may be the union of several colliders, which may overlap: `vertex_collider` [vertex] says whose each is; empty: there is one.
+  BodySurface(std::vector<Vec3> positions, std::vector<Triangle> triangles, std::vector<Index> vertex_collider = {});
 
   // Moves the body to `end` over the coming step; `start` is where it is now.  What stands still, and stood still over the motion before,
   // costs a look at its vertices: a room around who walks in it.
@@ -48,6 +49,8 @@ class BodySurface {
   std::span<const Vec3> next_positions() const { return end_; }  // at the end of the step
   std::span<const Triangle> triangles() const { return triangles_; }
   const Triangle& triangle(Index t) const { return triangles_[static_cast<std::size_t>(t)]; }
+  Index collider(Index triangle) const { return collider_of_vertex(triangles_[at(triangle)][0]); }
+  Index collider_of_vertex(Index vertex) const { return vertex_collider_.empty() ? 0 : vertex_collider_[at(vertex)]; }
   const Topology& topology() const { return topology_; }
   const TriangleTree& tree() const { return tree_; }          // boxes of the coming motion, nothing added
   const TriangleTree& tree_now() const { return tree_now_; }  // boxes of the present positions, nothing added
@@ -115,6 +118,7 @@ class BodySurface {
   std::vector<std::uint8_t> moved_, still_;  // by vertex: since the last motion or in this one; not in this one
   std::vector<std::uint8_t> face_moved_, edge_moved_;
   std::vector<Triangle> triangles_;
+  std::vector<Index> vertex_collider_;
   Topology topology_;
   TriangleTree tree_, tree_now_;
   std::vector<std::uint8_t> owned_, owned_ridges_;

@@ -89,9 +89,8 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
     append_springs(state, end_s, springs);
   };
   step_ = step;
-  step_.body.friction = 0;
   step_.rows.look_ahead = 2;
-  step_.body.offset_m = std::max(step.body.offset_m, options.offset_m);
+  step_.body = step.body.slippery(options.offset_m);
   start_stepper();
   set_thickness_scale(std::vector<double>(garment.x.size(), options.thickness_scale));
   if (garment.pairs.empty()) status_ = SewingStatus::closed;

@@ -26,17 +26,14 @@ constexpr double program_mb = 10;  // without cloth or body
 constexpr double mb_per_particle =
     7.2e-3;  // model, matrix, contact, judge; 6.1 in the air, 8.2 where cloth lies on cloth
 constexpr double mb_per_body_triangle = 1.1e-3;
-constexpr double mannequin_mb = 32;                 // while it is made, and given back
 constexpr double mb_per_sample = 12.0 / (1 << 20);  // of a vertex of a motion from a file: three floats
-constexpr double obj_bytes_per_triangle = 40;       // "f 1234 1235 1236", and half of "v 0.123456 1.234567 -0.123456"
-constexpr double obj_copies = 4;                    // of the text of a mesh while it is read: itself, and what it says
 
 // Time of one step on two cores of a Xeon (docs/benchmarks.md, "How far from real time" and the drapes up to 100,000 particles).
 constexpr double step_us = 6;  // per particle, of small cloth
 constexpr double small_particles = 2600;
-constexpr double body_step_us = 0.3;                               // per triangle of a body
-constexpr double second_core = 1.5;                                // how much faster two threads are than one
-constexpr double mannequin_s = 1.5, meshing_us = 20, load_us = 5;  // per particle of a pattern, per triangle of a body
+constexpr double body_step_us = 0.3;            // per triangle of a body
+constexpr double second_core = 1.5;             // how much faster two threads are than one
+constexpr double meshing_us = 20, load_us = 5;  // per particle of a pattern, per triangle of a body
 
 // A seam wider than two of the largest panels laid side by side is a mistake of units or of a sign; 40 s of sewing would close it.
 constexpr double most_drawn_m = 2 * PatternLimits::max_panel_m;
@@ -58,11 +55,8 @@ Counts counts_of(double area_m2, double outline_points, double edge_m) {
 
 std::string quoted(const std::string& name) { return '"' + printable(name) + '"'; }
 
-double file_bytes(const std::string& path) {  // a file that is not there is told when it is read
-  std::error_code error;
-  const auto bytes = std::filesystem::file_size(path, error);
-  return error ? 0 : static_cast<double>(bytes);
-}
+// A motion that goes on for ever.
+bool by_name(const SceneCollider& collider) { return collider.motion && !collider.motion->name.empty(); }
 
 double samples_of_motion(const std::string& path) {
   if (std::filesystem::path(path).extension() == ".pc2") {
@@ -90,8 +84,9 @@ class Estimate {
   Budget operator()() {
     budget_.name = scene_->name;
     for (std::size_t k = 0; k < scene_->cloth.size(); ++k) add_cloth(scene_->cloth[k]);
-    add_body();
-    for (std::size_t k = 0; k < scene_->solids.size(); ++k) add_solid(scene_->solids[k], k);
+    add_collider("body", scene_->body);
+    for (std::size_t k = 0; k < scene_->solids.size(); ++k)
+      add_collider("solid " + std::to_string(k), scene_->solids[k]);
     for (const BudgetItem& item : budget_.items) budget_.memory_mb += item.memory_mb;
     budget_.memory_mb = program_mb + std::max(budget_.memory_mb, making_mb_);
     count_frames();
@@ -127,7 +122,7 @@ class Estimate {
       area_m2 = length_m * cloth.ribbon->width_m;
       outline_m = 2 * length_m;
     } else if (!cloth.mesh.empty()) {
-      const double bytes = file_bytes(cloth.mesh), triangles = bytes / obj_bytes_per_triangle;
+      const double triangles = cost_of_file(cloth.mesh).triangles;
       add_part("cloth " + quoted(cloth.name), {triangles / 2, triangles});
       return;
     } else if (cloth.arrays) {
@@ -186,97 +181,39 @@ class Estimate {
     sewing_frames_ += std::ceil((widest_m / sewing.closing_speed_m_per_s + after_closing_s) * sewing.fps);
   }
 
-  void add_solid_item(std::string what, double triangles, double making_mb) {
-    budget_.items.push_back({std::move(what), triangles, mb_per_body_triangle * triangles});
-    body_triangles_ += triangles;
-    making_mb_ = std::max(making_mb_, making_mb);
-  }
-
-  void add_mesh(const std::string& what, const std::string& path) {
-    const double bytes = file_bytes(path);
-    add_solid_item(what + ' ' + printable(path), bytes / obj_bytes_per_triangle, obj_copies * bytes / (1 << 20));
-  }
-
-  void add_body() {
-    const SceneBody& body = scene_->body;
-    switch (body.kind) {
-      case SceneBody::Kind::none:
-        return;
-      case SceneBody::Kind::cylinder:
-        add_solid_item("body (cylinder)", 640, 0);
-        break;
-      case SceneBody::Kind::mannequin:
-        add_solid_item("body " + std::string(to_string(body.mannequin)),
-                       body.mannequin == MannequinKind::dancer ? 15256 : 20104, mannequin_mb);
-        budget_.seconds += mannequin_s;
-        break;
-      case SceneBody::Kind::arrays:
-        add_solid_item("body", static_cast<double>(body.arrays->triangles.size()), 0);
-        break;
-      case SceneBody::Kind::mesh:
-        add_mesh("body", body.mesh);
-        break;
-    }
-    if (!body.motion || !body.motion->name.empty()) return;
-    const double samples = samples_of_motion(body.motion->path);
-    motion_duration_s_ = samples / body.motion->fps + body.motion->lead_in_s;
-    const double vertices = body_triangles_ / 2;
-    budget_.items.push_back({"motion " + printable(body.motion->path), 0, mb_per_sample * samples * vertices});
+  void add_collider(const std::string& name, const SceneCollider& collider) {
+    const ColliderCost cost = cost_of(collider);
+    if (cost.what.empty()) return;
+    if (!collider.worn) check_own_limit(collider, cost.triangles);
+    budget_.items.push_back({name + ' ' + cost.what, cost.triangles, mb_per_body_triangle * cost.triangles});
+    budget_.seconds += cost.making_s;
+    body_triangles_ += cost.triangles;
+    making_mb_ = std::max(making_mb_, cost.making_mb);
+    if (!collider.motion || !collider.motion->name.empty()) return;
+    const SceneMotion& motion = *collider.motion;
+    const double samples = samples_of_motion(motion.path), vertices = cost.triangles / 2;
+    motion_duration_s_ = std::max(motion_duration_s_, samples / motion.fps + motion.lead_in_s);
+    budget_.items.push_back({"motion " + printable(motion.path), 0, mb_per_sample * samples * vertices});
   }
 
   // What is too large by itself is refused where it stands in the file, as it would be when it is made, whatever all together would take.
-  static void check_own_limit(const SceneSolid& solid, double triangles) {
+  static void check_own_limit(const SceneCollider& solid, double triangles) {
     constexpr auto most = static_cast<double>(most_solid_triangles);
-    if (triangles > most)
-      throw InputError(solid.where, solid.pointer + ": edge_m", fmt::sprintf("at most %.0f triangles", most),
-                       fmt::sprintf("at least %.0f", triangles));
-  }
-  void add_solid(const SceneSolid& solid, std::size_t k) {
-    const std::string name = "solid " + std::to_string(k);
-    if (const auto* ball = std::get_if<SceneSolid::Sphere>(&solid.shape)) {
-      const double triangles = ball_triangles(ball->radius_m, solid.edge_m);
-      check_own_limit(solid, triangles);
-      add_solid_item(name + " (sphere)", triangles, 0);
-    } else if (std::holds_alternative<SceneSolid::Box>(solid.shape)) {
-      add_solid_item(name + " (box)", 12, 0);
-    } else if (const auto* revolved = std::get_if<SceneSolid::Revolved>(&solid.shape)) {
-      double along = 0, widest_m = 0;
-      for (std::size_t p = 0; p < revolved->profile_m.size(); ++p) {
-        widest_m = std::max(widest_m, revolved->profile_m[p].x());
-        if (p > 0) along += std::ceil((revolved->profile_m[p] - revolved->profile_m[p - 1]).norm() / solid.edge_m);
-      }
-      const double triangles = 2 * along * std::max(6.0, 2 * std::numbers::pi * widest_m / solid.edge_m);
-      check_own_limit(solid, triangles);
-      add_solid_item(name + " (revolved)", triangles, 0);
-    } else {
-      add_mesh(name, std::get<SceneSolid::Mesh>(solid.shape).path);
-    }
-  }
-
-  // Halved until no edge is too long: the longest are in the middle of the octahedron's faces.
-  static double ball_triangles(double radius_m, double edge_m) {
-    double triangles = 8;
-    Vec3 a(1, 0, 0), b(0, 1, 0), c(0, 0, 1);
-    while (radius_m * (a - b).norm() > edge_m && triangles < 1e12) {
-      const Vec3 ab = (a + b).normalized(), bc = (b + c).normalized(), ca = (c + a).normalized();
-      a = ab;
-      b = bc;
-      c = ca;
-      triangles *= 4;
-    }
-    return triangles;
+    if (solid.is_person() || triangles <= most) return;
+    throw InputError(solid.where, solid.pointer + ": edge_m", fmt::sprintf("at most %.0f triangles", most),
+                     fmt::sprintf("at least %.0f", triangles));
   }
 
   void count_frames() {
     const auto frames_in = [&](double seconds) { return std::max(1.0, std::round(seconds * scene_->fps)); };
-    const bool solids_move = std::any_of(scene_->solids.begin(), scene_->solids.end(),
-                                         [](const SceneSolid& solid) { return !solid.moves.empty(); });
-    const bool moves = scene_->body.motion.has_value() || solids_move;
+    const bool moves = scene_->body.motion.has_value() ||
+                       std::any_of(scene_->solids.begin(), scene_->solids.end(),
+                                   [](const SceneCollider& solid) { return solid.moves_by_itself(); });
     double duration_s = scene_->seconds;
     if (moves && !scene_->seconds_given) {
       double longest_s = motion_duration_s_;
-      for (const SceneSolid& solid : scene_->solids) longest_s = std::max(longest_s, solid.moves.duration_s());
-      const bool endless = scene_->body.motion && !scene_->body.motion->name.empty();
+      for (const SceneCollider& solid : scene_->solids) longest_s = std::max(longest_s, solid.moves.duration_s());
+      const bool endless = by_name(scene_->body) || std::any_of(scene_->solids.begin(), scene_->solids.end(), by_name);
       if (!endless) duration_s = longest_s;
     }
     budget_.frames = frames_in(duration_s);

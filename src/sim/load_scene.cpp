@@ -12,13 +12,10 @@ LoadedScene load_scene(const Scene& scene, const TextSource& read, Hash& inputs)
     for (const SceneCloth& cloth : scene.cloth) loaded.cloth.push_back(load_cloth(scene, cloth, read, inputs));
   }
   const Timed timed(loaded.body_s);
-  loaded.body = load_body(scene.body, inputs);
-  loaded.person_vertices = loaded.body.solid.positions.size();
-  loaded.person_triangles = loaded.body.solid.triangles.size();
-  add_solids(scene.solids, loaded.body, inputs);
+  loaded.colliders = load_colliders(scene.body, scene.solids, inputs);
   if (!scene.start.empty()) {
     add_start(scene.start, inputs);
-    loaded.start = start_from(scene.start, loaded.cloth, loaded.body.solid.positions);
+    loaded.start = start_from(scene.start, loaded.cloth, loaded.colliders.joined.surface.positions);
   }
   return loaded;
 }

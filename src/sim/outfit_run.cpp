@@ -100,7 +100,7 @@ void OutfitRun::settle() {
   set_rest_stretch(ramp(t_s));
   if (t_s >= settling_s) worn_pins_.clear();
   const double slippery_s = first ? frictionless_s : settling_s;
-  stepper_->integrator().body_constraints().set_friction(t_s < slippery_s ? 0 : step_.body.friction);
+  stepper_->integrator().body_constraints().set_friction_share(t_s < slippery_s ? 0 : 1);
 }
 
 void OutfitRun::choose_steps() {

@@ -10,13 +10,11 @@
 // that runs has been obeyed in every word.
 #pragma once
 #include "assembly/air.hpp"
-#include "body/body_motion.hpp"
-#include "body/collision_body.hpp"
-#include "body/mannequin.hpp"
 #include "garment/label_heights.hpp"
 #include "io/json.hpp"
 #include "material/fabric.hpp"
 #include "material/membrane.hpp"
+#include "sim/colliders.hpp"
 #include "sim/rigid_path.hpp"
 #include "solver/modified_pcg.hpp"
 #include "step/drag.hpp"
@@ -29,7 +27,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace toile::internal {
@@ -133,74 +130,15 @@ struct SceneCloth {
   std::vector<LabelHeight> label_heights;  // of edges with a label; the waist is measured when it is not given
 };
 
-struct SceneCylinder {  // an upright solid whose rims are rounded: body/solid_shapes.hpp
-  double radius_m = 0.2, height_m = 0.5;
-  Vec3 top_m{0, 0, 0};  // middle of the top
-};
-
-struct SceneMotion {
-  std::string name;                              // of the mannequin's own: walk, twist, dance ...; empty: from a file
-  std::string path;                              // resolved: .pc2, or a folder of OBJ files
-  double fps = SampleOptions{}.rate_hz;          // of the file
-  double lead_in_s = SampleOptions{}.lead_in_s;  // from the body's own pose into the motion
-  std::string where, pointer;
-};
-
-// A body that is given in memory: one frame, or one after the other.
-struct SceneBodyArrays {
-  std::vector<Vec3> frames;  // m; of equal length, the first is how it stands
-  std::size_t vertices = 0;  // of a frame
-  std::vector<Triangle> triangles;
-  double fps = 30;
-};
-
-struct SceneBody {
-  enum class Kind { none, mannequin, mesh, cylinder, arrays };
-  Kind kind = Kind::none;
-  MannequinKind mannequin = MannequinKind::woman;
-  std::optional<SceneMotion> motion;
-  std::string mesh;          // path, resolved
-  std::string measurements;  // path, resolved; empty: the mesh's name with .yaml, if there is one
-  LengthUnit unit = LengthUnit::automatic;
-  SceneCylinder cylinder;
-  std::shared_ptr<const SceneBodyArrays> arrays;
-  std::optional<double> friction;  // absent: the fabric's
-  std::optional<double> offset_m;  // absent: by the cloth's edges, sim/setup.hpp
-};
-
-struct SceneSphere {
-  double radius_m = 0;
-};
-struct SceneBox {
-  Vec3 size_m{0, 0, 0};
-};
-struct SceneRevolved {
-  std::vector<Vec2> profile_m;
-};
-struct SceneSolidMesh {
-  std::string path;  // resolved; in metres
-};
-
-// A thing beside the body, or instead of one, that cloth collides with: body/solid_shapes.hpp.
-struct SceneSolid {
-  using Sphere = SceneSphere;
-  using Box = SceneBox;
-  using Revolved = SceneRevolved;
-  using Mesh = SceneSolidMesh;
-  std::variant<Sphere, Box, Revolved, Mesh> shape;
-  double edge_m = 0.02;     // of curved shapes
-  bool inside_out = false;  // a room
-  Vec3 translation_m{0, 0, 0};
-  Vec3 rotation_deg{0, 0, 0};
-  RigidPath moves;  // about its translation_m
-  std::string where, pointer;
-};
-
 struct Scene {
   std::string name = "scene";
   std::vector<SceneCloth> cloth;
-  SceneBody body;
-  std::vector<SceneSolid> solids;
+  SceneCollider body = [] {
+    SceneCollider worn;
+    worn.worn = true;
+    return worn;
+  }();
+  std::vector<SceneCollider> solids;
   Vec3 gravity_m_per_s2 = ModelOptions{}.gravity_m_per_s2;
   AirOptions air;
   // In time, ascending and straight in between; they take the place of the constants above.

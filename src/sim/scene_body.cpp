@@ -13,27 +13,23 @@ void settle(const Json& value, SceneMotion& motion) {
     if (const Json* fps = value.find("fps")) fps->fail("\"file\" beside it", "frames per second without a file");
 }
 
-void settle(const Json& value, SceneBody& body) {
-  const bool mannequin = body.kind == SceneBody::Kind::mannequin, mesh = body.kind == SceneBody::Kind::mesh;
-  if (const Json* unit = value.find("unit"); unit != nullptr && !mesh)
-    unit->fail("\"mesh\" beside it", "a unit without a mesh");
-  if (const Json* measured = value.find("measurements"); measured != nullptr && !mesh)
-    measured->fail("\"mesh\" beside it", "measurements without a mesh");
+void settle(const Json& value, SceneCollider& collider) {
+  collider.where = value.where();
+  collider.pointer = value.pointer();
+  collider.moves.centre() = collider.translation_m;
+  if (const Json* moves = value.find("moves")) check_ascending(*moves, collider.moves.keys());
+  const bool mesh = collider.as<SceneMesh>() != nullptr;
+  for (const char* key : {"unit", "measurements"})
+    if (const Json* of_mesh = value.find(key); of_mesh != nullptr && !mesh)
+      of_mesh->fail("\"mesh\" beside it", std::string(key) + " without a mesh");
   const Json* motion = value.find("motion");
   if (motion == nullptr) return;
-  if (!mannequin && !mesh) motion->fail("a mannequin or a mesh beside it", "a motion without a body that can move");
-  if (!mesh || body.motion->name.empty()) return;
+  if (!collider.is_person()) motion->fail("a mannequin or a mesh beside it", "a motion without a body that can move");
+  if (!mesh || collider.motion->name.empty()) return;
   const auto names = motion_names_without_skeleton();
-  if (std::find(names.begin(), names.end(), body.motion->name) != names.end()) return;
+  if (std::find(names.begin(), names.end(), collider.motion->name) != names.end()) return;
   (motion->is_object() ? motion->at("name") : *motion)
-      .fail(std::string(what_moves_a_mesh), '"' + body.motion->name + '"');
-}
-
-void settle(const Json& value, SceneSolid& solid) {
-  solid.where = value.where();
-  solid.pointer = value.pointer();
-  solid.moves.centre() = solid.translation_m;
-  if (const Json* moves = value.find("moves")) check_ascending(*moves, solid.moves.keys());
+      .fail(std::string(what_moves_a_mesh), '"' + collider.motion->name + '"');
 }
 
 }  // namespace toile::internal

@@ -115,8 +115,8 @@ class SettingsHash {
   void alternative(std::string_view, bool chosen, const Choose&, const Describe& describe_it) {
     if (chosen) describe_it(*this);
   }
-  void exactly_one(std::initializer_list<std::string_view>) {}
-  void at_most_one(std::initializer_list<std::string_view>) {}
+  void exactly_one(const std::vector<std::string_view>&) {}
+  void at_most_one(const std::vector<std::string_view>&) {}
 
  private:
   // Whether it counts at all.

@@ -39,11 +39,14 @@ std::vector<std::string> input_paths(const Scene& scene) {
     add(cloth.pattern);
     add(cloth.mesh);
   }
-  add(scene.body.mesh);
-  add(measurements_path(scene.body));
-  if (scene.body.motion) add(scene.body.motion->path);
-  for (const SceneSolid& solid : scene.solids)
-    if (const auto* mesh = std::get_if<SceneSolid::Mesh>(&solid.shape)) add(mesh->path);
+  const auto add_collider = [&](const SceneCollider& collider) {
+    const SceneMesh* const mesh = collider.as<SceneMesh>();
+    if (mesh != nullptr) add(mesh->path);
+    if (mesh != nullptr && collider.worn) add(measurements_path(*mesh));
+    if (collider.motion) add(collider.motion->path);
+  };
+  add_collider(scene.body);
+  for (const SceneCollider& solid : scene.solids) add_collider(solid);
   add(scene.start);
   return paths;
 }

@@ -91,8 +91,8 @@ class KeyVisitor {
   void alternative(std::string_view key, const Any&...) {
     keys_.push_back(key);
   }
-  void exactly_one(std::initializer_list<std::string_view> keys) { groups_.push_back({keys, true}); }
-  void at_most_one(std::initializer_list<std::string_view> keys) { groups_.push_back({keys, false}); }
+  void exactly_one(const std::vector<std::string_view>& keys) { groups_.push_back({keys, true}); }
+  void at_most_one(const std::vector<std::string_view>& keys) { groups_.push_back({keys, false}); }
 
   // Throws for a key that the object does not know, and for keys that exclude each other.
   void check(const Json& object) const;
@@ -267,8 +267,8 @@ class SceneReader {
     choose();
     describe_it(*this);
   }
-  void exactly_one(std::initializer_list<std::string_view>) {}
-  void at_most_one(std::initializer_list<std::string_view>) {}
+  void exactly_one(const std::vector<std::string_view>&) {}
+  void at_most_one(const std::vector<std::string_view>&) {}
 
  private:
   template <class T>

@@ -17,8 +17,7 @@ void settle(const Json& value, ScenePin& pin);
 void settle(const Json& value, SceneDrag& drag);
 void settle(const Json& value, SceneCloth& cloth);
 void settle(const Json& value, SceneMotion& motion);
-void settle(const Json& value, SceneBody& body);
-void settle(const Json& value, SceneSolid& solid);
+void settle(const Json& value, SceneCollider& collider);
 void settle(const Json& value, Scene& scene);
 
 // Throws at the time of the first of the keys that `moves` gave which does not come after the one before.

@@ -57,6 +57,11 @@ struct Range {
   constexpr bool contains(double x) const { return x <= most && x >= least && !(above && x == least); }
 };
 
+inline constexpr double most_seconds = 3600, most_fps = 1000;
+inline constexpr double farthest_m = 1e4;  // from the origin
+inline constexpr Range anywhere{-farthest_m, farthest_m}, within_a_run{0, most_seconds};
+inline constexpr Range any_angle{-1e6, 1e6};  // degrees: turns are counted, 720 are two
+
 // How many rows an array has whose elements are arrays themselves.
 struct Rows {
   std::size_t least = 1;

@@ -4,6 +4,8 @@
 #include "sim/settings_cloth.hpp"
 
 #include <algorithm>
+#include <type_traits>
+#include <vector>
 
 namespace toile::internal {
 
@@ -30,98 +32,52 @@ void describe(V& v, SceneMotion& motion) {
   v.number({"lead_in_s", "from the pose in which the body stands into the motion"}, {0, 10}, motion.lead_in_s);
 }
 
+// Which shape it is: the keys of all kinds exclude each other.
 template <class V>
-void describe(V& v, SceneCylinder& cylinder) {
-  v.number({"radius_m", "its radius"}, {0.01, 10}, cylinder.radius_m);
-  v.number({"height_m", "its height"}, {0.01, 10}, cylinder.height_m);
-  v.vector({"top_m", "middle of its top"}, anywhere, cylinder.top_m);
-}
-
-inline constexpr std::array<std::pair<std::string_view, MannequinKind>, 4> mannequins = {
-    {{"woman", MannequinKind::woman},
-     {"dancer", MannequinKind::dancer},
-     {"man", MannequinKind::man},
-     {"default", MannequinKind::woman}}};
-template <class V>
-void describe(V& v, SceneBody& body) {
-  using Kind = SceneBody::Kind;
-  static constexpr std::array<std::pair<std::string_view, LengthUnit>, 3> units = {
-      {{"m", LengthUnit::m}, {"dm", LengthUnit::dm}, {"cm", LengthUnit::cm}}};
-  const auto chosen = [&](Kind kind) { return body.kind == kind; };
-  v.at_most_one({"mannequin", "mesh", "cylinder"});
-  v.alternative(
-      "mannequin", chosen(Kind::mannequin), [&] { body.kind = Kind::mannequin; },
-      [&](auto& of) {
-        of.name({"mannequin", "one that is built in ([mannequin.md](mannequin.md))", "no"}, mannequins, body.mannequin);
-      });
-  v.alternative(
-      "mesh", chosen(Kind::mesh), [&] { body.kind = Kind::mesh; },
-      [&](auto& of) {
-        of.path({"mesh", "a closed OBJ", "no"}, body.mesh);
-      });
-  v.alternative(
-      "cylinder", chosen(Kind::cylinder), [&] { body.kind = Kind::cylinder; },
-      [&](auto& of) {
-        of.object({"cylinder", "upright, with rounded rims", "no"}, body.cylinder);
-      });
-  v.name({"unit", "of the mesh", "metres, or an error that asks"}, units, body.unit);
-  v.path({"measurements", "of the mesh, a YAML file: [howto/measurements.md](howto/measurements.md)",
-          "the file of the mesh's name that ends in .yaml, if there is one"},
-         body.measurements);
-  v.object({"motion", "a name, a file, or an object. The cloth drapes on the first pose, then the body moves", "none"},
-           body.motion, motion_by_name(chosen(Kind::mannequin)));
-  v.number({"friction", "of the cloth on the body and on solids", "the fabric's"}, {0, 100}, body.friction);
-  v.number({"offset_mm", "how far above the body cloth rests; edges cut corners of the body, so longer ones need more",
-            "0.2 of the edge length, between 1.5 and 2.5"},
-           {0.1, 100, 1e-3}, body.offset_m);
-}
-
-inline constexpr Range length_of_a_solid{1e-3, 100};
-
-template <class V>
-void describe(V& v, SceneSolid::Sphere& sphere) {
-  v.number(Setting{"radius_m", "its radius"}.needs(), length_of_a_solid, sphere.radius_m);
-}
-template <class V>
-void describe(V& v, SceneSolid::Box& box) {
-  v.vector(Setting{"size_m", "along x, y and z"}.needs(), length_of_a_solid, box.size_m);
-}
-template <class V>
-void describe(V& v, SceneSolid::Revolved& shape) {
-  v.rows(Setting{"profile_m", "from the axis to the axis, or a closed curve beside it"}.needs(), Rows{3},
-         shape.profile_m, [](auto& row, Vec2& p) {
-           row.column("distance from the axis", Range{0, 100}, p.x());
-           row.column("height", Range{-100, 100}, p.y());
-         });
-}
-
-template <class V>
-void describe(V& v, SceneSolid& solid) {
-  // The key of the alternative that is `Shape`, described by `of_shape`.
-  const auto alternative = [&]<class Shape>(std::type_identity<Shape>, std::string_view key, const auto& of_shape) {
+void describe_shape(V& v, SceneCollider& collider) {
+  std::vector<std::string_view> keys;
+  for_each_kind([&](const auto& kind) { keys.push_back(std::remove_cvref_t<decltype(kind)>::key); });
+  if (collider.worn)
+    v.at_most_one(keys);
+  else
+    v.exactly_one(keys);
+  for_each_kind([&]<class Kind>(const Kind&) {
     v.alternative(
-        key, std::holds_alternative<Shape>(solid.shape), [&] { solid.shape = Shape{}; },
-        [&](auto& of) { of_shape(of, std::get<Shape>(solid.shape)); });
-  };
-  v.exactly_one({"sphere", "box", "revolved", "mesh"});
-  alternative(std::type_identity<SceneSolid::Sphere>{}, "sphere", [](auto& of, auto& shape) {
-    of.object({"sphere", "around the origin", "no"}, shape);
+        Kind::key, collider.as<Kind>() != nullptr, [&] { collider.shape = Kind{}; },
+        [&](auto& of) { describe_choice(of, std::get<Kind>(collider.shape), collider.worn); });
   });
-  alternative(std::type_identity<SceneSolid::Box>{}, "box", [](auto& of, auto& shape) {
-    of.object({"box", "around the origin", "no"}, shape);
+  for_each_kind([&]<class Kind>(Kind not_chosen) {
+    if constexpr (requires { describe_beside(v, not_chosen, true); }) {
+      Kind* const chosen = std::get_if<Kind>(&collider.shape);
+      describe_beside(v, chosen != nullptr ? *chosen : not_chosen, collider.worn);
+    }
   });
-  alternative(std::type_identity<SceneSolid::Revolved>{}, "revolved", [](auto& of, auto& shape) {
-    of.object({"revolved", "an outline that sweeps around the y axis", "no"}, shape);
-  });
-  alternative(std::type_identity<SceneSolid::Mesh>{}, "mesh", [](auto& of, auto& shape) {
-    of.path({"mesh", "a closed OBJ in metres, with all its parts", "no"}, shape.path);
-  });
-  v.number({"edge_m", "edge length of curved shapes"}, {5e-4, 10}, solid.edge_m);
-  v.flag({"inside_out", "a room"}, solid.inside_out);
-  Placement placement{solid.translation_m, solid.rotation_deg};
-  v.object({"placement", "where it stands", "around the origin"}, placement);
-  v.list({"moves", "how it moves, about its `translation_m`: [below](#moves)", "it stands still"}, solid.moves.keys(),
-         1);
+}
+
+template <class V>
+void describe(V& v, SceneCollider& collider) {
+  describe_shape(v, collider);
+  v.object({"motion",
+            collider.worn ? "a name, a file, or an object. The cloth drapes on the first pose, then the body moves"
+                          : "of a mannequin or a mesh, as a body's",
+            "none"},
+           collider.motion, motion_by_name(collider.as<SceneMannequin>() != nullptr));
+  v.number({"edge_m", "edge length of curved shapes"}, {5e-4, 10}, collider.edge_m);
+  if (!collider.worn) {
+    v.flag({"inside_out", "a room"}, collider.inside_out);
+    Placement placement{collider.translation_m, collider.rotation_deg};
+    v.object({"placement", "where it stands", "around the origin"}, placement);
+    v.list({"moves", "how it moves, about its `translation_m`: [below](#moves)", "it stands still"},
+           collider.moves.keys(), 1);
+  }
+  v.number(
+      {"friction",
+       collider.worn ? "of the cloth on the body, and on solids that have none of their own" : "of the cloth on it",
+       collider.worn ? "the fabric's" : "the body's"},
+      {0, 100}, collider.contact.friction);
+  v.number({"offset_mm", "how far above it cloth rests; edges cut corners of it, so longer ones need more",
+            collider.worn ? "0.2 of the edge length, between 1.5 and 2.5" : "the body's"},
+           {0.1, 100, 1e-3}, collider.contact.offset_m);
 }
 
 }  // namespace toile::internal

@@ -124,8 +124,8 @@ class Catalogue {
     choose();
     describe_it(*this);
   }
-  void exactly_one(std::initializer_list<std::string_view> keys) { object_->groups.push_back({keys, true}); }
-  void at_most_one(std::initializer_list<std::string_view> keys) { object_->groups.push_back({keys, false}); }
+  void exactly_one(const std::vector<std::string_view>& keys) { object_->groups.push_back({keys, true}); }
+  void at_most_one(const std::vector<std::string_view>& keys) { object_->groups.push_back({keys, false}); }
 
  private:
   SettingNode& add(const Setting& s, Kind kind) {

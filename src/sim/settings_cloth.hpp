@@ -8,11 +8,6 @@
 
 namespace toile::internal {
 
-inline constexpr double most_seconds = 3600, most_fps = 1000;
-inline constexpr double farthest_m = 1e4;  // from the origin
-inline constexpr Range anywhere{-farthest_m, farthest_m}, within_a_run{0, most_seconds};
-inline constexpr Range any_angle{-1e6, 1e6};  // degrees: turns are counted, 720 are two
-
 template <class V>
 void describe_times_and_place(V& row, double& t_s, Vec3& x_m) {
   row.column("t_s", within_a_run, t_s);

@@ -123,12 +123,9 @@ void describe(V& v, Scene& scene) {
   v.list(Setting{"cloth", "garments, dressed in this order from the inside out, or grids, tubes and ribbons"}.needs(),
          scene.cloth, 1);
   v.object(Setting{"body", "what the cloth is worn by, or falls on", "none"}.or_null(), scene.body);
-  v.list(
-      {"solids",
-       "what cloth collides with beside the body, or instead of it, of at most 2 million triangles each. Friction and "
-       "offset are the body's",
-       "none"},
-      scene.solids);
+  v.list({"solids", "what cloth collides with beside the body, or instead of it, of at most 2 million triangles each",
+          "none"},
+         scene.solids);
   v.group({"world", "what acts on all cloth"}, [&](auto& of) { describe_world(of, scene); });
   v.group({"time", "frames, and how long"}, [&](auto& of) { describe_time(of, scene); });
   v.group({"solver", "how a step is solved"}, [&](auto& of) { describe_solver(of, scene); });

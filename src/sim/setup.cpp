@@ -266,7 +266,7 @@ std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const Garment
 
 double default_offset_m(double edge_m) { return std::clamp(0.2 * edge_m, 1.5e-3, 2.5e-3); }
 
-StepOptions step_options(const Scene& scene, const Fabric& fabric, double edge_m) {
+StepOptions step_options(const Scene& scene, double edge_m) {
   StepOptions step;
   if (scene.preconditioner) step.pcg.preconditioner = *scene.preconditioner;
   step.pcg.tolerance = scene.solver_tolerance();
@@ -276,8 +276,10 @@ StepOptions step_options(const Scene& scene, const Fabric& fabric, double edge_m
   step.relinearisations = scene.relinearisations;
   step.rows.cloth_cloth = scene.self_contact;
   step.flypaper = scene.flypaper;
-  step.body.offset_m = scene.body.offset_m.value_or(default_offset_m(edge_m));
-  step.body.friction = scene.body.friction.value_or(fabric.friction);
+  step.body.offset_m = scene.body.contact.offset_m.value_or(default_offset_m(edge_m));
+  step.body.friction = scene.body.contact.friction;
+  if (scene.body.exists()) step.body.colliders.emplace_back();
+  for (const SceneCollider& solid : scene.solids) step.body.colliders.push_back(solid.contact);
   return step;
 }
 

@@ -1,11 +1,10 @@
 // sim/setup.hpp: from the words of a scene to cloth and body in memory, before anything moves.
 #pragma once
 #include "assembly/cloth_model.hpp"
-#include "body/solid_shapes.hpp"
 #include "core/hash.hpp"
 #include "garment/garment_mesh.hpp"
 #include "garment/pattern_figures.hpp"
-#include "io/body_measurements.hpp"
+#include "sim/colliders.hpp"
 #include "sim/outfit.hpp"
 #include "sim/outfit_run.hpp"
 #include "sim/scene.hpp"
@@ -14,35 +13,6 @@
 #include <vector>
 
 namespace toile::internal {
-
-struct BodyMovement {
-  BodyAt at;  // since it began to move; at 0 s the body is where it stands
-  std::string name;
-  double duration_s = 0;  // until the body holds still; infinite for what repeats
-};
-
-struct LoadedBody {
-  SolidMesh solid;                    // empty for a scene without body
-  std::vector<std::string> warnings;  // what of its file is left out
-  std::optional<BodyMeasurements> measurements;
-  std::optional<BodyMovement> movement;
-};
-
-// The body of an OBJ file with this text, checked.  Throws InputError.
-CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit);
-// The file that the body's measurements are read from: the one that is named, or one beside the mesh; empty: there is none.
-std::string measurements_path(const SceneBody& body);
-// Adds the bytes of its files to `inputs`.  Throws IoError, InputError, also for measurements of another body; every sample of a motion is checked here, before
-// anything runs.
-LoadedBody load_body(const SceneBody& body, Hash& inputs);
-// Puts the solids beside the body; they move with its motion, or by themselves.
-void add_solids(std::span<const SceneSolid> solids, LoadedBody& body, Hash& inputs);
-
-// Throws InputError("<where>", "<pointer>/moves/2", ...) for moves that lead what is within `reach_m` of their centre faster than
-// most_led_m_per_s.
-void check_speed(const RigidPath& moves, double reach_m, std::string_view where, std::string_view pointer);
-// Throws InputError for the first triangle whose corners lie on a line.
-void check_areas(std::string_view file, std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
 // A cloth of the scene, meshed and moved as `placement` says: a pattern's panels, or a shape of one panel.
 struct LoadedCloth {
@@ -63,12 +33,11 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
 // All that a scene names, read.
 struct LoadedScene {
   std::vector<LoadedCloth> cloth;
-  LoadedBody body;                                        // and the solids behind the person
-  std::size_t person_vertices = 0, person_triangles = 0;  // of the body
+  LoadedColliders colliders;
   std::optional<Outfit> start;     // how another run had draped the cloth, if this one begins there
   double cloth_s = 0, body_s = 0;  // wall time, for the report
 };
-// Adds every byte that it reads to `inputs`.  Throws what load_cloth, load_body and start_from throw.
+// Adds every byte that it reads to `inputs`.  Throws what load_cloth, load_colliders and start_from throw.
 LoadedScene load_scene(const Scene& scene, const TextSource& read, Hash& inputs);
 
 // Straight on from key to key, at rest before the first and after the last.
@@ -97,7 +66,7 @@ std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const Garment
                                           const BodyFigures& body, std::vector<std::string>& warnings);
 // How far above the body cloth of this edge length rests when nobody says: edges cut corners of the body, by e^2 / 8R.
 double default_offset_m(double edge_m);
-StepOptions step_options(const Scene& scene, const Fabric& fabric, double edge_m);
+StepOptions step_options(const Scene& scene, double edge_m);
 
 // Every number of the scene that changes the result; not its name, output or number of threads.
 void add_to_hash(const Scene& scene, Hash& hash);

@@ -30,16 +30,16 @@ Simulation::Simulation(Scene scene, LoadedScene loaded, SimulationOptions option
       observer_(&observer),
       cloth_(std::move(loaded.cloth)),
       start_(std::move(loaded.start)),
-      person_vertices_(loaded.person_vertices),
-      person_triangles_(loaded.person_triangles),
-      measurements_(std::move(loaded.body.measurements)),
-      motion_(std::move(loaded.body.movement)) {
+      person_vertices_(loaded.colliders.worn_vertices),
+      person_triangles_(loaded.colliders.worn_triangles),
+      measurements_(std::move(loaded.colliders.measurements)),
+      motion_(std::move(loaded.colliders.joined.movement)) {
   report_.name = scene_.name;
   report_.fps = scene_.fps;
   report_.startup.scene = options_.seconds_before;
   report_.startup.cloth = loaded.cloth_s;
   report_.startup.body = loaded.body_s;
-  report_.warnings = std::move(loaded.body.warnings);
+  report_.warnings = std::move(loaded.colliders.warnings);
   for (const LoadedCloth& cloth : cloth_) {
     report_.warnings.insert(report_.warnings.end(), cloth.warnings.begin(), cloth.warnings.end());
     report_.vertices += cloth.garment.mesh.particle_count;
@@ -48,15 +48,18 @@ Simulation::Simulation(Scene scene, LoadedScene loaded, SimulationOptions option
     report_.seams += static_cast<int>(cloth.garment.seams.size());
   }
   const Timed timed(report_.startup.body);
-  SolidMesh& solid = loaded.body.solid;
-  body_x_ = standing_x_ = solid.positions;
-  body_triangles_ = solid.triangles;
+  JoinedColliders& joined = loaded.colliders.joined;
+  body_x_ = standing_x_ = joined.surface.positions;
+  body_triangles_ = joined.surface.triangles;
+  colliders_ = std::move(joined.parts);
   report_.body_vertices = static_cast<int>(body_x_.size());
   report_.body_triangles = static_cast<int>(body_triangles_.size());
-  if (!body_triangles_.empty()) body_.emplace(std::move(solid.positions), std::move(solid.triangles));
+  if (!body_triangles_.empty())
+    body_.emplace(std::move(joined.surface.positions), std::move(joined.surface.triangles),
+                  std::move(joined.vertex_collider));
   double edge_m = 0;
   for (const LoadedCloth& cloth : cloth_) edge_m = std::max(edge_m, cloth.edge_m);
-  step_ = step_options(scene_, cloth_.front().fabrics.front(), edge_m);
+  step_ = step_options(scene_, edge_m);
 }
 
 void Simulation::run() {

@@ -91,6 +91,8 @@ class Simulation {
   const Outfit& outfit() const { return outfit_; }
   std::span<const Vec3> body_x() const { return body_x_; }
   std::span<const Triangle> body_triangles() const { return body_triangles_; }
+  // Of the body's vertices: the body's own, then those of every solid.
+  std::span<const JoinedColliders::Part> colliders() const { return colliders_; }
   Index particles_of_first_panels() const { return cloth_.front().garment.mesh.particle_count; }
   bool body_moves() const { return motion_.has_value(); }
   const std::optional<BodyMovement>& motion() const { return motion_; }
@@ -203,6 +205,7 @@ class Simulation {
   Vec3s body_x_;      // at the last frame
   Vec3s standing_x_;  // how the body stands when it is dressed
   std::vector<Triangle> body_triangles_;
+  std::vector<JoinedColliders::Part> colliders_;
   std::optional<BodySurface> body_;
   std::size_t person_vertices_ = 0, person_triangles_ = 0;  // of body_x_ and body_triangles_; solids come behind
   std::optional<BodyMeasurements> measurements_;

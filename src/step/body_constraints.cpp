@@ -38,6 +38,7 @@ BodyConstraints::BodyConstraints(const ClothModel& model, const BodySurface* bod
     : model_(&model),
       body_(body),
       options_(options),
+      largest_offset_m_(options.largest_offset_m()),
       points_(body ? model.mass_kg.size() : 0),
       reach_m_(points_.size()),
       touch_(model.mass_kg.size(), Touch::none),
@@ -47,10 +48,24 @@ BodyConstraints::BodyConstraints(const ClothModel& model, const BodySurface* bod
   memory_.reserve(points_.size());
 }
 
-bool BodyConstraints::too_deep(const BodyPoint& point) const { return point.gap_m < -deepest * options_.offset_m; }
+bool BodyConstraints::too_deep(const BodyPoint& point) const { return point.gap_m < -deepest * offset_m(point); }
+
+double BodyConstraints::friction(const Contact& contact, Index particle) const {
+  return friction_share_ *
+         options_.friction_of(body_->collider(contact.point.triangle), model_->friction[at(particle)]);
+}
+
+// Coulomb's: of both faces in a crease.
+double BodyConstraints::cone_N(const Near& near) {
+  const double mu = friction(near.contact, near.particle);
+  const Contact* other = other_face(near);
+  if (!other) return mu * near.contact.lambda_n;
+  const double other_mu = friction(*other, near.particle);
+  return mu * (near.contact.lambda_n + other->lambda_n) + (other_mu - mu) * other->lambda_n;
+}
 
 double BodyConstraints::reach(const Vec3& x, double way_m) const {
-  const double own = options_.offset_m + way_m;
+  const double own = largest_offset_m_ + way_m;
   return body_moves_ ? own + body_->travel_near(x, own) : own;
 }
 
@@ -87,7 +102,7 @@ void BodyConstraints::find_creases(const ClothState& state) {
       if (face.triangle < 0 || face.normal.dot(n) > same_face) continue;
       if (face.gap_m < over * (x - body_->position(face.triangle, face.barycentric)).norm()) continue;
       const bool slit = face.normal.dot(n) < look_back;
-      if (slit && face.gap_m + near.contact.point.gap_m >= 2 * options_.offset_m) continue;
+      if (slit && face.gap_m + near.contact.point.gap_m >= offset_m(face) + offset_m(near.contact)) continue;
       near.beside = static_cast<std::ptrdiff_t>(beside_.size());
       beside_.push_back({{face, Vec3::Zero(), face.normal, false, memory->lambda_beside_N}, slit, memory->faces == 2});
     }
@@ -147,28 +162,29 @@ void BodyConstraints::begin(const ClothState& state, std::span<const Vec3> dv, c
     const Vec3 way = step.drift(near.particle) + step.weight_s * (state.v[i] + dv[i]);
     const auto gap = [&](const Contact& c) { return c.point.gap_m + c.normal.dot(way - c.body_travel); };
     if (Beside* beside = this->beside(near))
-      beside->touches = beside->slit || beside->touched || gap(beside->contact) < options_.offset_m;
-    if (touch_[i] == Touch::none && gap(contact) >= options_.offset_m) continue;
+      beside->touches = beside->slit || beside->touched || gap(beside->contact) < offset_m(beside->contact);
+    if (touch_[i] == Touch::none && gap(contact) >= offset_m(contact)) continue;
     touch_down(near, state.v[i] + dv[i], step.h_s);
-    if (touch_[i] == Touch::sticks && options_.friction > 0) near.touch = Touch::sticks;
+    if (touch_[i] == Touch::sticks && friction(contact, near.particle) > 0) near.touch = Touch::sticks;
   }
 }
 
-double BodyConstraints::alteration(const Contact& contact, double offset_m) const {
-  const double r = options_.offset_m, missing = offset_m - contact.point.gap_m;
+double BodyConstraints::alteration(const Contact& contact, double to_m) const {
+  const double r = offset_m(contact), missing = to_m - contact.point.gap_m;
   if (missing >= 0 && missing < dead_band * r) return 0;
   return std::min(missing, altered_share_ * largest_alteration * r);
 }
 
 // In a crease y is the shortest way that leads as far as it has to from either face.
 Vec3 BodyConstraints::alteration(const Near& near) {
-  const double r = options_.offset_m;
+  const double r = offset_m(near.contact);
   const Vec3& n = near.contact.normal;
   const Beside* other = touching_beside(near);
   if (!other) return alteration(near.contact, r) * n;
   if (other->slit) return alteration(near.contact, 0.5 * (near.contact.point.gap_m + other->contact.point.gap_m)) * n;
   const Vec3& m = other->contact.normal;
-  const double along_n = alteration(near.contact, r), along_m = alteration(other->contact, r), c = n.dot(m);
+  const double along_n = alteration(near.contact, r), along_m = alteration(other->contact, offset_m(other->contact)),
+               c = n.dot(m);
   const Vec3 y = along_n * n + ((along_m - c * along_n) / std::max(1 - c * c, least_sine2)) * (m - c * n);
   const double most = std::max({altered_share_ * largest_alteration * r, std::abs(along_n), std::abs(along_m)});
   return std::min(1.0, most / std::max(y.norm(), most)) * y;
@@ -186,29 +202,28 @@ void BodyConstraints::apply(const ClothState& state, const StepFormula& step, Pa
       return (contact.body_travel - step.drift(near.particle)) / step.weight_s - state.v[i];
     };
     y[i] = alteration(near);
-    if (near.contact.normal.dot(y[i]) < -dead_band * options_.offset_m) landing[i] = y[i];
+    if (near.contact.normal.dot(y[i]) < -dead_band * offset_m(near.contact)) landing[i] = y[i];
     if (near.touch == Touch::sticks) {
       constraints.hold(near.particle, z(near.contact));
       continue;
     }
     const Vec3& n = near.contact.normal;
     constraints.hold_along(near.particle, n, n.dot(z(near.contact)));
-    double lambda = near.contact.lambda_n;
     std::array<Vec3, 2> across = tangents(n);
     std::span<const Vec3> free = across;
     if (other) {
       constraints.hold_along(near.particle, other->normal, other->normal.dot(z(*other)));
-      lambda += other->lambda_n;
       across[0] = n.cross(other->normal).normalized();
       free = free.first(1);
     }
-    if (options_.friction <= 0 || lambda <= 0) continue;
+    const double cone = cone_N(near);
+    if (cone <= 0) continue;
     for (const Vec3& t : free) {
       LinearSpring drag;
       drag.particle[0] = near.particle;
       drag.weight[0] = 1;
       drag.direction = t;
-      drag.damping_N_s_per_m = options_.friction * lambda / std::max(near.slip_m_per_s, slowest_slip);
+      drag.damping_N_s_per_m = cone / std::max(near.slip_m_per_s, slowest_slip);
       drag.body_displacement_m = t.dot(near.contact.body_travel);
       springs.push_back(drag);
     }
@@ -228,10 +243,11 @@ double BodyConstraints::predicted_gap_m(const Contact& contact, Index particle, 
 bool BodyConstraints::touches(Near& near, const Vec3& v, const StepFormula& step, Change& change) {
   const auto comes_to = [&](Contact& contact) {
     const double gap = predicted_gap_m(contact, near.particle, v, step);
-    if (gap >= (1 - dead_band) * options_.offset_m) return false;
+    const double r = offset_m(contact);
+    if (gap >= (1 - dead_band) * r) return false;
     contact.lambda_n = 0;
     ++change.added;
-    if (gap < deep * options_.offset_m) ++change.deep;
+    if (gap < deep * r) ++change.deep;
     return true;
   };
   Beside* beside = this->beside(near);
@@ -302,13 +318,11 @@ BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::sp
     near.slip_m_per_s = (velocity - n.dot(velocity) * n).norm();
     if (near.touch == Touch::sticks && !near.slipped) {
       Vec3 tangential = force - n.dot(force) * n;
-      double lambda = near.contact.lambda_n;
       if (const Contact* other = other_face(near)) {
         const Vec3 along = n.cross(other->normal).normalized();
         tangential = along.dot(force) * along;
-        lambda += other->lambda_n;
       }
-      if (tangential.norm() > static_over_kinetic * options_.friction * lambda) {
+      if (tangential.norm() > static_over_kinetic * cone_N(near)) {
         near.touch = Touch::slides;
         near.slipped = true;
         ++change.slipped;
@@ -336,7 +350,7 @@ void BodyConstraints::accept(double h_s) {
   for (const Near& near : near_) {
     double& loose_s = loose_s_[at(near.particle)];
     if (near.slipped) loose_s = slides_on_s;
-    const bool stopped = options_.friction > 0 && near.touch == Touch::slides && loose_s == 0 &&
+    const bool stopped = near.touch == Touch::slides && friction(near.contact, near.particle) > 0 && loose_s == 0 &&
                          near.slip_m_per_s < stick_below * slowest_slip;
     touch_[at(near.particle)] = stopped ? Touch::sticks : near.touch;
     if (near.touch == Touch::none) continue;

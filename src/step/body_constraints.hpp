@@ -27,6 +27,7 @@
 #include "assembly/implicit_row.hpp"
 #include "constraint/particle_constraints.hpp"
 #include "contact/proximity.hpp"
+#include "step/collider_contact.hpp"
 #include "step/step_formula.hpp"
 
 #include <array>
@@ -35,11 +36,6 @@
 #include <vector>
 
 namespace toile::internal {
-
-struct BodyContactOptions {
-  double offset_m = 2.5e-3;             // r: where cloth rests above the body
-  double friction = Fabric{}.friction;  // mu; kinetic, the static one is 2 % larger
-};
 
 enum class Touch : std::uint8_t { none, slides, sticks };
 
@@ -82,10 +78,11 @@ class BodyConstraints {
   int touching() const;
   Touch touch(Index particle) const { return touch_[static_cast<std::size_t>(particle)]; }
   double normal_force_N(Index particle) const { return lambda_n_[static_cast<std::size_t>(particle)]; }
-  void set_friction(double friction) { options_.friction = friction; }
-  const BodyContactOptions& options() const { return options_; }
+  // Of the colliders' friction, from the next step on: 0 lets cloth slip into its place.
+  void set_friction_share(double share) { friction_share_ = share; }
+  double offset_m(const BodyPoint& point) const { return options_.offset_of(body_->collider(point.triangle)); }
 
-  // Between two steps (core/state_archive.hpp); set_friction is the caller's.
+  // Between two steps (core/state_archive.hpp); set_friction_share is the caller's.
   template <class Archive>
   void remember(Archive& archive) {
     archive(memory_);
@@ -147,12 +144,16 @@ class BodyConstraints {
   }
   void find_what_came_far(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step);
   void touch_down(Near& near, const Vec3& v, double h_s) const;
-  double alteration(const Contact& contact, double offset_m) const;
+  double offset_m(const Contact& contact) const { return offset_m(contact.point); }
+  double friction(const Contact& contact, Index particle) const;
+  double cone_N(const Near& near);
+  double alteration(const Contact& contact, double to_m) const;
   Vec3 alteration(const Near& near);
 
   const ClothModel* model_;
   const BodySurface* body_;
   BodyContactOptions options_;
+  double largest_offset_m_, friction_share_ = 1;
   std::vector<BodyPoint> points_;  // [particle] nearest point of the body; triangle -1: farther than reach_m_
   std::vector<double> reach_m_;    // [particle] how far was looked
   double altered_share_ = 1;       // of the largest alteration, in the step of apply

@@ -40,11 +40,11 @@ double drift_along(const LinearSpring& spring, const StepFormula& step) {
 }  // namespace
 
 ContactRows::ContactRows(const ClothModel& model, const BodySurface* body, std::span<const Index> merged_particle,
-                         double body_offset_m, double body_friction, const ContactRowOptions& options)
+                         const BodyContactOptions& body_contact, const ContactRowOptions& options)
     : model_(&model),
       body_(body),
-      body_r_m_(options.body_share * body_offset_m),
-      body_friction_(body_friction),
+      body_contact_(body_contact),
+      largest_body_r_m_(options.body_share * body_contact.largest_offset_m()),
       options_(options),
       topology_(model.mass_kg.size(), model.mesh.triangles, model.topology, merged_particle),
       distance_(model, topology_) {}
@@ -55,6 +55,13 @@ Vec3 ContactRows::relative_velocity(const Pair& pair, const Vec3s& v, double h_s
     if (pair.spring.particle[k] >= 0) sum += pair.spring.weight[k] * v[at(pair.spring.particle[k])];
   }
   return sum;
+}
+
+double ContactRows::friction_of(std::span<const Index> particles) const {
+  double friction = 0;
+  for (const Index i : particles)
+    if (i >= 0) friction = std::max(friction, model_->friction[at(i)]);
+  return friction;
 }
 
 // Rest lengths may have changed; the hierarchy is that of the first positions.
@@ -76,7 +83,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
   h_s_ = h_s;
   ready_for(state.x);
   // How far ahead pairs are watched does not shrink with a thinned r: how fast they close has nothing to do with it.
-  const double r_max = std::max(options_.cloth_cloth ? distance_.largest_m() : 0, body_ ? body_r_m_ : 0);
+  const double r_max = std::max(options_.cloth_cloth ? distance_.largest_m() : 0, body_ ? largest_body_r_m_ : 0);
   const double range = (1 + options_.look_ahead) * r_max;
 
   if (options_.cloth_cloth) {
@@ -88,11 +95,9 @@ void ContactRows::detect(const ClothState& state, double h_s) {
       if (!pinched_.empty() && all_pinched(contact.particle, pinched_)) continue;
       const auto [full, r] = distance_.between(contact.kind, contact.particle);
       if (r <= 0) continue;  // contact is switched off here
-      double friction = 0;
-      for (const Index i : contact.particle)
-        if (i >= 0) friction = std::max(friction, model_->friction[at(i)]);
       const std::size_t other = contact.kind == ContactKind::edge_edge ? 2 : 1;
-      friction = model_->friction_between(contact.particle[0], contact.particle[other], friction);
+      const double friction =
+          model_->friction_between(contact.particle[0], contact.particle[other], friction_of(contact.particle));
       Pair pair{{contact.kind,
                  false,
                  {contact.particle[0], contact.particle[1], contact.particle[2], contact.particle[3], -1}},
@@ -112,18 +117,19 @@ void ContactRows::detect(const ClothState& state, double h_s) {
   }
   if (body_) {
     const Timed timed(body_seconds);
-    find_body_contacts(topology_, tree_, state.x, *body_, {range, 4 * body_r_m_, options_.region_tolerance}, workspace_,
-                       body_contacts_);
+    find_body_contacts(topology_, tree_, state.x, *body_, {range, 4 * largest_body_r_m_, options_.region_tolerance},
+                       workspace_, body_contacts_);
     for (const BodyContact& contact : body_contacts_) {
       if (!pinched_.empty() && all_pinched(contact.particle, pinched_)) continue;
+      const Index collider = body_->collider_of_vertex(contact.body_vertex[0]);
       Pair pair{{contact.kind,
                  true,
                  {contact.particle[0], contact.particle[1], contact.particle[2], contact.body_vertex[0],
                   contact.body_vertex[1]}},
                 {},
                 contact.gap_m,
-                body_r_m_,
-                body_friction_};
+                options_.body_share * body_contact_.offset_of(collider),
+                body_contact_.friction_of(collider, friction_of(contact.particle))};
       for (std::size_t k = 0; k < 3; ++k) {
         pair.spring.particle[k] = contact.particle[k];
         pair.spring.weight[k] = contact.weight[k];

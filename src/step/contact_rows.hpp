@@ -15,6 +15,7 @@
 #include "assembly/implicit_row.hpp"
 #include "contact/proximity.hpp"
 #include "step/bristle.hpp"
+#include "step/collider_contact.hpp"
 #include "step/flypaper.hpp"
 #include "step/layer_distance.hpp"
 #include "step/layer_gap.hpp"
@@ -38,7 +39,7 @@ class ContactRows {
  public:
   // `merged_particle`: of seams still open, as in contact/features.hpp; may be empty.
   ContactRows(const ClothModel& model, const BodySurface* body, std::span<const Index> merged_particle,
-              double body_offset_m, double body_friction, const ContactRowOptions& options);
+              const BodyContactOptions& body_contact, const ContactRowOptions& options);
 
   // L0: pairs near at the state's positions.
   void detect(const ClothState& state, double h_s);
@@ -138,12 +139,14 @@ class ContactRows {
   void carry_on(Pair& pair, std::size_t memory);
   void take_over_contacts();
   void aim_at_the_end(Pair& pair, const ClothState& state, std::span<const Vec3> dv, const StepFormula& step) const;
+  double friction_of(std::span<const Index> particles) const;  // of the cloth: the largest
   void find_acting_edges();
   void ready_for(std::span<const Vec3> x);
 
   const ClothModel* model_;
   const BodySurface* body_;
-  double body_r_m_, body_friction_;
+  BodyContactOptions body_contact_;
+  double largest_body_r_m_;
   ContactRowOptions options_;
   std::vector<Pinched> pinched_;  // [particle] or empty
   ClothTopology topology_;

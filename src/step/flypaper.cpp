@@ -17,8 +17,8 @@ constexpr std::size_t grain = 256;
 
 }  // namespace
 
-Flypaper::Flypaper(const BodySurface* body, std::size_t particles, double offset_m)
-    : body_(body), offset_m_(offset_m), pinched_(particles, Pinched::no) {}
+Flypaper::Flypaper(const BodySurface* body, std::size_t particles, BodyContactOptions contact)
+    : body_(body), contact_(std::move(contact)), pinched_(particles, Pinched::no) {}
 
 // How much nearer the two surfaces come to each other in the step.  Of a place that moves as one, nothing.
 double Flypaper::closing(const Pinch& pinch) const {
@@ -29,18 +29,18 @@ double Flypaper::closing(const Pinch& pinch) const {
 
 bool Flypaper::has_room(const Pinch& pinch) const {
   const double least = std::min(pinch.apart(), pinch.apart() - closing(pinch));
-  return pinch.outside() && least >= (pinch.room ? room_above : room_again) * offset_m_;
+  return pinch.outside() && least >= (pinch.room ? room_above : room_again) * offset_m(pinch);
 }
 
 bool Flypaper::goes_on(Pinch& pinch, const Vec3& x) const {
   for (BodyPoint& side : pinch.side) {
-    const double own = std::abs(side.gap_m) + 2 * offset_m_, reach = own + 2 * body_->travel_near(x, own);
+    const double own = std::abs(side.gap_m) + 2 * offset_m(side), reach = own + 2 * body_->travel_near(x, own);
     side = body_->nearest_facing(x, side.normal, reach);
     if (side.triangle < 0) return false;
   }
-  if (pinch.apart() > ends_above * offset_m_ || pinch.side[0].normal.dot(pinch.side[1].normal) > 0) return false;
-  if (pinch.outside() && pinch.apart() > parts_above * offset_m_ && closing(pinch) < -closes_by * offset_m_)
-    return false;
+  const double r = offset_m(pinch);
+  if (pinch.apart() > ends_above * r || pinch.side[0].normal.dot(pinch.side[1].normal) > 0) return false;
+  if (pinch.outside() && pinch.apart() > parts_above * r && closing(pinch) < -closes_by * r) return false;
   pinch.room = has_room(pinch);
   return true;
 }
@@ -48,7 +48,8 @@ bool Flypaper::goes_on(Pinch& pinch, const Vec3& x) const {
 bool Flypaper::begins(Pinch& pinch, const Vec3& x) const {
   const BodyPoint near = pinch.side[0];
   const double travel = body_->travel(near.triangle, near.barycentric).norm();
-  const double own = begins_below * offset_m_ + travel - near.gap_m;
+  const double widest = 0.5 * (offset_m(near) + contact_.largest_offset_m());
+  const double own = begins_below * widest + travel - near.gap_m;
   if (near.gap_m < 0) return false;
   const double reach = own + body_->travel_near(x, std::max(own, 0.0));
   if (reach <= 0) return false;
@@ -57,8 +58,8 @@ bool Flypaper::begins(Pinch& pinch, const Vec3& x) const {
   // Within it; or beside it, not over it: the way to it leads along it.
   if (other.triangle < 0 || other.gap_m < 0.5 * (x - body_->position(other.triangle, other.barycentric)).norm())
     return false;
-  const double closes = closing(pinch);
-  if (closes <= closes_by * offset_m_ || pinch.apart() - closes >= begins_below * offset_m_) return false;
+  const double closes = closing(pinch), r = offset_m(pinch);
+  if (closes <= closes_by * r || pinch.apart() - closes >= begins_below * r) return false;
   pinch.room = has_room(pinch);
   return true;
 }

@@ -1,4 +1,4 @@
-// step/flypaper.hpp: cloth between two parts of the body that come nearer to each other than two offsets.   (L1) [BWK03 5]
+// step/flypaper.hpp: cloth between two parts of the body that come nearer to each other than their two offsets.   (L1) [BWK03 5]
 //
 //   The offset cannot be kept from both.  What is pinched is held (S = 0) and goes with the two surfaces:
 //     with room      r/2 or more between them, and outside of both: it keeps its place among them,
@@ -9,7 +9,7 @@
 //                    which all is held, some of it so, are let be (contact/pinched.hpp); what is free is kept out of it.
 //
 //   begins  outside of both, between faces that look at each other (n_1 . n_2 < -1/2, either within 60 degrees over the other) and close
-//           on each other, less than 2 r apart now or at the end of the step.  The back of a finger is no second surface: from its
+//           on each other, less than 2 r apart now or at the end of the step (r: the mean of their offsets).  The back of a finger is no second surface: from its
 //           front, the particle is within it.
 //   goes on with the nearest faces that look the way that the last ones looked, found anew in every step: the particle may be within both
 //   ends    2.2 r apart; or outside of both, while they part and are r apart; or when one of them is not found any more; or when
@@ -21,6 +21,7 @@
 #include "constraint/particle_constraints.hpp"
 #include "contact/body_surface.hpp"
 #include "contact/pinched.hpp"
+#include "step/collider_contact.hpp"
 #include "step/step_formula.hpp"
 
 #include <array>
@@ -32,7 +33,7 @@ namespace toile::internal {
 class Flypaper {
  public:
   // `body` may be null: then nothing is ever pinched.
-  Flypaper(const BodySurface* body, std::size_t particles, double offset_m);
+  Flypaper(const BodySurface* body, std::size_t particles, BodyContactOptions contact);
 
   // Who is pinched in the coming step.  `nearest` [particle]: the body's nearest point, or triangle -1 where it is far.
   void detect(const ClothState& state, std::span<const BodyPoint> nearest);
@@ -69,10 +70,12 @@ class Flypaper {
   bool goes_on(Pinch& pinch, const Vec3& x) const;
   bool begins(Pinch& pinch, const Vec3& x) const;
   double closing(const Pinch& pinch) const;
+  double offset_m(const BodyPoint& side) const { return contact_.offset_of(body_->collider(side.triangle)); }
+  double offset_m(const Pinch& pinch) const { return 0.5 * (offset_m(pinch.side[0]) + offset_m(pinch.side[1])); }
   bool has_room(const Pinch& pinch) const;
 
   const BodySurface* body_;
-  double offset_m_;
+  BodyContactOptions contact_;
   std::vector<Pinch> pinches_, candidates_;  // ascending particles
   std::vector<Pinched> pinched_, was_;       // [particle]; before the last detect
   std::vector<char> begun_;                  // [candidate]

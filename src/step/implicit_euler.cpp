@@ -25,9 +25,9 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       solver_(elements_.pattern(), model.mesh),
       constraints_(model.particle_count()),
       body_(model, world.body, options.body),
-      flypaper_(world.body, model.mass_kg.size(), options.body.offset_m),
+      flypaper_(world.body, model.mass_kg.size(), options.body),
       swallowed_(model, world.body),
-      rows_(model, world.body, world.merged_particle, options.body.offset_m, options.body.friction, options.rows) {
+      rows_(model, world.body, world.merged_particle, options.body, options.rows) {
   const auto n = static_cast<std::size_t>(model.particle_count());
   for (Vec3s* vector :
        {&force_, &b_, &y_, &y_known_, &y_linearised_, &linearised_, &displacement_, &force_linearised_, &x_linearised_,
@@ -407,7 +407,7 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
     inverse_mass_[i] = constraints_.is_free(static_cast<Index>(i)) ? 1 / model_->mass_kg[i] : 0;
   std::span<const double> contact_m;
   if (options_.rows.cloth_cloth) contact_m = rows_.contact_m();
-  BodyGuard guard{world_->body, options_.body.offset_m, through_body_};
+  BodyGuard guard{world_->body, options_.body.smallest_offset_m(), through_body_};
   const bool guarded = world_->body && options_.guard_body;
   if (guarded) {
     before_body_.resize(state.x.size());

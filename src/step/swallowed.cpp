@@ -29,7 +29,7 @@ void Swallowed::detect(std::span<const Vec3> x, const BodyConstraints& constrain
     BodyPoint& near = nearest_[i];
     near = known[i].triangle < 0 ? body_->nearest(x[i], farthest_in_m) : known[i];
     if (near.triangle < 0 || !constraints.too_deep(near)) return;
-    const Vec3 outside = x[i] + (constraints.options().offset_m - near.gap_m) * near.normal;
+    const Vec3 outside = x[i] + (constraints.offset_m(near) - near.gap_m) * near.normal;
     has_way_out_[i] =
         body_->winding_number(outside) > 0 ? 0 : 1;  // else into another part, or there are two of them here
   });

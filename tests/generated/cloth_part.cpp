@@ -72,7 +72,7 @@ void ClothPart::set_shape(Object& cloth) const {
   }
 }
 
-void ClothPart::set_placement(Object& cloth) const {
+void ClothPart::place(Object& cloth) const {
   if (is("placed", "as drawn")) {
     if (variant_.defaults)
       cloth.set("placement",
@@ -176,7 +176,7 @@ std::string ClothPart::cloths() const {
   cloth.set("name", word("first"));
   set_shape(cloth);
   if (!is("fabric", "default") || variant_.defaults) cloth.set("fabric", fabric());
-  if (!is_sewn()) set_placement(cloth);
+  if (!is_sewn()) place(cloth);
   set_panels(cloth, is_sewn() ? "front" : "first");
   set_pins(cloth);
   set_drags(cloth);

@@ -57,7 +57,7 @@ class ClothPart : public SceneParts {
   std::string fabric() const;
   std::string ribbon(bool closed) const;
   void set_shape(Object& cloth) const;
-  void set_placement(Object& cloth) const;
+  void place(Object& cloth) const;
   void set_panels(Object& cloth, const std::string& panel) const;
   std::string turning_moves() const;
   void set_pins(Object& cloth) const;

@@ -22,9 +22,8 @@ std::string refusal(const std::string& scene_text) {
       const LoadedCloth loaded = load_cloth(scene, cloth, read_text_file, unused);
       check_cloth("accepted", loaded.garment.mesh, loaded.garment.x);
     }
-    LoadedBody body;
-    add_solids(scene.solids, body, unused);
-    if (!body.solid.positions.empty()) check_closed("accepted", body.solid.positions, body.solid.triangles);
+    const SolidMesh solid = load_colliders(scene.body, scene.solids, unused).joined.surface;
+    if (!solid.positions.empty()) check_closed("accepted", solid.positions, solid.triangles);
   } catch (const Error& error) {
     return error.what();
   }

@@ -19,8 +19,7 @@ std::string input_hash(const Scene& scene) {
   Hash inputs;
   add_to_hash(scene, inputs);
   for (const SceneCloth& cloth : scene.cloth) load_cloth(scene, cloth, read_text_file, inputs);
-  LoadedBody body = load_body(scene.body, inputs);
-  add_solids(scene.solids, body, inputs);
+  load_colliders(scene.body, scene.solids, inputs);
   if (!scene.start.empty()) add_start(scene.start, inputs);
   return inputs.hex();
 }

@@ -46,17 +46,19 @@ std::string tape(double lower_m, const std::string& more = "") {
          more;
 }
 
-SceneBody body_of(const Scratch& scratch) {
-  SceneBody body;
-  body.kind = SceneBody::Kind::mesh;
-  body.mesh = scratch / "woman.obj";
+SceneCollider body_of(const Scratch& scratch) {
+  SceneCollider body;
+  body.worn = true;
+  body.shape = SceneMesh{scratch / "woman.obj", LengthUnit::automatic, ""};
   return body;
 }
 
-std::string refusal(const SceneBody& body) {
+SceneMesh& mesh_of(SceneCollider& body) { return std::get<SceneMesh>(body.shape); }
+
+std::string refusal(const SceneCollider& body) {
   Hash inputs;
   try {
-    load_body(body, inputs);
+    load_collider(body, inputs);
   } catch (const Error& error) {
     return error.what();
   }
@@ -66,11 +68,11 @@ std::string refusal(const SceneBody& body) {
 TEST(Measurements, AreThoseBesideTheMeshOrThoseThatAreNamed) {
   const Scratch scratch;
   scratch.put("woman.obj", person().obj);
-  SceneBody body = body_of(scratch);
-  const auto load = [&](Hash& inputs) { return load_body(body, inputs).measurements; };
+  SceneCollider body = body_of(scratch);
+  const auto load = [&](Hash& inputs) { return load_collider(body, inputs).measurements; };
   Hash without, beside, other;
   EXPECT_FALSE(load(without));
-  EXPECT_EQ(measurements_path(body), "");
+  EXPECT_EQ(measurements_path(mesh_of(body)), "");
   scratch.put("woman.yaml", tape(0));
   EXPECT_NEAR(*load(beside)->waist_m(), person().waist_m, 1e-4);
   EXPECT_NE(without.hex(), beside.hex());
@@ -79,18 +81,15 @@ TEST(Measurements, AreThoseBesideTheMeshOrThoseThatAreNamed) {
   const std::vector<std::string> inputs = input_paths(scene);
   EXPECT_NE(std::find(inputs.begin(), inputs.end(), scratch / "woman.yaml"), inputs.end())
       << "`verify` compares it, too";
-  body.measurements = scratch.put("other.yml", tape(0.05));
+  mesh_of(body).measurements = scratch.put("other.yml", tape(0.05));
   EXPECT_NEAR(*load(other)->waist_m(), person().waist_m - 0.05, 1e-4);
   EXPECT_NE(other.hex(), beside.hex());
-  body = SceneBody();
-  body.kind = SceneBody::Kind::mannequin;
-  EXPECT_EQ(measurements_path(body), "");
 }
 
 TEST(Measurements, OfAnotherBodyOrBrokenAreRefused) {
   const Scratch scratch;
   scratch.put("woman.obj", person().obj);
-  const SceneBody body = body_of(scratch);
+  const SceneCollider body = body_of(scratch);
   scratch.put("woman.yaml", fmt::sprintf("body: {height: %.2f}", 101.9 * person().height_m));
   EXPECT_EQ(refusal(body), "(no error)");
   scratch.put("woman.yaml", fmt::sprintf("body: {height: %.2f}", 102.1 * person().height_m));
@@ -100,14 +99,14 @@ TEST(Measurements, OfAnotherBodyOrBrokenAreRefused) {
   EXPECT_NE(refusal(body).find("woman.yaml:1:"), std::string::npos) << refusal(body);
   scratch.put("woman.yaml", "samples: 4");
   Hash inputs;
-  const LoadedBody loaded = load_body(body, inputs);
+  const Collider loaded = load_collider(body, inputs);
   EXPECT_FALSE(loaded.measurements);
   ASSERT_EQ(loaded.warnings.size(), 1U);
   EXPECT_NE(loaded.warnings[0].find("holds no measurements"), std::string::npos);
-  SceneBody named = body;
-  named.measurements = scratch / "woman.yaml";
+  SceneCollider named = body;
+  mesh_of(named).measurements = scratch / "woman.yaml";
   EXPECT_NE(refusal(named).find("a mapping with the key \"body\""), std::string::npos) << "what is named is meant";
-  named.measurements = scratch / "nowhere.yaml";
+  mesh_of(named).measurements = scratch / "nowhere.yaml";
   EXPECT_NE(refusal(named).find("nowhere.yaml"), std::string::npos);
 }
 

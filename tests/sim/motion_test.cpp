@@ -83,8 +83,7 @@ TEST(MovingBody, APersonGivenAsAMeshSwaysByName) {
   obj.object_names = {"woman"};
   write_obj(scratch / "woman.obj", obj);
   Scene scene = kerchief("sway");
-  scene.body.kind = SceneBody::Kind::mesh;
-  scene.body.mesh = scratch / "woman.obj";
+  scene.body.shape = SceneMesh{scratch / "woman.obj", LengthUnit::automatic, ""};
   scene.seconds = 1;
   const Report report = run(scratch / "out", scene);
   EXPECT_EQ(report.motion_name, "sway");

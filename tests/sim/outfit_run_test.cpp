@@ -34,8 +34,7 @@ struct Hanging {
     settling.to_rest = to_rest;
     settling.waits = waits;
     settling.weightless = weightless;
-    run.emplace(scene, outfit, nullptr, step_options(scene, cloth.front().fabrics.front(), cloth.front().edge_m),
-                settling, nullptr);
+    run.emplace(scene, outfit, nullptr, step_options(scene, cloth.front().edge_m), settling, nullptr);
     const auto along = [](const Vec3& a, const Vec3& b) { return a.z() != b.z() ? a.z() < b.z() : a.x() < b.x(); };
     const auto first = std::min_element(outfit.state.x.begin(), outfit.state.x.end(), along);
     const auto last = std::max_element(outfit.state.x.begin(), outfit.state.x.end(), [](const Vec3& a, const Vec3& b) {

@@ -119,7 +119,7 @@ TEST(Run, AnElasticPanelIsJudgedAgainstItsOwnRestLength) {
   const Scratch scratch;
   // The warp (drawn upwards, 0.3 m) wants to be 0.8 of its length.
   Scene scene = falling_cloth(R"(, "panels": {"cloth": {"rest_stretch_u": 0.8}})");
-  scene.body.kind = SceneBody::Kind::none;
+  scene.body.shape = {};
   scene.gravity_m_per_s2.setZero();
   scene.seconds = 2;
   const Report report = run(scratch, scene);
@@ -142,7 +142,7 @@ TEST(Run, APinFollowsItsPathAndAnotherStays) {
   const Scratch scratch;
   Scene scene = falling_cloth(
       R"(, "pins": [{"near_m": [-0.2, 0.01, -0.15]}, {"near_m": [0.2, 0.01, -0.15], "hold": "path", "path_m": [[0, 0.2, 0.01, -0.15], [0.2, 0.15, 0.06, -0.15]]}])");
-  scene.body.kind = SceneBody::Kind::none;
+  scene.body.shape = {};
   run(scratch, scene);
   Pc2Reader frames(scratch / "out/cloth.pc2");
   std::vector<Vec3> first, last;
@@ -236,7 +236,7 @@ Scene tube(const Scratch& scratch, double body_radius_m) {
   Scene scene = parse_scene(
       R"({"cloth": [{"pattern": "tube.json", "resolution_cm": 4}], "body": {"cylinder": {"height_m": 1, "top_m": [0, 0.6, 0]}}, "time": {"seconds": 0.8}})",
       scratch / "s.json");
-  scene.body.cylinder.radius_m = body_radius_m;
+  std::get<SceneCylinder>(scene.body.shape).radius_m = body_radius_m;
   scene.until_still = false;
   return scene;
 }
@@ -330,13 +330,13 @@ TEST(Setup, LongerEdgesRestFartherFromTheBodyUnlessTheSceneSays) {
   Scene scene = parse_scene(
       R"({"cloth": [{"grid": {"edge_m": 0.01}}], "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.5}}})", "s.json");
   double edge_m = 0.01;
-  EXPECT_DOUBLE_EQ(step_options(scene, Fabric{}, edge_m).body.offset_m, 2e-3);
+  EXPECT_DOUBLE_EQ(step_options(scene, edge_m).body.offset_m, 2e-3);
   edge_m = 0.03;
-  EXPECT_DOUBLE_EQ(step_options(scene, Fabric{}, edge_m).body.offset_m, 2.5e-3);
+  EXPECT_DOUBLE_EQ(step_options(scene, edge_m).body.offset_m, 2.5e-3);
   edge_m = 0.002;
-  EXPECT_DOUBLE_EQ(step_options(scene, Fabric{}, edge_m).body.offset_m, 1.5e-3);
-  scene.body.offset_m = 4e-3;
-  EXPECT_DOUBLE_EQ(step_options(scene, Fabric{}, edge_m).body.offset_m, 4e-3);
+  EXPECT_DOUBLE_EQ(step_options(scene, edge_m).body.offset_m, 1.5e-3);
+  scene.body.contact.offset_m = 4e-3;
+  EXPECT_DOUBLE_EQ(step_options(scene, edge_m).body.offset_m, 4e-3);
 }
 
 TEST(Setup, LabelHeightsComeFromTheSceneAndTheWaistFromTheBody) {

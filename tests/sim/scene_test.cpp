@@ -27,7 +27,7 @@ TEST(Scene, APatternAndABodyAreAComplete) {
       parse_scene(R"({"cloth": [{"pattern": "p.json"}], "body": {"mesh": "../b.obj"}})", "dir/scenes/s.json");
   EXPECT_EQ(scene.name, "s");
   EXPECT_EQ(scene.cloth.at(0).pattern, "dir/scenes/p.json") << "paths start at the scene's folder";
-  EXPECT_EQ(scene.body.mesh, "dir/b.obj");
+  EXPECT_EQ(std::get<SceneMesh>(scene.body.shape).path, "dir/b.obj");
   EXPECT_EQ(scene.cloth[0].fabric.name, "cotton");
   EXPECT_EQ(scene.cloth[0].resolution_m, 0.01);
   EXPECT_EQ(scene.gravity_m_per_s2, Vec3(0, -9.81, 0));
@@ -37,7 +37,7 @@ TEST(Scene, APatternAndABodyAreAComplete) {
   EXPECT_TRUE(scene.self_contact);
   EXPECT_TRUE(scene.flypaper);
   EXPECT_FALSE(scene.preconditioner.has_value());
-  EXPECT_FALSE(scene.body.friction.has_value());
+  EXPECT_FALSE(scene.body.contact.friction.has_value());
 }
 
 TEST(Scene, AnAbsolutePathStaysAsItIs) {
@@ -70,9 +70,9 @@ TEST(Scene, ReadsEveryKeyInItsUnit) {
   EXPECT_EQ(cloth.rotation_deg, Vec3(90, 0, 0));
   EXPECT_EQ(cloth.pins.at(0).hold, ScenePin::Hold::fixed);
   EXPECT_EQ(cloth.pins.at(1).path.at(1).x_m, Vec3(1, 1.5, 0));
-  EXPECT_EQ(scene.body.cylinder.radius_m, 0.3);
-  EXPECT_EQ(scene.body.friction.value(), 0.1);
-  EXPECT_DOUBLE_EQ(scene.body.offset_m.value(), 3e-3);
+  EXPECT_EQ(std::get<SceneCylinder>(scene.body.shape).radius_m, 0.3);
+  EXPECT_EQ(scene.body.contact.friction.value(), 0.1);
+  EXPECT_DOUBLE_EQ(scene.body.contact.offset_m.value(), 3e-3);
   EXPECT_EQ(scene.fps, 25);
   EXPECT_DOUBLE_EQ(scene.step_max_s.value(), 0.01);
   EXPECT_TRUE(scene.until_still);
@@ -112,13 +112,13 @@ TEST(Scene, ReadsSolidsShapesAndPinsThatMove) {
   EXPECT_TRUE(scene.cloth[1].ribbon->closed);
   EXPECT_EQ(scene.cloth[1].ribbon->across, Vec3(0, 0, 2));
   ASSERT_EQ(scene.solids.size(), 4u);
-  EXPECT_EQ(std::get<SceneSolid::Sphere>(scene.solids[0].shape).radius_m, 0.4);
+  EXPECT_EQ(std::get<SceneSphere>(scene.solids[0].shape).radius_m, 0.4);
   EXPECT_TRUE(scene.solids[0].inside_out);
   EXPECT_EQ(scene.solids[0].moves.centre(), Vec3(1, 2, 3)) << "a solid turns about its own place";
   EXPECT_EQ(scene.solids[0].moves.keys()[1].scale, 0.5);
-  EXPECT_EQ(std::get<SceneSolid::Box>(scene.solids[1].shape).size_m, Vec3(1, 2, 3));
-  EXPECT_EQ(std::get<SceneSolid::Revolved>(scene.solids[2].shape).profile_m.size(), 3u);
-  EXPECT_EQ(std::get<SceneSolid::Mesh>(scene.solids[3].shape).path, "dir/b.obj");
+  EXPECT_EQ(std::get<SceneBox>(scene.solids[1].shape).size_m, Vec3(1, 2, 3));
+  EXPECT_EQ(std::get<SceneRevolved>(scene.solids[2].shape).profile_m.size(), 3u);
+  EXPECT_EQ(std::get<SceneMesh>(scene.solids[3].shape).path, "dir/b.obj");
   EXPECT_EQ(scene.drape_seconds, 0) << "what moves by itself does not wait for a drape";
 }
 

@@ -319,7 +319,7 @@ TEST(Settings, AKeyOfANumberSaysItsUnit) {
 TEST(Settings, TheDefaultsOfTheLibraryAreThoseOfAScene) {
   const Scene scene = parse_scene(R"({"cloth": [{"grid": {}}], "body": {"mannequin": "woman"}})", "s.json");
   const Fabric& fabric = scene.cloth.front().fabric;
-  const StepOptions said = step_options(scene, fabric, scene.cloth.front().edge_m()), bare;
+  const StepOptions said = step_options(scene, scene.cloth.front().edge_m()), bare;
   EXPECT_EQ(said.pcg.preconditioner, bare.pcg.preconditioner);
   EXPECT_EQ(said.pcg.tolerance, bare.pcg.tolerance);
   EXPECT_EQ(said.pcg.procedure, bare.pcg.procedure);
@@ -342,7 +342,7 @@ TEST(Settings, TheDefaultsOfTheLibraryAreThoseOfAScene) {
   EXPECT_EQ(AirOptions{}.density_kg_per_m3, 1.2);
   for (const char* solver : {R"("preconditioner": "diagonal")", R"("procedure": "paper_1998")"}) {
     const std::string text = std::string(R"({"cloth": [{"grid": {}}], "solver": {)") + solver + "}}";
-    EXPECT_EQ(step_options(parse_scene(text, "s.json"), fabric, 0.02).pcg.tolerance, 1e-3) << solver;
+    EXPECT_EQ(step_options(parse_scene(text, "s.json"), 0.02).pcg.tolerance, 1e-3) << solver;
   }
 }
 

@@ -103,9 +103,9 @@ Rises rises_of_energy(int sheets, Under under, double step_max_s) {
   std::vector<LoadedCloth> cloth;
   for (const SceneCloth& one : scene.cloth) cloth.push_back(load_cloth(scene, one, read_text_file, inputs));
   Outfit outfit = outfit_of_shapes(cloth);
-  LoadedBody loaded = load_body(scene.body, inputs);
-  BodySurface body(std::move(loaded.solid.positions), std::move(loaded.solid.triangles));
-  OutfitRun run(scene, outfit, &body, step_options(scene, cloth.front().fabrics.front(), cloth.front().edge_m), {}, {});
+  SolidMesh loaded = load_collider(scene.body, inputs).surface;
+  BodySurface body(std::move(loaded.positions), std::move(loaded.triangles));
+  OutfitRun run(scene, outfit, &body, step_options(scene, cloth.front().edge_m), {}, {});
   Elements elements(run.model());
   const double first = energy_J(run.model(), elements, outfit.state, 0);
   double last = first;

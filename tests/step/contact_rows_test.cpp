@@ -68,7 +68,7 @@ double resting_gap(double edge_m, double gravity) {
 // The rows themselves, one step at a time, with no solver between: the cloth moves as the test says.
 struct Rows {
   Rows(const Sheet& sheet, const Fabric& fabric, const ContactRowOptions& options = {})
-      : model(build_model(sheet.mesh, {&fabric, 1}, weightless())), rows(model, nullptr, {}, 2.5e-3, 0, options) {
+      : model(build_model(sheet.mesh, {&fabric, 1}, weightless())), rows(model, nullptr, {}, {2.5e-3, 0}, options) {
     state.x = sheet.x;
     still();
     diagonal.resize(sheet.x.size());
@@ -357,7 +357,7 @@ TEST(ContactRows, AnOpenSeamMakesNeighbours) {
   const Fabric fabric = thick(1e-2);
   const ClothModel model = build_model(halves.mesh, {&fabric, 1}, weightless());
   const auto active_rows = [&](std::span<const Index> seams) {
-    ContactRows rows(model, nullptr, seams, 2.5e-3, 0, {});
+    ContactRows rows(model, nullptr, seams, {2.5e-3, 0}, {});
     const ClothState state{halves.x, Vec3s(halves.x.size(), Vec3::Zero())};
     const Vec3s dv(halves.x.size(), Vec3::Zero());
     const std::vector<Mat3> diagonal(halves.x.size(), Mat3::Identity());
@@ -417,7 +417,7 @@ TEST(ContactRows, ARowOfTheBodyKnowsHowFarTheBodyMoves) {
   body.set_motion(start, end);
   const Fabric fabric;
   const ClothModel model = build_model(sheet.mesh, {&fabric, 1}, weightless());
-  ContactRows rows(model, &body, {}, 2.5e-3, 0, {});
+  ContactRows rows(model, &body, {}, {2.5e-3, 0}, {});
   const ClothState state{sheet.x, Vec3s(sheet.x.size(), Vec3::Zero())};
   std::vector<Mat3> diagonal;
   for (const double mass : model.mass_kg) diagonal.push_back(mass * Mat3::Identity());

@@ -145,7 +145,7 @@ TEST(Flypaper, APlaceThatMovesAsOneClosesNowhere) {
   const Crease crease(65);
   BodySurface body(crease.x, crease.triangles);
   const auto pinches = [&](const Vec3& one, const Vec3& two) {
-    Flypaper flypaper(&body, 1, offset);
+    Flypaper flypaper(&body, 1, {offset, {}});
     return detects(flypaper, body, crease.x, crease.moved(one, two), Vec3(0, 2 * offset, 0));
   };
   const Vec3 up(0, 0.2 * offset, 0);
@@ -159,7 +159,7 @@ TEST(Flypaper, ACreaseThatHasOpenedLetsGo) {
   const Crease crease(65);
   const Vec3s open = Crease::at(40);
   BodySurface body(crease.x, crease.triangles);
-  Flypaper flypaper(&body, 1, offset);
+  Flypaper flypaper(&body, 1, {offset, {}});
   const Vec3 particle(0, 1.4 * offset, 0);
   ASSERT_TRUE(detects(flypaper, body, crease.x, crease.moved(across, -across), particle));
   EXPECT_TRUE(detects(flypaper, body, crease.x, crease.x, particle)) << "as long as it is narrow";

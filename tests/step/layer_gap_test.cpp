@@ -18,7 +18,7 @@ using test::Sheet;
 constexpr double edge_m = 0.02;
 
 LayerGap gap_of(const ClothModel& model, const Vec3s& x) {
-  return ContactRows(model, nullptr, {}, 0, 0, {}).layer_gap(x);
+  return ContactRows(model, nullptr, {}, {0, 0}, {}).layer_gap(x);
 }
 
 struct Layers {

@@ -11,7 +11,7 @@
 namespace toile::internal::test {
 
 // None of the values is its key's default.
-inline constexpr std::array<std::string_view, 6> scenes_with_every_setting = {
+inline constexpr std::array<std::string_view, 8> scenes_with_every_setting = {
     R"({
   "name": "sheet",
   "cloth": [{
@@ -32,9 +32,12 @@ inline constexpr std::array<std::string_view, 6> scenes_with_every_setting = {
   "solids": [
     {"sphere": {"radius_m": 0.4}, "edge_m": 0.05, "inside_out": true,
      "placement": {"translation_m": [1, 2, 3], "rotation_deg": [4, 5, 6]}, "moves": [{"t_s": 0.5}, {"t_s": 3, "scale": 0.5}]},
-    {"box": {"size_m": [0.5, 0.25, 0.75]}},
+    {"box": {"size_m": [0.5, 0.25, 0.75]}, "friction": 0.6, "offset_mm": 4},
     {"revolved": {"profile_m": [[0, 0], [0.5, 0.1], [0, 1]]}},
-    {"mesh": "solid.obj"}],
+    {"mesh": "solid.obj", "unit": "dm"},
+    {"mannequin": "woman", "motion": {"name": "sway", "lead_in_s": 0.25}},
+    {"mesh": "other.obj", "motion": {"file": "other.pc2", "fps": 12}},
+    {"cylinder": {"radius_m": 0.3, "height_m": 0.7, "top_m": [0.1, 0.5, 0.2]}}],
   "world": {"gravity_m_per_s2": [0.1, -9, 0.2], "wind_m_per_s": [1, 0.5, 2], "air_density_kg_per_m3": 1.1},
   "time": {"fps": 25, "seconds": 2, "drape_seconds": 3, "step_max_ms": 10, "integrator": "bdf2", "until_still": true},
   "solver": {"preconditioner": "diagonal", "tolerance": 0.02, "procedure": "paper_1998", "newton_iterations": 2,
@@ -46,7 +49,16 @@ inline constexpr std::array<std::string_view, 6> scenes_with_every_setting = {
 })",
     R"({
   "cloth": [{"tube": {"radius_m": 0.3, "length_m": 0.8, "edge_m": 0.04}},
-            {"ribbon": {"width_m": 0.2, "edge_m": 0.03, "path_m": [[0, 0, 0], [1, 0.1, 0], [1, 1, 0.2]], "closed": true, "across": [0, 0.5, 2]}}]
+            {"ribbon": {"width_m": 0.2, "edge_m": 0.03, "path_m": [[0, 0, 0], [1, 0.1, 0], [1, 1, 0.2]], "closed": true, "across": [0, 0.5, 2]}}],
+  "body": {"sphere": {"radius_m": 0.3}, "edge_m": 0.04}
+})",
+    R"({
+  "cloth": [{"grid": {}}],
+  "body": {"box": {"size_m": [0.5, 0.25, 0.75]}}
+})",
+    R"({
+  "cloth": [{"grid": {}}],
+  "body": {"revolved": {"profile_m": [[0, 0], [0.5, 0.1], [0, 1]]}}
 })",
     R"({
   "cloth": [{"pattern": "p.json", "resolution_cm": 1.5, "fabric": "wool", "label_heights_m": {"waist": 1.1, "hem": 0.5},

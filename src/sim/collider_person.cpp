@@ -1,0 +1,175 @@
+#include "sim/collider_person.hpp"
+
+#include "core/error.hpp"
+#include "io/file.hpp"
+#include "io/obj.hpp"
+#include "mesh/check.hpp"
+#include "sim/colliders.hpp"
+
+#include <fmt/printf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace toile::internal {
+namespace {
+
+// Measured as the peak of whole runs (bench/notes.md, "What a run takes").
+constexpr double mannequin_mb = 32;            // while it is made, and given back
+constexpr double obj_bytes_per_triangle = 40;  // "f 1234 1235 1236", and half of "v 0.123456 1.234567 -0.123456"
+constexpr double obj_copies = 4;               // of the text of a mesh while it is read: itself, and what it says
+constexpr double mannequin_s = 1.5;
+
+BodyMovement movement_of(BodyMotion motion, std::string name, Hash& inputs) {
+  motion.add_to(inputs);
+  const double duration_s = motion.duration_s();
+  return {[motion = std::move(motion)](double t_s, std::span<Vec3> x) { motion.positions(t_s, x); }, std::move(name),
+          duration_s};
+}
+
+BodyMovement movement_from_file(const SceneMotion& motion, LengthUnit unit, const CollisionBody& standing,
+                                Hash& inputs) {
+  SampleOptions samples;
+  samples.rate_hz = motion.fps;
+  samples.unit = unit;
+  samples.lead_in_s = motion.lead_in_s;
+  return movement_of(BodyMotion::from_files(motion.path, standing, samples),
+                     std::filesystem::path(motion.path).filename().string(), inputs);
+}
+
+// Hair and shoes are in a mesh and not on a tape; people differ by more.
+constexpr double height_agrees = 0.02;
+
+void load_measurements(const SceneMesh& mesh, std::span<const Vec3> x, Collider& loaded, Hash& inputs) {
+  const std::string path = measurements_path(mesh), file = printable(path);
+  if (path.empty()) return;
+  const std::string text = read_file(path, std::size_t{1} << 20);
+  if (mesh.measurements.empty() && !holds_measurements(text, file)) {
+    loaded.warnings.push_back(file + " is beside the body and holds no measurements: it has no key \"body\"");
+    return;
+  }
+  inputs.add_text(text);
+  BodyMeasurements measured = parse_measurements(text, file);
+  const auto [low, high] =
+      std::minmax_element(x.begin(), x.end(), [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); });
+  const double height_m = high->y() - low->y();
+  if (std::abs(measured.height_m - height_m) > height_agrees * height_m)
+    throw InputError(file, "body.height",
+                     fmt::sprintf("%.1f cm within %g %%, the height of %s", 100 * height_m, 100 * height_agrees,
+                                  printable(mesh.path)),
+                     fmt::sprintf("%.1f cm", 100 * measured.height_m));
+  loaded.measurements = std::move(measured);
+}
+
+}  // namespace
+
+CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit) {
+  const std::string file = printable(path);
+  CollisionBody body = make_collision_body(parse_obj(text, file), file, unit);
+  check_areas(file, body.positions, body.triangles);
+  return body;
+}
+
+std::string measurements_path(const SceneMesh& mesh) {
+  if (!mesh.measurements.empty()) return mesh.measurements;
+  const std::filesystem::path beside = std::filesystem::path(mesh.path).replace_extension(".yaml");
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(beside, ignored) ? beside.string() : std::string();
+}
+
+Collider load(const SceneMannequin& mannequin, const SceneCollider& whole, Hash& inputs) {
+  Collider collider;
+  const Mannequin made = make_mannequin(mannequin.who);
+  CollisionBody body = from_mannequin(made);
+  if (whole.motion && whole.motion->name.empty()) {
+    collider.movement = movement_from_file(*whole.motion, LengthUnit::automatic, body, inputs);
+  } else if (whole.motion) {
+    Motion motion = Motion::named(whole.motion->name, mannequin.who);
+    motion.set_lead_in_s(whole.motion->lead_in_s);
+    collider.movement = movement_of(BodyMotion::of_mannequin(made, motion), whole.motion->name, inputs);
+  }
+  collider.surface = {std::move(body.positions), std::move(body.triangles)};
+  return collider;
+}
+
+namespace {
+
+// Of what is not worn: all that the file has, closed parts of any number.
+CollisionBody read_whole(const std::string& file, std::string_view text, LengthUnit unit) {
+  SolidMesh read = whole_of(parse_obj(text, file));
+  for (Vec3& x : read.positions) x *= metres_in(unit);
+  check_closed(file, read.positions, read.triangles);
+  check_areas(file, read.positions, read.triangles);
+  CollisionBody whole;
+  whole.positions = std::move(read.positions);
+  whole.triangles = std::move(read.triangles);
+  return whole;
+}
+
+}  // namespace
+
+Collider load(const SceneMesh& mesh, const SceneCollider& whole, Hash& inputs) {
+  Collider collider;
+  const std::string text = read_file(mesh.path), file = printable(mesh.path);
+  inputs.add_text(text);
+  const bool is_person = whole.worn || whole.motion;
+  CollisionBody read = is_person ? read_body(mesh.path, text, mesh.unit) : read_whole(file, text, mesh.unit);
+  collider.warnings = std::move(read.notes);
+  if (whole.worn) load_measurements(mesh, read.positions, collider, inputs);
+  if (whole.motion && whole.motion->name.empty()) {
+    collider.movement = movement_from_file(*whole.motion, mesh.unit, read, inputs);
+  } else if (whole.motion) {
+    Motion motion = Motion::named(whole.motion->name);
+    motion.set_lead_in_s(whole.motion->lead_in_s);
+    collider.movement = movement_of(BodyMotion::of_person(file, read, motion), whole.motion->name, inputs);
+  }
+  collider.surface = {std::move(read.positions), std::move(read.triangles)};
+  return collider;
+}
+
+Collider load(const SceneArrays& arrays, const SceneCollider&, Hash& inputs) {
+  const SceneArrays::Frames& given = *arrays.frames;
+  const std::span frames(given.x);
+  inputs.add_counted(frames);
+  inputs.add_counted(std::span<const Triangle>(given.triangles));
+  CollisionBody standing;
+  standing.positions.assign(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(given.vertices));
+  standing.triangles = given.triangles;
+  check_closed("body", standing.positions, standing.triangles);
+  check_areas("body", standing.positions, standing.triangles);
+  Collider collider;
+  if (frames.size() > given.vertices) {
+    SampleOptions samples;
+    samples.rate_hz = given.fps;
+    samples.lead_in_s = 0;
+    collider.movement = movement_of(BodyMotion::from_frames("body", frames, standing, samples), "frames", inputs);
+  }
+  collider.surface = {std::move(standing.positions), std::move(standing.triangles)};
+  return collider;
+}
+
+ColliderCost cost(const SceneMannequin& mannequin, const SceneCollider&) {
+  return {std::string(to_string(mannequin.who)), mannequin.who == MannequinKind::dancer ? 15256.0 : 20104.0,
+          mannequin_mb, mannequin_s};
+}
+
+ColliderCost cost_of_file(const std::string& path) {
+  std::error_code error;  // a file that is not there is told when it is read
+  const auto size = std::filesystem::file_size(path, error);
+  const double bytes = error ? 0 : static_cast<double>(size);
+  return {printable(path), bytes / obj_bytes_per_triangle, obj_copies * bytes / (1 << 20)};
+}
+
+ColliderCost cost(const SceneMesh& mesh, const SceneCollider&) { return cost_of_file(mesh.path); }
+
+ColliderCost cost(const SceneArrays& arrays, const SceneCollider&) {
+  return {"in memory", static_cast<double>(arrays.frames->triangles.size())};
+}
+
+}  // namespace toile::internal

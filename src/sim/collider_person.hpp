@@ -1,0 +1,86 @@
+// sim/collider_person.hpp: who wears cloth, or stands beside it: a mannequin, a mesh of a file, arrays in memory; and how she moves.
+#pragma once
+#include "body/body_motion.hpp"
+#include "body/mannequin.hpp"
+#include "sim/collider.hpp"
+#include "sim/settings.hpp"
+
+#include <array>
+#include <memory>
+#include <string_view>
+
+namespace toile::internal {
+
+struct SceneCollider;
+
+struct SceneMotion {
+  std::string name;                              // of the mannequin's own: walk, twist, dance ...; empty: from a file
+  std::string path;                              // resolved: .pc2, or a folder of OBJ files
+  double fps = SampleOptions{}.rate_hz;          // of the file
+  double lead_in_s = SampleOptions{}.lead_in_s;  // from the body's own pose into the motion
+  std::string where, pointer;
+};
+
+struct SceneMannequin {
+  static constexpr std::string_view key = "mannequin";
+  MannequinKind who = MannequinKind::woman;
+};
+template <class V>
+void describe_choice(V& v, SceneMannequin& mannequin, bool) {
+  static constexpr std::array<std::pair<std::string_view, MannequinKind>, 4> kinds = {
+      {{"woman", MannequinKind::woman},
+       {"dancer", MannequinKind::dancer},
+       {"man", MannequinKind::man},
+       {"default", MannequinKind::woman}}};
+  v.name({"mannequin", "one that is built in ([mannequin.md](mannequin.md))", "no"}, kinds, mannequin.who);
+}
+
+struct SceneMesh {
+  static constexpr std::string_view key = "mesh";
+  std::string path;                         // resolved
+  LengthUnit unit = LengthUnit::automatic;  // of what is not worn: metres
+  std::string measurements;                 // path, resolved; empty: the mesh's name with .yaml, if there is one
+};
+template <class V>
+void describe_choice(V& v, SceneMesh& mesh, bool worn) {
+  v.path({"mesh", worn ? "a closed OBJ" : "a closed OBJ, with all its parts", "no"}, mesh.path);
+}
+template <class V>
+void describe_beside(V& v, SceneMesh& mesh, bool worn) {
+  static constexpr std::array<std::pair<std::string_view, LengthUnit>, 3> units = {
+      {{"m", LengthUnit::m}, {"dm", LengthUnit::dm}, {"cm", LengthUnit::cm}}};
+  v.name({"unit", "of the mesh", worn ? "metres, or an error that asks" : "metres"}, units, mesh.unit);
+  if (worn)
+    v.path({"measurements", "of the mesh, a YAML file: [howto/measurements.md](howto/measurements.md)",
+            "the file of the mesh's name that ends in .yaml, if there is one"},
+           mesh.measurements);
+}
+
+// Given in memory: a scene file has no word for it.  One frame, or one after the other.
+struct SceneArrays {
+  struct Frames {
+    std::vector<Vec3> x;       // m; of equal length, the first is how it stands
+    std::size_t vertices = 0;  // of a frame
+    std::vector<Triangle> triangles;
+    double fps = 30;
+  };
+  std::shared_ptr<const Frames> frames;
+};
+
+// The body of an OBJ file with this text, checked.  Throws InputError.
+CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit);
+// The file that measurements are read from: the one that is named, or one beside the mesh; empty: there is none.
+std::string measurements_path(const SceneMesh& mesh);
+
+// Each adds the bytes of its files to `inputs`; every sample of a motion is checked here, before anything runs.
+// Throw IoError, InputError, also for measurements of another body.
+Collider load(const SceneMannequin& mannequin, const SceneCollider& whole, Hash& inputs);
+Collider load(const SceneMesh& mesh, const SceneCollider& whole, Hash& inputs);
+Collider load(const SceneArrays& arrays, const SceneCollider& whole, Hash& inputs);
+ColliderCost cost(const SceneMannequin& mannequin, const SceneCollider& whole);
+ColliderCost cost(const SceneMesh& mesh, const SceneCollider& whole);
+ColliderCost cost(const SceneArrays& arrays, const SceneCollider& whole);
+// Of reading a mesh, by the size of its file.
+ColliderCost cost_of_file(const std::string& path);
+
+}  // namespace toile::internal

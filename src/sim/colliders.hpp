@@ -1,0 +1,80 @@
+// sim/colliders.hpp: the colliders of a scene: the body, and solids beside it.
+//
+// A kind of collider is a struct with the key that chooses it and three functions: `describe_choice` (that key, sim/settings.hpp),
+// `load` (its surface) and `cost` (what that takes); `describe_beside` if it has keys of its own beside that one.  Everything else about it
+// follows from its line in ColliderShape.
+#pragma once
+#include "sim/collider_person.hpp"
+#include "sim/collider_solid.hpp"
+#include "sim/rigid_path.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace toile::internal {
+
+using ColliderShape =
+    std::variant<std::monostate,  // nothing
+                 SceneMannequin, SceneMesh, SceneArrays, SceneSphere, SceneBox, SceneRevolved, SceneCylinder>;
+
+struct SceneCollider {
+  ColliderShape shape;
+  bool worn = false;                  // the body that cloth is dressed on
+  std::optional<SceneMotion> motion;  // of a mannequin or a mesh
+  double edge_m = 0.02;               // of curved shapes
+  bool inside_out = false;            // a room
+  Vec3 translation_m{0, 0, 0};
+  Vec3 rotation_deg{0, 0, 0};
+  RigidPath moves;  // about its translation_m, with what moves by itself
+  ColliderContact
+      contact;  // of the body: also of solids that have none of their own; absent: the cloth's, sim/setup.hpp
+  std::string where, pointer;
+
+  bool exists() const { return !std::holds_alternative<std::monostate>(shape); }
+  template <class Kind>
+  const Kind* as() const {
+    return std::get_if<Kind>(&shape);
+  }
+  bool is_person() const { return as<SceneMannequin>() != nullptr || as<SceneMesh>() != nullptr; }
+  bool moves_by_itself() const { return motion.has_value() || !moves.empty(); }
+};
+
+// It stands elsewhere than where its shape was made, or will.
+inline bool is_placed(const SceneCollider& c) {
+  return c.inside_out || !c.moves.empty() || c.translation_m != Vec3::Zero() || c.rotation_deg != Vec3::Zero();
+}
+
+// Calls f with a fresh one of every kind that a scene file can choose.
+template <class F>
+void for_each_kind(const F& f) {
+  const auto one = [&]<class Kind>(std::type_identity<Kind>) {
+    if constexpr (requires { Kind::key; }) f(Kind{});
+  };
+  [&]<class... Kind>(std::type_identity<std::variant<Kind...>>) {
+    (one(std::type_identity<Kind>{}), ...);
+  }(std::type_identity<ColliderShape>{});
+}
+
+// Where it stands and how it moves.  Nothing: no surface.  Throws InputError at its place in the scene for a shape that is none, and for
+// moves that lead it faster than most_led_m_per_s.
+Collider load_collider(const SceneCollider& collider, Hash& inputs);
+ColliderCost cost_of(const SceneCollider& collider);
+
+// The body, if there is one, and the solids, in this order, as one.
+struct LoadedColliders {
+  JoinedColliders joined;
+  std::size_t worn_vertices = 0, worn_triangles = 0;  // of the body: the first ones
+  std::optional<BodyMeasurements> measurements;       // likewise
+  std::vector<std::string> warnings;
+};
+LoadedColliders load_colliders(const SceneCollider& body, std::span<const SceneCollider> solids, Hash& inputs);
+
+// Throws InputError("<where>", "<pointer>/moves/2", ...) for moves that lead what is within `reach_m` of their centre faster than
+// most_led_m_per_s.
+void check_speed(const RigidPath& moves, double reach_m, std::string_view where, std::string_view pointer);
+
+}  // namespace toile::internal

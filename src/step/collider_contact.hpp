@@ -1,0 +1,59 @@
+// step/collider_contact.hpp: how cloth lies on a body, and on each of the colliders whose union its surface is.
+#pragma once
+#include "core/types.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace toile::internal {
+
+// What a collider has of its own.
+struct ColliderContact {
+  std::optional<double> offset_m, friction;
+};
+
+struct BodyContactOptions {
+  double offset_m = 2.5e-3;                     // r: where cloth rests above a collider
+  std::optional<double> friction;               // mu; kinetic, the static one is 2 % larger; absent: the cloth's own
+  std::vector<ColliderContact> colliders = {};  // [BodySurface::collider]; the others are as the two above say
+
+  double offset_of(Index collider) const {
+    const ColliderContact* own = find(collider);
+    return own == nullptr ? offset_m : own->offset_m.value_or(offset_m);
+  }
+  double friction_of(Index collider, double of_cloth) const {
+    const ColliderContact* own = find(collider);
+    if (own != nullptr && own->friction) return *own->friction;
+    return friction.value_or(of_cloth);
+  }
+  double largest_offset_m() const {
+    double largest = colliders.empty() ? offset_m : 0;
+    for (const ColliderContact& own : colliders) largest = std::max(largest, own.offset_m.value_or(offset_m));
+    return largest;
+  }
+  double smallest_offset_m() const {
+    double smallest = colliders.empty() ? offset_m : largest_offset_m();
+    for (const ColliderContact& own : colliders) smallest = std::min(smallest, own.offset_m.value_or(offset_m));
+    return smallest;
+  }
+
+  // The same with nothing that holds along the surface, and no offset below `least_m`.
+  BodyContactOptions slippery(double least_m) const {
+    BodyContactOptions changed = *this;
+    changed.offset_m = std::max(offset_m, least_m);
+    changed.friction = 0;
+    for (ColliderContact& own : changed.colliders) {
+      own.friction = 0;
+      if (own.offset_m) own.offset_m = std::max(*own.offset_m, least_m);
+    }
+    return changed;
+  }
+
+ private:
+  const ColliderContact* find(Index collider) const {
+    return at(collider) < colliders.size() ? &colliders[at(collider)] : nullptr;
+  }
+};
+
+}  // namespace toile::internal
