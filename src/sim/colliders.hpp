@@ -4,6 +4,7 @@
 // `load` (its surface) and `cost` (what that takes); `describe_beside` if it has keys of its own beside that one.  Everything else about it
 // follows from its line in ColliderShape.
 #pragma once
+#include "sim/collider_capsule.hpp"
 #include "sim/collider_person.hpp"
 #include "sim/collider_solid.hpp"
 #include "sim/rigid_path.hpp"
@@ -17,9 +18,9 @@
 
 namespace toile::internal {
 
-using ColliderShape =
-    std::variant<std::monostate,  // nothing
-                 SceneMannequin, SceneMesh, SceneArrays, SceneSphere, SceneBox, SceneRevolved, SceneCylinder>;
+using ColliderShape = std::variant<std::monostate,  // nothing
+                                   SceneMannequin, SceneMesh, SceneArrays, SceneSphere, SceneBox, SceneRevolved,
+                                   SceneCylinder, SceneCapsule>;
 
 struct SceneCollider {
   ColliderShape shape;

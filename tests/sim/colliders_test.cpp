@@ -5,9 +5,11 @@
 #include "sim/setup.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <string>
 
 namespace toile::internal {
@@ -135,6 +137,26 @@ TEST(Colliders, OfAFileAreTheWholeOfItInItsUnit) {
   EXPECT_NEAR(box_of(in_cm.joined.surface.positions).high.x(), 1, 1e-12);
   const LoadedColliders in_m = load(R"("solids": [{"mesh": "boxes.obj"}])", scratch / "s.json");
   EXPECT_NEAR(box_of(in_m.joined.surface.positions).high.x(), 100, 1e-9);
+}
+
+TEST(Colliders, ACapsuleIsEverywhereItsRadiusFromItsAxis) {
+  const LoadedColliders all = load(
+      R"("solids": [{"capsule": {"radius_m": 0.1, "from_m": [1, 0, 0], "to_m": [2, 0.5, -0.5]}, "edge_m": 0.01}])");
+  const Vec3 from(1, 0, 0), way(1, 0.5, -0.5);
+  double volume = 0;
+  for (const auto& [a, b, c] : all.joined.surface.triangles) {
+    const auto& x = all.joined.surface.positions;
+    volume += x[at(a)].dot(x[at(b)].cross(x[at(c)])) / 6;
+  }
+  for (const Vec3& p : all.joined.surface.positions) {
+    const double along = std::clamp((p - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    EXPECT_NEAR((p - from - along * way).norm(), 0.1, 1e-12);
+  }
+  const double pi = std::numbers::pi, whole = pi * 0.01 * way.norm() + 4.0 / 3 * pi * 0.001;
+  EXPECT_NEAR(volume / whole, 1, 0.01) << "and from outside";
+  EXPECT_NE(refusal(R"("solids": [{"capsule": {"radius_m": 0.1, "from_m": [1, 0, 0], "to_m": [1, 0, 0]}}])")
+                .find("s.json:1: /solids/0: to_m: expected another place"),
+            std::string::npos);
 }
 
 TEST(Colliders, RefuseWhatDoesNotGoTogether) {

@@ -11,7 +11,7 @@
 namespace toile::internal::test {
 
 // None of the values is its key's default.
-inline constexpr std::array<std::string_view, 8> scenes_with_every_setting = {
+inline constexpr std::array<std::string_view, 9> scenes_with_every_setting = {
     R"({
   "name": "sheet",
   "cloth": [{
@@ -58,7 +58,12 @@ inline constexpr std::array<std::string_view, 8> scenes_with_every_setting = {
 })",
     R"({
   "cloth": [{"grid": {}}],
-  "body": {"revolved": {"profile_m": [[0, 0], [0.5, 0.1], [0, 1]]}}
+  "body": {"revolved": {"profile_m": [[0, 0], [0.5, 0.1], [0, 1]]}},
+  "solids": [{"capsule": {"radius_m": 0.05, "from_m": [0.2, 0.4, 0], "to_m": [0.5, 0.25, 0.75]}}]
+})",
+    R"({
+  "cloth": [{"grid": {}}],
+  "body": {"capsule": {"radius_m": 0.05, "from_m": [0.2, 0.4, 0], "to_m": [0.5, 0.25, 0.75]}}
 })",
     R"({
   "cloth": [{"pattern": "p.json", "resolution_cm": 1.5, "fabric": "wool", "label_heights_m": {"waist": 1.1, "hem": 0.5},
