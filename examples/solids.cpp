@@ -12,7 +12,7 @@ int main() {
   ball.set_friction(0.1).set_offset(0.004);
 
   toile::Cloth sheet = toile::Cloth::grid({.width_m = 0.5, .height_m = 0.5, .edge_m = 0.025});
-  sheet.place({-0.25, 0.165, 0.25}, {-90, 0, 0});
+  sheet.place({0, 0.165, 0}, {-90, 0, 0});
   const std::vector<toile::Cloth> cloths{sheet};
   const std::vector<toile::Body> solids{table, ball};
   toile::Simulation sim(cloths, toile::Body::none(), solids);

@@ -53,6 +53,8 @@ class TOILE_EXPORT Body {
   // Around the origin; edges of its triangles are at most edge_m long.
   static Body sphere(double radius_m, double edge_m = 0.02);
   static Body box(const Point& size_m);
+  // A rod with round ends, whose middles these are.
+  static Body capsule(double radius_m, const Point& from_m, const Point& to_m, double edge_m = 0.02);
   // What an outline of points (distance from the y axis, height) sweeps: from the axis to the axis, or a closed curve beside it.
   static Body revolved(std::span<const std::array<double, 2>> profile_m, double edge_m = 0.02);
 

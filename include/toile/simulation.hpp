@@ -126,7 +126,7 @@ class TOILE_EXPORT Simulation {
   int collider_count() const;
   std::span<const Point> collider_positions_m(int collider) const;
 
-  // Holds particles where they are, until they are released.
+  // Holds particles where they are, until they are released.  Attached ones are pinned from then on.
   void pin(std::span<const std::int32_t> particles);
   // Where pinned particles shall be at the end of the next advance(), each on a straight way; then they stay there.
   void move_pins(std::span<const std::int32_t> particles, std::span<const Point> to_m);
@@ -147,6 +147,15 @@ class TOILE_EXPORT Simulation {
   // Where the body, or the solid, shall be at the end of the next advance(), each vertex on a straight way.  Of one without a motion of its own.
   void set_body(std::span<const Point> vertices_m) { set_collider(0, vertices_m); }
   void set_collider(int collider, std::span<const Point> vertices_m);
+  // Holds particles where they are on the body or a solid: each is carried by the nearest point of its surface, and turns with it.
+  void attach(std::span<const std::int32_t> particles);
+  // Of cloth on this collider, as in set_collider, from now on.
+  void set_friction(int collider, double friction);
+  // How stiff a panel is, as a share of its fabric, from now on; damping in the same share.
+  struct Stiffness {
+    double stretch = 1, shear = 1, bend = 1;
+  };
+  void set_stiffness(std::int32_t panel, const Stiffness& share);
   void set_gravity(const Point& m_per_s2);
   void set_wind(const Point& m_per_s);
 

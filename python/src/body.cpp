@@ -61,6 +61,7 @@ void bind_body(nb::module_& module) {
           },
           "radius_m"_a, "height_m"_a, "top_m"_a)
       .def_static("sphere", &Body::sphere, "radius_m"_a, "edge_m"_a)
+      .def_static("capsule", &Body::capsule, "radius_m"_a, "from_m"_a, "to_m"_a, "edge_m"_a)
       .def_static("box", &Body::box, "size_m"_a)
       .def_static(
           "revolved",

@@ -123,6 +123,19 @@ void bind_simulation(nb::module_& module) {
           },
           "collider"_a, "vertices_m"_a)
       .def(
+          "attach", [](Working& self, const IndicesIn& particles) { self.touch().attach(indices(particles)); },
+          "particles"_a)
+      .def(
+          "set_friction",
+          [](Working& self, int collider, double friction) { self.touch().set_friction(collider, friction); },
+          "collider"_a, "friction"_a)
+      .def(
+          "set_stiffness",
+          [](Working& self, std::int32_t panel, double stretch, double shear, double bend) {
+            self.touch().set_stiffness(panel, {.stretch = stretch, .shear = shear, .bend = bend});
+          },
+          "panel"_a, "stretch"_a, "shear"_a, "bend"_a)
+      .def(
           "set_gravity", [](Working& self, const Point& m_per_s2) { self.touch().set_gravity(m_per_s2); }, "m_per_s2"_a)
       .def(
           "set_wind", [](Working& self, const Point& m_per_s) { self.touch().set_wind(m_per_s); }, "m_per_s"_a)

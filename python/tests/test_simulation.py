@@ -328,3 +328,47 @@ def test_a_modelled_garment_hangs_as_it_lies(tmp_path):
     assert sim.positions_m[2, 1] == 0.2 and sim.positions_m[5, 1] < 0.15
     with pytest.raises(toile.InputError, match="rest_shape: expected one of automatic, drawing, start"):
         toile.Cloth.from_file(file, rest_shape="cut")
+
+
+def test_solids_have_their_own_friction_motion_and_place():
+    table = toile.Body.box((0.6, 0.1, 0.6)).place((1, -0.05, 0)).set_moves([{"t_s": 0}, {"t_s": 1, "shift_m": (0, 0.2, 0)}])
+    ball = toile.Body.sphere(0.1, edge_m=0.03).set_friction(0.8).set_offset(0.004)
+    rail = toile.Body.capsule(0.02, (3, 0, 0), (3, 0, 1))
+    cone = toile.Body.revolved([(0, 0.2), (0.1, 0), (0, 0)]).place((5, 0, 0), rotation_deg=(0, 45, 0)).set_inside_out(False)
+    carried = toile.Cloth.grid(0.2, 0.2, edge_m=0.04).place((1, 0.004, 0), rotation_deg=(-90, 0, 0))
+    sim = toile.Simulation(carried, solids=[ball, table, rail, cone])
+    assert sim.colliders == 4
+    assert len(sim.body_positions_m) == sum(len(sim.collider_positions_m(k)) for k in range(4))
+    start = sim.collider_positions_m(0)
+    for k in range(30):
+        sim.set_collider(0, start + [0, 0.01 * (k + 1), 0])
+        advance(sim, 1)
+    assert sim.positions_m[:, 1].mean() == pytest.approx(0.2, abs=0.006)
+    assert np.allclose(sim.collider_positions_m(0), start + [0, 0.3, 0])
+    again = pickle.loads(pickle.dumps(sim))
+    assert again.state_hash == sim.state_hash and again.colliders == 4
+    with pytest.raises(toile.InputError, match="from 0 to 3"):
+        sim.collider_positions_m(4)
+    with pytest.raises(toile.InputError, match="t_s"):
+        toile.Body.sphere(1).set_moves([{"shift_m": (0, 0, 0)}])
+    with pytest.raises(TypeError, match="solids"):
+        toile.Simulation(carried, solids=["ball"])
+
+
+def test_what_is_attached_goes_with_the_body_and_friction_and_stiffness_change():
+    pole = toile.Body.box((0.04, 0.4, 0.04)).set_moves([{"t_s": 0}, {"t_s": 1, "rotation_deg": (0, 90, 0)}])
+    flag = toile.Cloth.grid(0.2, 0.2, edge_m=0.04).place((0.13, 0, 0))
+    sim = toile.Simulation(flag, solids=[pole])
+    edge = np.flatnonzero(sim.positions_m[:, 0] < 0.031)
+    before = sim.positions_m[edge]
+    sim.attach(edge)
+    assert sim.pinned == edge.tolist()
+    sim.set_friction(0.1)
+    sim.set_stiffness(stretch=0.5, bend=20)
+    advance(sim, 30)
+    turned = before[:, [2, 1, 0]] * [1, 1, -1]
+    assert np.allclose(sim.positions_m[edge], turned, atol=1e-6)
+    with pytest.raises(toile.InputError, match="panel"):
+        sim.set_stiffness(panel=3)
+    with pytest.raises(toile.Error):
+        toile.Simulation(flag).attach(edge)

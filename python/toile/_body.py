@@ -31,7 +31,7 @@ class Body(Made):
 
     def __init__(self) -> None:
         raise TypeError(
-            "a Body is made by Body.mannequin, from_file, from_arrays, from_frames, cylinder, sphere, box, revolved or none"
+            "a Body is made by Body.mannequin, from_file, from_arrays, from_frames, cylinder, sphere, box, capsule, revolved or none"
         )
 
     @classmethod
@@ -113,6 +113,12 @@ class Body(Made):
     def sphere(cls, radius_m: float, *, edge_m: float = 0.02) -> Body:
         """Around the origin; edges of its triangles are at most edge_m long."""
         return cls._make("sphere", radius_m=radius_m, edge_m=edge_m)
+
+    @classmethod
+    def capsule(cls, radius_m: float, from_m: ArrayLike, to_m: ArrayLike, *, edge_m: float = 0.02) -> Body:
+        """A rod with round ends, whose middles these are.  Raises InputError, when a simulation is made, for ends at one place."""
+        ends = {"from_m": _arrays.point(from_m, "from_m"), "to_m": _arrays.point(to_m, "to_m")}
+        return cls._make("capsule", radius_m=radius_m, **ends, edge_m=edge_m)
 
     @classmethod
     def box(cls, size_m: ArrayLike) -> Body:

@@ -266,6 +266,14 @@ class Simulation:
         if path is not None and fps is not None:
             self._paths.add(held, path, fps, self._core.time_s)
 
+    def attach(self, particles: ArrayLike) -> None:
+        """Holds particles where they are on the body or a solid: each is carried by the nearest point of its surface, and turns
+        with it, until it is released.  Raises Error where there is nothing to hold on to.
+        """
+        held = _particles(particles)
+        self._core.attach(held)
+        self._paths.drop(held)
+
     def move_pins(self, particles: ArrayLike, to_m: ArrayLike) -> None:
         """Where pinned particles shall be at the end of the next advance(), each on a straight way; there they stay.
 
@@ -326,6 +334,14 @@ class Simulation:
         """The same of a solid; 0 is the body, or the first solid where there is none."""
         vertices = len(self.collider_positions_m(collider))
         self._core.set_collider(collider, _arrays.numbers(vertices_m, "vertices_m", (vertices, 3)))
+
+    def set_friction(self, friction: float, *, collider: int = 0) -> None:
+        """Of cloth on a collider (as in set_collider), from now on."""
+        self._core.set_friction(collider, friction)
+
+    def set_stiffness(self, *, panel: int = 0, stretch: float = 1, shear: float = 1, bend: float = 1) -> None:
+        """How stiff a panel is, as shares of its fabric, from now on; damping in the same shares.  Raises InputError."""
+        self._core.set_stiffness(panel, stretch, shear, bend)
 
     def set_gravity(self, m_per_s2: ArrayLike) -> None:
         """From now on."""

@@ -117,6 +117,19 @@ Body Body::box(const Point& size_m) {
   });
 }
 
+Body Body::capsule(double radius_m, const Point& from_m, const Point& to_m, double edge_m) {
+  return translated([&] {
+    require_above_zero("radius_m", radius_m);
+    require_finite("from_m", from_m);
+    require_finite("to_m", to_m);
+    require_above_zero("edge_m", edge_m);
+    auto parts = std::make_unique<Parts>();
+    parts->body.shape = internal::SceneCapsule{radius_m, engine_vector(from_m), engine_vector(to_m)};
+    parts->body.edge_m = edge_m;
+    return Body(std::move(parts));
+  });
+}
+
 Body Body::revolved(std::span<const std::array<double, 2>> profile_m, double edge_m) {
   return translated([&] {
     require_above_zero("edge_m", edge_m);

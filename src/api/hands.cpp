@@ -46,6 +46,7 @@ void Simulation::Implementation::tell(internal::OutfitRun& run) {
   for (const Held& held : interaction.held) {
     internal::TimedPin timed;
     timed.pin.particle = held.particle;
+    timed.pin.on_body = held.on_body;
     timed.pin.path = [this, particle = held.particle](double t_s) {
       return along(place_of(interaction.held, particle)->way, t_s);
     };
@@ -109,11 +110,34 @@ void Simulation::pin(std::span<const std::int32_t> particles) {
     const internal::Vec3s& x = own.state().x;
     for (const std::int32_t particle : particles) require_particle(particle, x.size());
     for (const std::int32_t particle : particles) {
+      const internal::Vec3& here = x[static_cast<std::size_t>(particle)];
       auto& held = own.interaction.held;
       const auto place = place_of(held, particle);
-      if (place != held.end() && place->particle == particle) continue;
+      if (place == held.end() || place->particle != particle)
+        held.insert(place, {particle, {here, here}});
+      else if (place->on_body)
+        *place = {particle, {here, here}};
+    }
+    own.tell(run);
+  });
+}
+
+void Simulation::attach(std::span<const std::int32_t> particles) {
+  translated([&] {
+    Implementation& own = *implementation_;
+    internal::OutfitRun& run = own.live("attach");
+    own.collider(0);  // there has to be one
+    const internal::Vec3s& x = own.state().x;
+    for (const std::int32_t particle : particles) require_particle(particle, x.size());
+    for (const std::int32_t particle : particles) {
       const internal::Vec3& here = x[static_cast<std::size_t>(particle)];
-      held.insert(place, {particle, {here, here}});
+      auto& held = own.interaction.held;
+      const auto place = place_of(held, particle);
+      Implementation::Held one{particle, {here, here}, internal::attach(*own.engine->body(), here)};
+      if (place == held.end() || place->particle != particle)
+        held.insert(place, std::move(one));
+      else
+        *place = std::move(one);
     }
     own.tell(run);
   });
@@ -130,7 +154,7 @@ void Simulation::move_pins(std::span<const std::int32_t> particles, std::span<co
     for (std::size_t k = 0; k < particles.size(); ++k) {
       require_finite("to_m", to_m[k]);
       const auto place = place_of(held, particles[k]);
-      if (place == held.end() || place->particle != particles[k])
+      if (place == held.end() || place->particle != particles[k] || place->on_body)
         throw internal::InputError("", "particles", "particles that are pinned", std::to_string(particles[k]));
     }
     for (std::size_t k = 0; k < particles.size(); ++k) place_of(held, particles[k])->way.to = engine_vector(to_m[k]);
@@ -228,6 +252,20 @@ void Simulation::set_collider(int collider, std::span<const Point> vertices_m) {
     if (own.interaction.body_from.empty()) own.interaction.body_from = own.interaction.body_to = own.body_x;
     const auto to = engine_vectors(vertices_m);
     std::copy(to.begin(), to.end(), own.interaction.body_to.begin() + static_cast<std::ptrdiff_t>(part.first_vertex));
+  });
+}
+
+void Simulation::set_friction(int collider, double friction) {
+  translated([&] {
+    require_at_least_zero("friction", friction);
+    implementation_->collider(collider);
+    implementation_->live("set_friction").set_friction(collider, friction);
+  });
+}
+
+void Simulation::set_stiffness(std::int32_t panel, const Stiffness& share) {
+  translated([&] {
+    implementation_->live("set_stiffness").set_stiffness(panel, {share.stretch, share.shear, share.bend});
   });
 }
 

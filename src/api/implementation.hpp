@@ -42,9 +42,10 @@ struct Simulation::Implementation : internal::SimulationObserver {
   struct Held {
     internal::Index particle = -1;
     Way way;
+    std::optional<internal::BodyAttachment> on_body = {};  // instead of the way
     template <class Archive>
     void remember(Archive& archive) {
-      archive(particle, way);
+      archive(particle, way, on_body);
     }
   };
   struct Hand {

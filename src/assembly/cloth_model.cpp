@@ -182,4 +182,39 @@ void set_panel_rest_stretch(ClothModel& model, Index panel, const Vec2& b) {
   ++model.rest_version;
 }
 
+namespace {
+
+void keep_as_built(ClothModel& model) {
+  if (!model.stiffness_share.empty()) return;
+  const std::size_t panels = model.mesh.panel_names.size();
+  model.stiffness_share.resize(panels);
+  if (model.stiffness.size() == 1) model.stiffness.resize(panels, model.stiffness.front());
+  model.built_stiffness = model.stiffness;
+  for (const BendRest& bend : model.bend) model.built_kappa_N_m.push_back(bend.kappa_N_m);
+}
+
+}  // namespace
+
+void set_panel_stiffness(ClothModel& model, Index panel, const StiffnessShare& share) {
+  if (panel < 0 || at(panel) >= model.mesh.panel_names.size())
+    throw InputError("cloth", "stiffness", "a panel below " + std::to_string(model.mesh.panel_names.size()),
+                     std::to_string(panel));
+  for (const double part : {share.stretch, share.shear, share.bend})
+    if (!(part > 0 && std::isfinite(part)))
+      throw InputError("cloth", "stiffness", "shares above zero", std::to_string(part));
+  keep_as_built(model);
+  model.stiffness_share[at(panel)] = share;
+  const MembraneStiffness& built = model.built_stiffness[at(panel)];
+  MembraneStiffness& now = model.stiffness[at(panel)];
+  now.k_u = share.stretch * built.k_u;
+  now.k_v = share.stretch * built.k_v;
+  now.k_shear = share.shear * built.k_shear;
+  const auto bend_of = [&](Index triangle) { return model.stiffness_share[at(model.mesh.panel[at(triangle)])].bend; };
+  for (std::size_t h = 0; h < model.bend.size(); ++h) {
+    const auto& [a, b] = model.topology.hinges[h].triangle;
+    model.bend[h].kappa_N_m = 0.5 * (bend_of(a) + bend_of(b)) * model.built_kappa_N_m[h];
+  }
+  ++model.rest_version;
+}
+
 }  // namespace toile::internal

@@ -30,6 +30,12 @@ struct ModelOptions {
   std::vector<PairFriction> pair_friction;
 };
 
+// Of what a panel's fabric resists with; 1: as it is.
+struct StiffnessShare {
+  double stretch = 1, shear = 1, bend = 1;
+  bool operator==(const StiffnessShare&) const = default;
+};
+
 struct ClothModel {
   ClothMesh mesh;
   Topology topology;
@@ -44,7 +50,11 @@ struct ClothModel {
   Vec3 gravity_m_per_s2{0, -9.81, 0};
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   double drag_per_s = 0;
-  double gathered = 1;   // share of mesh.gathered_uv
+  double gathered = 1;  // share of mesh.gathered_uv
+  // As built, once set_panel_stiffness has changed them: [panel] and N m, [hinge].
+  std::vector<MembraneStiffness> built_stiffness;
+  std::vector<double> built_kappa_N_m;
+  std::vector<StiffnessShare> stiffness_share;  // [panel]
   int rest_version = 0;  // counts changes of b and of gathers, so that what depends on rest lengths knows
 
   Index particle_count() const { return mesh.particle_count; }
@@ -73,5 +83,9 @@ void set_gathers(ClothModel& model, double share);
 // Throws InputError for an index that the mesh does not have, and for b that is not above zero and finite.
 void set_rest_stretch(ClothModel& model, Index triangle, const Vec2& b);
 void set_panel_rest_stretch(ClothModel& model, Index panel, const Vec2& b);
+
+// Changes how stiff a panel is, as a share of its fabric; damping keeps its relaxation time, and with it the same share.  Hinges on a seam take
+// the mean of both sides.  Allowed between any two steps.  Throws InputError for a panel that there is not, and for a share that is not above zero.
+void set_panel_stiffness(ClothModel& model, Index panel, const StiffnessShare& share);
 
 }  // namespace toile::internal

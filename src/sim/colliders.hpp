@@ -22,6 +22,12 @@ using ColliderShape = std::variant<std::monostate,  // nothing
                                    SceneMannequin, SceneMesh, SceneArrays, SceneSphere, SceneBox, SceneRevolved,
                                    SceneCylinder, SceneCapsule>;
 
+// The friction of a collider, in time.
+struct FrictionKey {
+  double t_s = 0;
+  double friction = 0;
+};
+
 struct SceneCollider {
   ColliderShape shape;
   bool worn = false;                  // the body that cloth is dressed on
@@ -33,6 +39,7 @@ struct SceneCollider {
   RigidPath moves;  // about its translation_m, with what moves by itself
   ColliderContact
       contact;  // of the body: also of solids that have none of their own; absent: the cloth's, sim/setup.hpp
+  std::vector<FrictionKey> friction_path;  // in the place of its constant; of the body likewise
   std::string where, pointer;
 
   bool exists() const { return !std::holds_alternative<std::monostate>(shape); }

@@ -24,6 +24,8 @@ void lead(TimedPin& timed) {
     timed.pin.path = [moves = timed.moves, from = *timed.from](double t_s) { return moves.place(t_s, from); };
 }
 
+StiffnessShare share_of(const Vec3& share) { return {share.x(), share.y(), share.z()}; }
+
 // Share of gravity and of the elastic's pull at time t after the weld.
 double ramp(double t_s) { return std::clamp((t_s - weightless_s) / ramp_s, 0.0, 1.0); }
 
@@ -90,6 +92,28 @@ void OutfitRun::take_up(std::span<const Vec2> panel_rest_stretch) {
     set_panel_rest_stretch(model_, static_cast<Index>(p), panel_rest_stretch[p]);
   set_folds(model_, ramped_);
   for (TimedPin& timed : events_.pins) lead(timed);
+  const Changed changed = changed_;
+  if (changed.friction) set_friction({}, *changed.friction);
+  for (std::size_t k = 0; k < changed.collider_friction.size(); ++k)
+    if (const auto& own = changed.collider_friction[k]) set_friction(static_cast<Index>(k), *own);
+  for (std::size_t p = 0; p < changed.stiffness.size(); ++p)
+    if (const auto& own = changed.stiffness[p]) set_stiffness(static_cast<Index>(p), share_of(*own));
+}
+
+void OutfitRun::set_friction(std::optional<Index> collider, double friction) {
+  stepper_->integrator().set_body_friction(collider, friction);
+  if (!collider) {
+    changed_.friction = friction;
+    return;
+  }
+  if (changed_.collider_friction.size() <= at(*collider)) changed_.collider_friction.resize(at(*collider) + 1);
+  changed_.collider_friction[at(*collider)] = friction;
+}
+
+void OutfitRun::set_stiffness(Index panel, const StiffnessShare& share) {
+  set_panel_stiffness(model_, panel, share);
+  changed_.stiffness.resize(model_.mesh.panel_names.size());
+  changed_.stiffness[at(panel)] = Vec3(share.stretch, share.shear, share.bend);
 }
 
 void OutfitRun::settle() {
@@ -132,6 +156,8 @@ void OutfitRun::take_and_let_go() {
       timed.from = timed.moves.before(time_s(), outfit_->state.x[static_cast<std::size_t>(timed.pin.particle)]);
       lead(timed);
     }
+    if (timed.on_body && !timed.pin.on_body)
+      timed.pin.on_body = attach(*world_.body, outfit_->state.x[at(timed.pin.particle)]);
     world_.pins.push_back(timed.pin);
   }
 }
@@ -144,18 +170,29 @@ void OutfitRun::happen() {
   for (const TimedDrag& timed : events_.drags)
     if (time_s() >= timed.from_s && time_s() < timed.to_s) world_.drags.push_back(timed.drag);
   for (const TimedRestStretch& timed : events_.rest_stretch) {
-    const auto after =
-        std::find_if(timed.keys.begin(), timed.keys.end(), [&](const RestStretchKey& key) { return key.t_s > end_s; });
-    Vec2 b = after == timed.keys.end() ? timed.keys.back().b : after->b;
-    if (after != timed.keys.end() && after != timed.keys.begin()) {
-      const auto before = after - 1;
-      b = before->b + (end_s - before->t_s) / (after->t_s - before->t_s) * (after->b - before->b);
-    }
-    Vec2& now = outfit_->rest_stretch[static_cast<std::size_t>(timed.panel)];
+    const Vec2 b = along(timed.keys, &RestStretchKey::b, end_s);
+    Vec2& now = outfit_->rest_stretch[at(timed.panel)];
     if (b == now) continue;
     now = b;
     set_panel_rest_stretch(model_, timed.panel, b);
   }
+}
+
+// Gravity, wind, friction and stiffness of the coming frame.
+void OutfitRun::change_in_time(double end_s) {
+  if (!scene_->gravity_path.empty()) gravity_m_per_s2_ = along(scene_->gravity_path, &ScenePin::Key::x_m, end_s);
+  if (!scene_->wind_path.empty()) world_.air.wind_m_per_s = along(scene_->wind_path, &ScenePin::Key::x_m, end_s);
+  const auto friction = [&](const SceneCollider& collider, std::optional<Index> number) {
+    if (!collider.friction_path.empty())
+      set_friction(number, along(collider.friction_path, &FrictionKey::friction, end_s));
+  };
+  friction(scene_->body, {});
+  const Index first = scene_->body.exists() ? 1 : 0;
+  for (std::size_t k = 0; k < scene_->solids.size(); ++k) friction(scene_->solids[k], first + static_cast<Index>(k));
+  for (const TimedStiffness& timed : events_.stiffness)
+    if (const StiffnessShare share = share_of(along(timed.keys, &StiffnessKey::share, end_s));
+        model_.stiffness_share.empty() || model_.stiffness_share[at(timed.panel)] != share)
+      set_stiffness(timed.panel, share);
 }
 
 FrameReport OutfitRun::frame(double length_s) {
@@ -164,8 +201,7 @@ FrameReport OutfitRun::frame(double length_s) {
     frames_ = 0;
     frame_s_ = length_s;
   }
-  if (!scene_->gravity_path.empty()) gravity_m_per_s2_ = along(scene_->gravity_path, time_s() + frame_s_);
-  if (!scene_->wind_path.empty()) world_.air.wind_m_per_s = along(scene_->wind_path, time_s() + frame_s_);
+  change_in_time(time_s() + frame_s_);
   if (settling_.sewn)
     settle();
   else

@@ -33,6 +33,7 @@ struct TimedPin {
   double from_s = 0, to_s = std::numeric_limits<double>::infinity();
   RigidPath moves;           // if any, from where the particle is when it is taken
   std::optional<Vec3> from;  // where it would have been before the moves began; once it is taken
+  bool on_body = false;      // it goes where the body takes it, from where it is when it is taken
 };
 struct TimedDrag {  // a hand that holds the cloth for a while
   Drag drag;
@@ -43,10 +44,15 @@ struct TimedRestStretch {
   Index panel = 0;
   std::vector<RestStretchKey> keys;
 };
+struct TimedStiffness {
+  Index panel = 0;
+  std::vector<StiffnessKey> keys;
+};
 struct Events {  // times count from the first frame
   std::vector<TimedPin> pins;
   std::vector<TimedDrag> drags;
   std::vector<TimedRestStretch> rest_stretch;
+  std::vector<TimedStiffness> stiffness;
 };
 
 class OutfitRun {
@@ -66,6 +72,9 @@ class OutfitRun {
   // Between two frames pins and hands may come, go and be led elsewhere.
   Events& events() { return events_; }
   void set_gravity(const Vec3& m_per_s2) { gravity_m_per_s2_ = m_per_s2; }
+  // Of one collider, or of all that have none of their own.
+  void set_friction(std::optional<Index> collider, double friction);
+  void set_stiffness(Index panel, const StiffnessShare& share);
   void set_wind(const Vec3& m_per_s) { world_.air.wind_m_per_s = m_per_s; }
   // From the next frame on the body moves: at 0 s it is where it is now.
   void start_motion(BodyAt body_at);
@@ -90,8 +99,8 @@ class OutfitRun {
     std::vector<Vec2> b = panel_rest_stretch();
     archive.fixed(b);
     archive(frames_, frames_from_s_, frame_s_, gravity_m_per_s2_, world_.air.wind_m_per_s, motion_start_s_,
-            without_room_, ramped_, *tangles_, *stepper_);
-    for (TimedPin& timed : events_.pins) archive(timed.pin.particle, timed.from);
+            without_room_, ramped_, *tangles_, *stepper_, changed_);
+    for (TimedPin& timed : events_.pins) archive(timed.pin.particle, timed.from, timed.pin.on_body);
     for (TimedDrag& timed : events_.drags) archive(timed.drag.particle, timed.drag.weight);
     if constexpr (Archive::reads) take_up(b);
   }
@@ -103,7 +112,19 @@ class OutfitRun {
   void choose_steps();
   void set_rest_stretch(double share);
   void happen();
+  void change_in_time(double end_s);
   void take_and_let_go();
+
+  // What was set since the run began; of a panel that has its own stiffness, and of friction, absent: the scene's.
+  struct Changed {
+    std::optional<double> friction;
+    std::vector<std::optional<double>> collider_friction;
+    std::vector<std::optional<Vec3>> stiffness;  // [panel]
+    template <class Archive>
+    void remember(Archive& archive) {
+      archive(friction, collider_friction, stiffness);
+    }
+  };
 
   const Scene* scene_;
   Outfit* outfit_;
@@ -116,6 +137,7 @@ class OutfitRun {
   long without_room_ = 0;  // steps in which the body let cloth pass (step/flypaper.hpp), by the last look
   double label_strength_ = 0, motion_start_s_ = 0, ramped_ = -1;
   BodyAt motion_;
+  Changed changed_;
   Events events_;
   Vec3 gravity_m_per_s2_{0, 0, 0};  // when it has grown to all of it
   long frames_ = 0;                 // of one length, since

@@ -27,6 +27,11 @@ void settle(const Json& value, Scene& scene) {
       if (!scene.cloth[k].name.empty() && scene.cloth[j].name == scene.cloth[k].name)
         cloth.array()[k].fail("a name that no other cloth has", '"' + printable(scene.cloth[k].name) + '"');
   }
+  for (std::size_t k = 0; k < scene.cloth.size() && !scene.body.exists() && scene.solids.empty(); ++k)
+    for (std::size_t p = 0; p < scene.cloth[k].pins.size(); ++p)
+      if (scene.cloth[k].pins[p].hold == ScenePin::Hold::body)
+        cloth.array()[k].at("pins").array()[p].at("hold").fail("a body or a solid in the scene",
+                                                               "\"body\" without one");
   const bool sewn = scene.cloth.front().is_sewn();
   if (!is_given(value, "time", "until_still")) scene.until_still = sewn;
   if (!is_given(value, "time", "drape_seconds") && !sewn && !scene.body.motion) scene.drape_seconds = 0;

@@ -37,19 +37,26 @@ struct RestStretchKey {
   Vec2 b{1, 1};
 };
 
+// Shares of the stretch, shear and bend of the panel's fabric, likewise.
+struct StiffnessKey {
+  double t_s = 0;
+  Vec3 share{1, 1, 1};
+};
+
 struct ScenePanel {  // what one panel has of its own
   std::string name;
   std::optional<Fabric> fabric;
   std::optional<double> rest_stretch_u,
       rest_stretch_v;  // b of the warp and the weft, < 1 pulls together; absent: the pattern's
   std::vector<RestStretchKey> rest_stretch_path;
+  std::vector<StiffnessKey> stiffness_path;
   std::string where, pointer;  // in the file, for the message that there is no such panel
 };
 
 struct ScenePin {
   Vec3 near_m{0, 0, 0};                         // the particle nearest to it at the start is held
   std::optional<std::array<Vec3, 2>> in_box_m;  // instead: all between two corners of a box at the start
-  enum class Hold { fixed, path, moves };
+  enum class Hold { fixed, path, moves, body };
   Hold hold = Hold::fixed;
   struct Key {
     double t_s = 0;

@@ -75,6 +75,11 @@ void describe(V& v, SceneCollider& collider) {
        collider.worn ? "of the cloth on the body, and on solids that have none of their own" : "of the cloth on it",
        collider.worn ? "the fabric's" : "the body's"},
       {0, 100}, collider.contact.friction);
+  v.rows({"friction_path", "in time, instead of the constant", "constant"}, Rows{1, true}, collider.friction_path,
+         [](auto& row, FrictionKey& key) {
+           row.column("t_s", within_a_run, key.t_s);
+           row.column("friction", Range{0, 100}, key.friction);
+         });
   v.number({"offset_mm", "how far above it cloth rests; edges cut corners of it, so longer ones need more",
             collider.worn ? "0.2 of the edge length, between 1.5 and 2.5" : "the body's"},
            {0.1, 100, 1e-3}, collider.contact.offset_m);

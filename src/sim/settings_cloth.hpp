@@ -8,6 +8,8 @@
 
 namespace toile::internal {
 
+inline constexpr Range stiffer_or_not{1e-3, 1e3};
+
 template <class V>
 void describe_times_and_place(V& row, double& t_s, Vec3& x_m) {
   row.column("t_s", within_a_run, t_s);
@@ -113,16 +115,32 @@ void describe(V& v, ScenePanel& panel) {
            row.column("b_u", shrunk_or_not, key.b.x());
            row.column("b_v", shrunk_or_not, key.b.y());
          });
+  v.rows({"stiffness_path",
+          "shares of the fabric's stretch, shear and bend, for a cloth that stiffens or softens during the run",
+          "1, 1, 1"},
+         Rows{1, true}, panel.stiffness_path, [](auto& row, StiffnessKey& key) {
+           row.column("t_s", within_a_run, key.t_s);
+           row.column("stretch", stiffer_or_not, key.share.x());
+           row.column("shear", stiffer_or_not, key.share.y());
+           row.column("bend", stiffer_or_not, key.share.z());
+         });
 }
 
 template <class V>
 void describe(V& v, ScenePin& pin) {
-  static constexpr std::array<std::pair<std::string_view, ScenePin::Hold>, 3> holds = {
-      {{"fixed", ScenePin::Hold::fixed}, {"path", ScenePin::Hold::path}, {"moves", ScenePin::Hold::moves}}};
+  static constexpr std::array<std::pair<std::string_view, ScenePin::Hold>, 4> holds = {
+      {{"fixed", ScenePin::Hold::fixed},
+       {"path", ScenePin::Hold::path},
+       {"moves", ScenePin::Hold::moves},
+       {"body", ScenePin::Hold::body}}};
   v.exactly_one({"near_m", "in_box_m"});
   v.vector({"near_m", "holds the particle nearest to it at the start", "nothing"}, anywhere, pin.near_m);
   v.box({"in_box_m", "holds all between two corners of a box at the start", "nothing"}, anywhere, pin.in_box_m);
-  v.name({"hold", "\"path\" has `path_m`; \"moves\" have `moves`, and take what they hold along"}, holds, pin.hold);
+  v.name({"hold",
+          "\"path\" has `path_m`; \"moves\" have `moves`, and take what they hold along; \"body\" is carried by the "
+          "nearest "
+          "point of the body or a solid, and turns with it"},
+         holds, pin.hold);
   v.rows({"path_m", "where the particle is led, from the first frame on", "nowhere"}, Rows{1, true}, pin.path,
          path_row);
   v.list({"moves", "of all that it holds, [below](#moves)", "nowhere"}, pin.moves.keys(), 1);

@@ -124,16 +124,6 @@ std::vector<TimedPin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) 
 
 }  // namespace
 
-Vec3 along(const std::vector<ScenePin::Key>& path, double t_s) {
-  if (t_s <= path.front().t_s) return path.front().x_m;
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    if (t_s > path[k].t_s) continue;
-    const double s = (t_s - path[k - 1].t_s) / (path[k].t_s - path[k - 1].t_s);
-    return (1 - s) * path[k - 1].x_m + s * path[k].x_m;
-  }
-  return path.back().x_m;
-}
-
 std::vector<PinnedParticle> pinned_particles(const SceneCloth& cloth, std::span<const Vec3> x) {
   std::vector<PinnedParticle> pinned;
   for (std::size_t k = 0; k < cloth.pins.size(); ++k) {
@@ -168,8 +158,10 @@ TimedPin timed_pin(const ScenePin& given, Index particle) {
   timed.from_s = given.from_s;
   timed.to_s = given.to_s;
   timed.moves = given.moves;
+  timed.on_body = given.hold == ScenePin::Hold::body;
   timed.pin.particle = particle;
-  if (given.hold == ScenePin::Hold::path) timed.pin.path = [path = given.path](double t_s) { return along(path, t_s); };
+  if (given.hold == ScenePin::Hold::path)
+    timed.pin.path = [path = given.path](double t_s) { return along(path, &ScenePin::Key::x_m, t_s); };
   return timed;
 }
 
@@ -196,7 +188,7 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
     drag.near_m = given.near_m;
     drag.from_s = given.from_s;
     drag.to_s = given.to_s;
-    drag.drag.target = [path = given.path](double t_s) { return along(path, t_s); };
+    drag.drag.target = [path = given.path](double t_s) { return along(path, &ScenePin::Key::x_m, t_s); };
     drag.drag.stiffness_N_per_m = given.stiffness_N_per_m;
     drag.drag.damping_N_s_per_m = given.damping_N_s_per_m;
     drag.drag.max_force_N = given.max_force_N;
@@ -204,9 +196,9 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
   }
   const std::vector<std::string>& names = loaded.garment.mesh.panel_names;
   for (const ScenePanel& panel : cloth.panels) {
-    if (panel.rest_stretch_path.empty()) continue;
-    const auto place = std::find(names.begin(), names.end(), panel.name);
-    loaded.rest_stretch_paths.push_back({static_cast<Index>(place - names.begin()), panel.rest_stretch_path});
+    const auto number = static_cast<Index>(std::find(names.begin(), names.end(), panel.name) - names.begin());
+    if (!panel.rest_stretch_path.empty()) loaded.rest_stretch_paths.push_back({number, panel.rest_stretch_path});
+    if (!panel.stiffness_path.empty()) loaded.stiffness_paths.push_back({number, panel.stiffness_path});
   }
   loaded.edge_m =
       cloth.arrays ? mesh_quality(loaded.garment.mesh).mean_edge_m : counted_edge_m.value_or(cloth.edge_m());
@@ -238,6 +230,10 @@ Events events_of(const Outfit& outfit, std::span<const LoadedCloth> cloth) {
     for (TimedRestStretch path : cloth[k].rest_stretch_paths) {
       path.panel += part.first_panel;
       events.rest_stretch.push_back(std::move(path));
+    }
+    for (TimedStiffness path : cloth[k].stiffness_paths) {
+      path.panel += part.first_panel;
+      events.stiffness.push_back(std::move(path));
     }
     first += part.particles;
   }

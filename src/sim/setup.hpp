@@ -5,6 +5,7 @@
 #include "garment/garment_mesh.hpp"
 #include "garment/pattern_figures.hpp"
 #include "sim/colliders.hpp"
+#include "sim/keyed.hpp"
 #include "sim/outfit.hpp"
 #include "sim/outfit_run.hpp"
 #include "sim/scene.hpp"
@@ -23,6 +24,7 @@ struct LoadedCloth {
   std::vector<TimedPin> pins;      // on the particles of `garment`, of a cloth that is not sewn
   std::vector<TimedDrag> drags;    // likewise
   std::vector<TimedRestStretch> rest_stretch_paths;
+  std::vector<TimedStiffness> stiffness_paths;
   double edge_m = 0;  // that its triangles were asked to have
   std::vector<std::string> warnings;
 };
@@ -39,9 +41,6 @@ struct LoadedScene {
 };
 // Adds every byte that it reads to `inputs`.  Throws what load_cloth, load_colliders and start_from throw.
 LoadedScene load_scene(const Scene& scene, const TextSource& read, Hash& inputs);
-
-// Straight on from key to key, at rest before the first and after the last.
-Vec3 along(const std::vector<ScenePin::Key>& path, double t_s);
 
 struct PinnedParticle {
   std::size_t pin = 0;  // of the cloth

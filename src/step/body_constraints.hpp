@@ -80,9 +80,10 @@ class BodyConstraints {
   double normal_force_N(Index particle) const { return lambda_n_[static_cast<std::size_t>(particle)]; }
   // Of the colliders' friction, from the next step on: 0 lets cloth slip into its place.
   void set_friction_share(double share) { friction_share_ = share; }
+  void set_friction(std::optional<Index> collider, double friction) { options_.set_friction(collider, friction); }
   double offset_m(const BodyPoint& point) const { return options_.offset_of(body_->collider(point.triangle)); }
 
-  // Between two steps (core/state_archive.hpp); set_friction_share is the caller's.
+  // Between two steps (core/state_archive.hpp); what set_friction and set_friction_share say is the caller's.
   template <class Archive>
   void remember(Archive& archive) {
     archive(memory_);

@@ -27,6 +27,14 @@ struct BodyContactOptions {
     if (own != nullptr && own->friction) return *own->friction;
     return friction.value_or(of_cloth);
   }
+  void set_friction(std::optional<Index> collider, double mu) {
+    if (!collider) {
+      friction = mu;
+      return;
+    }
+    if (colliders.size() <= at(*collider)) colliders.resize(at(*collider) + 1);
+    colliders[at(*collider)].friction = mu;
+  }
   double largest_offset_m() const {
     double largest = colliders.empty() ? offset_m : 0;
     for (const ColliderContact& own : colliders) largest = std::max(largest, own.offset_m.value_or(offset_m));

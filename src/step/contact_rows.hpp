@@ -76,6 +76,10 @@ class ContactRows {
   // How near layers lie at x, of cloth without open seams.  With the memory of `detect`, whose pairs it leaves alone.
   LayerGap layer_gap(std::span<const Vec3> x);
 
+  void set_body_friction(std::optional<Index> collider, double friction) {
+    body_contact_.set_friction(collider, friction);
+  }
+
   int active() const;
   // What the springs of the last step hold, in J, each by the load that it bore.
   double stored_J() const;

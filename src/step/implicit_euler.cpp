@@ -105,7 +105,12 @@ void ImplicitEuler::look_through_body(const ClothState& state) {
 void ImplicitEuler::hold_pins(const ClothState& state, double t_s, const StepFormula& step) {
   for (const Pin& pin : world_->pins) {
     const auto i = static_cast<std::size_t>(pin.particle);
-    Vec3 way = pin.path ? Vec3(pin.path(t_s + step.h_s) - state.x[i]) : Vec3::Zero();
+    Vec3 way = Vec3::Zero();
+    if (pin.on_body) {
+      way = carried(*pin.on_body, *world_->body) - state.x[i];
+    } else if (pin.path) {
+      way = pin.path(t_s + step.h_s) - state.x[i];
+    }
     if (!step.drift_m.empty()) way -= step.drift_m[i];
     const Vec3 velocity = way / step.weight_s;
     const Vec3 z = velocity - state.v[i];

@@ -14,6 +14,7 @@
 #include "assembly/elements.hpp"
 #include "solver/step_solver.hpp"
 #include "step/body_at.hpp"
+#include "step/body_attachment.hpp"
 #include "step/body_constraints.hpp"
 #include "step/contact_rows.hpp"
 #include "step/drag.hpp"
@@ -31,9 +32,10 @@ namespace toile::internal {
 // A particle held by the user.
 struct Pin {
   Index particle = -1;
-  int held_directions = 3;               // 3: held; 2: along p and q (moves on a line); 1: along p (moves in a plane)
-  Vec3 p{1, 0, 0}, q{0, 1, 0};           // unit, orthogonal
-  std::function<Vec3(double t_s)> path;  // where it must be; empty: it stays where it is along the held directions
+  int held_directions = 3;                // 3: held; 2: along p and q (moves on a line); 1: along p (moves in a plane)
+  Vec3 p{1, 0, 0}, q{0, 1, 0};            // unit, orthogonal
+  std::function<Vec3(double t_s)> path;   // where it must be; empty: it stays where it is along the held directions
+  std::optional<BodyAttachment> on_body;  // instead: it goes where the world's body takes it
 };
 
 // Whether the solve knows where contact will move particles (K y in b), or they jump once it is done; the latter for comparison.
@@ -107,6 +109,11 @@ class ImplicitEuler {
   const SafeFilter& filter() const { return filter_; }  // of the last attempt
   PhaseSeconds seconds() const;
   const StepOptions& options() const { return options_; }
+  // Of one collider, or of all that have none of their own, from the next step on.
+  void set_body_friction(std::optional<Index> collider, double friction) {
+    body_.set_friction(collider, friction);
+    rows_.set_body_friction(collider, friction);
+  }
   void set_slow_motion(double share) { options_.slow_motion = share; }
   void set_tolerance(double tolerance) { options_.pcg.tolerance = tolerance; }
   const ClothModel& model() const { return *model_; }

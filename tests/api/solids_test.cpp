@@ -178,6 +178,7 @@ TEST(Solids, ThatCannotBeMeantAreRefused) {
               fast.set_moves(std::vector<BodyKey>{{1}, {1}});
             }).find("ascend"),
             std::string::npos);
+  EXPECT_NE(made(Body::none(), {Body::capsule(0.1, {0, 1, 0}, {0, 1, 0})}).find("another place"), std::string::npos);
   EXPECT_NE(made(Body::none(), {Body::revolved(std::vector<std::array<double, 2>>{{0, 0}, {1, 1}})}).find("profile"),
             std::string::npos);
 }

@@ -28,11 +28,11 @@ inline constexpr std::array<std::string_view, 9> scenes_with_every_setting = {
       {"in_box_m": [[-0.3, -0.3, -0.01], [-0.2, -0.1, 0.01]], "hold": "moves", "about_m": [0.5, 0.25, 0.125],
        "moves": [{"t_s": 1, "shift_m": [0.1, 0.2, 0.3], "rotation_deg": [30, 40, 50], "scale": 0.9}, {"t_s": 2, "scale": 1.1}]}]
   }],
-  "body": {"cylinder": {"radius_m": 0.3, "height_m": 0.7, "top_m": [0.1, 0.5, 0.2]}, "friction": 0.25, "offset_mm": 3},
+  "body": {"cylinder": {"radius_m": 0.3, "height_m": 0.7, "top_m": [0.1, 0.5, 0.2]}, "friction": 0.25, "offset_mm": 3, "friction_path": [[0.5, 0.25], [3, 0.75]]},
   "solids": [
     {"sphere": {"radius_m": 0.4}, "edge_m": 0.05, "inside_out": true,
      "placement": {"translation_m": [1, 2, 3], "rotation_deg": [4, 5, 6]}, "moves": [{"t_s": 0.5}, {"t_s": 3, "scale": 0.5}]},
-    {"box": {"size_m": [0.5, 0.25, 0.75]}, "friction": 0.6, "offset_mm": 4},
+    {"box": {"size_m": [0.5, 0.25, 0.75]}, "friction": 0.6, "offset_mm": 4, "friction_path": [[0.25, 0.1], [2, 0.3]]},
     {"revolved": {"profile_m": [[0, 0], [0.5, 0.1], [0, 1]]}},
     {"mesh": "solid.obj", "unit": "dm"},
     {"mannequin": "woman", "motion": {"name": "sway", "lead_in_s": 0.25}},
@@ -68,7 +68,7 @@ inline constexpr std::array<std::string_view, 9> scenes_with_every_setting = {
     R"({
   "cloth": [{"pattern": "p.json", "resolution_cm": 1.5, "fabric": "wool", "label_heights_m": {"waist": 1.1, "hem": 0.5},
     "panels": {"front": {"fabric": {"base": "knit", "friction": 0.6}, "rest_stretch_u": 0.9, "rest_stretch_v": 1.1,
-      "rest_stretch_path": [[0.5, 0.9, 0.8], [1, 0.7, 0.6]]}}}],
+      "rest_stretch_path": [[0.5, 0.9, 0.8], [1, 0.7, 0.6]], "stiffness_path": [[0.25, 1, 2, 3], [1, 4, 5, 6]]}}}],
   "body": {"mannequin": "man", "motion": {"name": "walk", "lead_in_s": 0.5}}
 })",
     R"({
