@@ -1,4 +1,4 @@
-// step/body_constraints.hpp: contact of cloth particles with a body, by constraints and an active set.  (L1) [BW98 5.4, 6]
+// step/body_constraints.hpp: contact of particles with a body, by constraints and an active set.     (L1) [BW98 5.4, 6]
 //
 //   predicted  a particle starts the step in contact if it touched in the last step, or if its gap, predicted with the
 //              last change of velocity and the body's motion, is below the rest offset r; the passes release and add

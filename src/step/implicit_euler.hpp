@@ -155,8 +155,8 @@ class ImplicitEuler {
   ContactRows rows_;
   SafeFilter filter_;
   std::vector<double> inverse_mass_, before_body_;  // [particle] 1/kg: 0 for constrained particles; 0 for pins alone
-  std::vector<char> through_body_;  // [particle] within the body, or next to a crossing with it
-  bool may_be_through_ = true, pierced_ = false;  // pierced_: by the last attempt
+  std::vector<char> through_body_;                  // [particle] within the body, or next to a crossing with it
+  bool may_be_through_ = true, pierced_ = false;    // pierced_: by the last attempt
   BodyImpactWorkspace body_workspace_;
   std::vector<LinearSpring> springs_;
   std::vector<ImplicitRow> implicit_rows_;
