@@ -1,4 +1,4 @@
-// material/condition.hpp: internal forces as energies of conditions, as in the paper.                    [BW98 4.1, 4.5]
+// material/condition.hpp: internal forces as energies of conditions, as in the paper.                   [BW98 4.1, 4.5]
 //
 // A condition C(x) reads N particles, has M components, and is zero at rest.  All an integrator needs follows
 // from C and its derivatives, so it is written once, here.  With C_dot = sum_i dC/dx_i . v_i, per component:
