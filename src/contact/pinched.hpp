@@ -17,7 +17,7 @@ bool all_pinched(const Particles& particles, std::span<const Pinched> pinched) {
                      [&](Index i) { return i < 0 || pinched[static_cast<std::size_t>(i)] != Pinched::no; });
 }
 
-// Whether the pair is exempt from contact: all particles are pinched and one is without room.  They may pass through
+// Whether the safe filter exempts the pair: all particles are pinched and one is without room.  They may pass through
 // each other; free particles are kept out of the pinch.
 template <class Particles>
 bool is_let_be(const Particles& particles, std::span<const Pinched> pinched) {

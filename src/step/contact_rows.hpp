@@ -64,8 +64,8 @@ class ContactRows {
   // centimetre thick: sewing thins them there to let the corner close.  0 switches the contact of layers off.
   void set_thickness_scale(std::span<const double> scale) { distance_.set_scale(scale); }
 
-  // [particle] From the next detect on, pairs that is_let_be (contact/pinched.hpp) get no rows, neither with layers nor
-  // with the body.  Empty: all pairs do.
+  // [particle] From the next detect on, pairs whose particles are all pinched (contact/pinched.hpp) get no rows, neither
+  // with layers nor with the body.  Empty: all pairs do.
   void let_be(std::span<const Pinched> particles) { pinched_.assign(particles.begin(), particles.end()); }
 
   // For the safe filter: which features touch, a hierarchy over the triangles (after detect), lists of near features,

@@ -3,7 +3,7 @@
 // The offset cannot be kept from both.  A pinched particle is constrained (S = 0) and moves with the two surfaces:
 //   with room      r/2 or more between them, and outside of both: it keeps its relative place,
 //                    x' = x + (1-s) u_1 + s u_2,   s = g_1/(g_1 + g_2)      g  gap,  u  travel of the nearest point
-//                  so it meets neither, layers keep their order, and part again.  Contact stays active.
+//                  so it meets neither, layers keep their order, and part again.  The safe filter guards all.
 //   without room   x' = x + (u_1 + u_2)/2
 //                  so that the distances between layers are kept: with s they would coincide where the surfaces meet.
 //                  A pair of pinched particles, one or more without room, is exempt from contact (contact/pinched.hpp);
