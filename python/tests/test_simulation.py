@@ -335,7 +335,7 @@ def test_solids_have_their_own_friction_motion_and_place():
     ball = toile.Body.sphere(0.1, edge_m=0.03).set_friction(0.8).set_offset(0.004)
     rail = toile.Body.capsule(0.02, (3, 0, 0), (3, 0, 1))
     cone = toile.Body.revolved([(0, 0.2), (0.1, 0), (0, 0)]).place((5, 0, 0), rotation_deg=(0, 45, 0)).set_inside_out(False)
-    carried = toile.Cloth.grid(0.2, 0.2, edge_m=0.04).place((1, 0.004, 0), rotation_deg=(-90, 0, 0))
+    carried = toile.Cloth.grid(width_m=0.2, height_m=0.2, edge_m=0.04).place((1, 0.004, 0), rotation_deg=(-90, 0, 0))
     sim = toile.Simulation(carried, solids=[ball, table, rail, cone])
     assert sim.colliders == 4
     assert len(sim.body_positions_m) == sum(len(sim.collider_positions_m(k)) for k in range(4))
@@ -357,7 +357,7 @@ def test_solids_have_their_own_friction_motion_and_place():
 
 def test_what_is_attached_goes_with_the_body_and_friction_and_stiffness_change():
     pole = toile.Body.box((0.04, 0.4, 0.04)).set_moves([{"t_s": 0}, {"t_s": 1, "rotation_deg": (0, 90, 0)}])
-    flag = toile.Cloth.grid(0.2, 0.2, edge_m=0.04).place((0.13, 0, 0))
+    flag = toile.Cloth.grid(width_m=0.2, height_m=0.2, edge_m=0.04).place((0.13, 0, 0))
     sim = toile.Simulation(flag, solids=[pole])
     edge = np.flatnonzero(sim.positions_m[:, 0] < 0.031)
     before = sim.positions_m[edge]

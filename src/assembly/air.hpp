@@ -1,14 +1,14 @@
 // assembly/air.hpp: the pressure and the friction of air on every triangle, still or in wind.              [BW98 4.4]
 //
 //   u    = mean of the corners' velocities - wind              u_n = n.u,   u_t = u - u_n n
-//   F    = -rho a/2 ( c_n |u_n| u_n n  +  c_t |u_t| u_t )      a third of it on each corner;  a: the triangle's area now
+//   F    = -rho a/2 ( c_n |u_n| u_n n  +  c_t |u_t| u_t )      a third on each corner;  a: the triangle's area now
 //   B    = -dF/du = rho a ( c_n |u_n| n n^T  +  c_t/2 (|u_t| (I - n n^T) + u_t u_t^T / |u_t|) )
-//   in A   h B/9 on all nine blocks of a triangle: semidefinite, whichever way the wind blows
+//   in A   h B/9 on all nine blocks of a triangle: semidefinite in any wind
 //
 // dF/dx, through n and a, is left out: it is not symmetric.
 //
-// Easily got wrong: this acts on the motion of a triangle's middle.  Its corners may flutter about it unbraked; damping of bend and
-// stretch is what stops that.
+// Easily got wrong: this acts on the motion of a triangle's centroid.  Air does not damp a flutter of the corners about
+// it; damping of bend and stretch does.
 #pragma once
 #include "assembly/block_matrix.hpp"
 #include "assembly/cloth_model.hpp"
@@ -30,12 +30,12 @@ class Air {
  public:
   Air(const ClothModel& model, const BlockPattern& pattern);
 
-  // Forces and derivatives at x, v.
+  // Evaluates forces and derivatives at x, v.
   void evaluate(const AirOptions& options, const Vec3& wind_m_per_s, const ClothState& state);
 
   // f_i += F/3 of the triangles around i.
   void add_forces(std::span<Vec3> f) const;
-  // f_i += sum_j (B/9) u_j: what the linearised force at v + u has less than that at v.
+  // f_i += sum_j (B/9) u_j: the linearised force at v less that at v + u.
   void add_damping(std::span<const Vec3> u, std::span<Vec3> f) const;
   // A += h D_air.  The diagonal is updated.
   template <class T>

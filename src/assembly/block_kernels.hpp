@@ -1,6 +1,6 @@
-// assembly/block_kernels.hpp: what gathers over blocks in double, compiled for each instruction set.
+// assembly/block_kernels.hpp: gathers over blocks in double, compiled for each instruction set.
 //
-// Products and sums are single operations on four numbers at a time, in one order: the same bits on every set.
+// No fused multiply-add, four numbers at a time, in one order: the same bits on every set.
 #pragma once
 #include "assembly/block_matrix.hpp"
 #include "material/bend.hpp"
@@ -13,7 +13,7 @@ void multiply_block_rows(const BlockRows& A, Index begin, Index end, const Vec3*
 // A_ii = G_i - sum_j L_ij of rows [begin, end).
 void sum_block_diagonals(const BlockRows& A, Index begin, Index end, Mat3* of_rows);
 
-// Elements that add to blocks, in the order in which they do (assembly/elements.hpp).
+// The elements that add to each block, in the order of summation (assembly/elements.hpp).
 struct BlockParts {
   struct OfTriangle {
     Index triangle;
@@ -29,7 +29,7 @@ struct BlockParts {
 };
 
 // The transposes of h D + h^2 K of slots [begin, end).  `weight` is (h^2 + h tau) kappa, per hinge.
-// `membranes` are three per triangle; one number after the last is read and not used.
+// `membranes`: three per triangle; one number after the last is read and not used.
 void gather_blocks(const BlockParts& parts, Slot begin, Slot end, const Mat3* membranes, const BendResponse* bends,
                    const double* weight, Block<float>* below);
 

@@ -1,17 +1,18 @@
-// assembly/block_matrix.hpp: symmetric sparse matrix of 3x3 blocks, one block row per particle.             [BW98 2.3]
+// assembly/block_matrix.hpp: symmetric sparse matrix of 3x3 blocks, one block row per particle.              [BW98 2.3]
 //
-// Split in two because the halves live for different times: the pattern follows the mesh and is built once; the values follow
-// the state and are rewritten every step.  The pattern lists the blocks above the diagonal by rows, columns ascending; stored are
-// their transposes, the blocks below it: what a sweep pushes from a row into many others, twice, are then products of columns with
-// the same three numbers, and only what it gathers, once, needs sums across lanes (lane.hpp).
+// Pattern and values are separate because their lifetimes differ: the pattern follows the mesh and is built once; the
+// values follow the state and are rewritten every step.  The pattern lists the blocks above the diagonal by rows,
+// columns ascending.  Their transposes, the blocks below it, are stored: a sweep scatters from a row into many others
+// twice, as products of columns with the same three numbers, and gathers once, with sums across lanes (lane.hpp).
 //
 // Internal forces do not act on a rigid translation, so every row of their derivative sums to zero.  The product is
 // therefore written with differences:
 //
 //   (A x)_i = G_i x_i + sum_j L_ij (x_j - x_i),        A_ij = L_ij,   A_ii = G_i - sum_j L_ij
 //
-// with G_i the part that knows where it is in the world (mass, drag, attachments).  In float, a stiff A_ii x_i + sum A_ij x_j
-// would lose a translation in cancellation (about 1e-3 of the mass term at 3000 N/m); like this it is exact.
+// with G_i the grounded part, which resists a translation (mass, drag, attachments).  In float, a stiff A_ii x_i + sum
+// A_ij x_j would lose a translation in cancellation (about 1e-3 of the mass term at 3000 N/m); in this form it is
+// exact.
 #pragma once
 #include "assembly/block_pattern.hpp"
 #include "assembly/lane.hpp"
@@ -24,7 +25,7 @@
 
 namespace toile::internal {
 
-// Of a matrix in single precision, for those who walk along its rows (assembly/block_kernels.hpp).
+// The arrays of a matrix in single precision, for kernels over its rows (assembly/block_kernels.hpp).
 struct BlockRows {
   const BlockPattern* pattern;
   const Block<float>* below;  // [slot]
@@ -55,26 +56,26 @@ class BlockMatrix {
   std::span<const Mat3> diagonals() const { return diagonal_; }
   // Call when blocks have changed.
   void update_diagonal();
-  // Another number after every update_diagonal() of any matrix: for those who keep a copy of the blocks.
+  // A new number after every update_diagonal() of any matrix: tells holders of a copy of the blocks that it is old.
   std::uint64_t version() const { return version_; }
 
   // y = A x in the precision of the blocks; x and y must not overlap.
   void multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
   // y = A x with the stored blocks but double vectors: for residuals that decide constraint forces.
   void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;
-  // Rows [begin, end) of it, for those who share the work, or one of them.
+  // Rows [begin, end) of it, for divided work, or one of them.
   void multiply_rows(Index begin, Index end, std::span<const Vec3> x, std::span<Vec3> y) const;
   Vec3 multiply_row(Index row, std::span<const Vec3> x) const;
-  // Of y = A x: particles of a piece of cloth pull at each other, so the sum of what is not G x is nothing.  Blocks that are rounded one by
-  // one leave a little; it is taken off, so that sum_i y_i = sum_i G_i x_i for every piece.
+  // Corrects y = A x: internal forces within a piece of cloth sum to zero, but blocks are rounded one by one and leave
+  // a little.  It is subtracted, so that sum_i y_i = sum_i G_i x_i for every piece.
   void balance(std::span<const Vec3> x, std::span<Vec3> y) const;
-  // y += A x of an x that is zero but on one particle.
+  // y += A x of an x that is nonzero on one particle only.
   void add_column(Index column, const Vec3& x, std::span<Vec3> y) const;
 
   Eigen::MatrixXd to_dense() const;  // for tests and small inspections only
 
  private:
-  BlockRows block_rows() const;  // of single precision alone
+  BlockRows block_rows() const;  // single precision only
 
   std::shared_ptr<const BlockPattern> pattern_;
   std::vector<Block<T>> below_;

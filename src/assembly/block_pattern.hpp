@@ -1,4 +1,4 @@
-// assembly/block_pattern.hpp: where a symmetric matrix of blocks has any, and in which order its rows are best walked along.
+// assembly/block_pattern.hpp: the sparsity pattern of a symmetric block matrix, and an order of its rows for locality.
 #pragma once
 #include "mesh/topology.hpp"
 
@@ -22,7 +22,7 @@ class BlockPattern {
   Slot end_slot(Index row) const { return row_begin_[static_cast<std::size_t>(row) + 1]; }
   Index column(Slot slot) const { return column_[static_cast<std::size_t>(slot)]; }
   Slot slot(Index row, Index column) const;  // row < column; asserts that the block exists
-  // The stored blocks of column i, rows ascending: what a gather over the rows of the whole matrix needs besides row i.
+  // The stored blocks of column i, rows ascending: with row i, all that a gather over the whole matrix needs.
   struct Above {
     Index row;
     Slot slot;
@@ -31,15 +31,15 @@ class BlockPattern {
     const auto first = static_cast<std::size_t>(above_begin_[static_cast<std::size_t>(i)]);
     return {above_.data() + first, static_cast<std::size_t>(above_begin_[static_cast<std::size_t>(i) + 1]) - first};
   }
-  // Numbers of the pieces of cloth that no element connects, from 0.
+  // The number of the connected piece of cloth of each particle, from 0.
   Index piece(Index row) const { return piece_[static_cast<std::size_t>(row)]; }
   std::span<const Index> piece_sizes() const { return piece_size_; }
 
-  // The rows in an order in which those that a block couples are near each other, however the mesh numbers its particles: what walks along
-  // them finds its neighbours in the cache, and a sweep that is cut into pieces cuts few blocks (solver/sweep_domains.hpp).
+  // An order of the rows in which coupled rows are near each other, whatever the numbering of the mesh: a loop over it
+  // finds its neighbours in the cache, and cutting a sweep into parts cuts few blocks (solver/sweep_domains.hpp).
   Index place(Index row) const { return place_[static_cast<std::size_t>(row)]; }
   Index row_at(Index place) const { return row_at_[static_cast<std::size_t>(place)]; }
-  Index bandwidth() const { return bandwidth_; }  // the largest distance of the places of two rows with a block
+  Index bandwidth() const { return bandwidth_; }  // the largest distance of the places of two coupled rows
 
  private:
   void find_pieces();
@@ -56,7 +56,7 @@ class BlockPattern {
   Index bandwidth_ = 0;
 };
 
-// Of the elements of cloth: corners of a triangle, and the two corners across a hinge.
+// The links of cloth elements: corners of a triangle, and the two corners across a hinge.
 BlockPattern pattern_of_cloth(Index particle_count, std::span<const Triangle> triangles, std::span<const Hinge> hinges);
 
 }  // namespace toile::internal

@@ -23,10 +23,10 @@ struct ModelOptions {
   Vec3 gravity_m_per_s2{0, -9.81, 0};
   bool paper_scaling = false;  // conditions scaled by area and bend without geometry, as printed in 1998
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
-  // Brakes every motion, f = -drag m v.  Physics has none (it would brake falling too); sewing uses it to keep loose
-  // panels from whipping.
+  // Damps every motion, f = -drag m v.  Unphysical (it would brake falling too); sewing uses it to keep loose panels
+  // from whipping.
   double drag_per_s = 0;
-  // Layers of these fabrics have this friction; all others the larger one of their two.
+  // The friction of layers of two given fabrics; all other pairs have the larger of their two.
   std::vector<PairFriction> pair_friction;
 };
 
@@ -44,9 +44,9 @@ struct ClothModel {
   std::vector<BendRest> bend;                      // [hinge]
   std::vector<double> mass_kg;                     // [particle]
   std::vector<double> thickness_m;                 // [particle] contact distance of two layers
-  std::vector<double> friction;                    // [particle] of its fabrics, the largest
-  std::vector<Index> fabric;                       // [particle] of its first triangle: a number per name
-  std::vector<std::vector<double>> pair_friction;  // [fabric][fabric], < 0: none of its own; empty: no pair has
+  std::vector<double> friction;                    // [particle] the largest of its fabrics
+  std::vector<Index> fabric;                       // [particle] of its first triangle: one number per name
+  std::vector<std::vector<double>> pair_friction;  // [fabric][fabric], < 0: not given; empty: no pair is
   Vec3 gravity_m_per_s2{0, -9.81, 0};
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   double drag_per_s = 0;
@@ -55,32 +55,33 @@ struct ClothModel {
   std::vector<MembraneStiffness> built_stiffness;
   std::vector<double> built_kappa_N_m;
   std::vector<StiffnessShare> stiffness_share;  // [panel]
-  int rest_version = 0;  // counts changes of b and of gathers, so that what depends on rest lengths knows
+  int rest_version = 0;  // counts changes of b, of gathers and of stiffness, for what is packed from them
 
   Index particle_count() const { return mesh.particle_count; }
   const MembraneStiffness& stiffness_of(std::size_t triangle) const {
     return stiffness[stiffness.size() == 1 ? 0 : static_cast<std::size_t>(mesh.panel[triangle])];
   }
   std::array<Vec2, 3> rest_uv(std::size_t triangle) const;  // gathered so far; without b
-  // Of layers whose fabrics are those of particles i and j, where the pair has one of its own; else `usual`.
+  // The friction given for the fabrics of particles i and j, else `usual`.
   double friction_between(Index i, Index j, double usual) const;
 };
 
 // `fabric_of_panel` has one entry, or one per panel of the mesh.  Hinges on a seam take the mean of both sides.
-// Masses: a third of each triangle's density * area goes to each corner.  Rest angles are those of mesh.folds, zero elsewhere;
-// rest shapes are gathered.
+// Masses: a third of each triangle's density * area goes to each corner.  Rest angles are those of mesh.folds, zero
+// elsewhere; rest shapes are gathered.
 ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabric_of_panel, const ModelOptions& options = {});
 
-// Rest angles = share * mesh.folds: panels are sewn flat (0) and then folded.  Folds on a free edge have no hinge and no effect.
+// Rest angles = share * mesh.folds: panels are sewn flat (0) and then folded.  Folds on a free edge have no effect.
 void set_folds(ClothModel& model, double share);
 
-// Rest shapes of triangles = uv + share * (mesh.gathered_uv - uv): panels are sewn as cut (0), and gathered as their seams close (1).  Mass,
-// weight of bend and area are those of the cloth as cut.
+// Rest shapes of triangles = uv + share * (mesh.gathered_uv - uv): panels are sewn as cut (0), and gathered as their
+// seams close (1).  Mass, bend weight and area stay those of the cloth as cut.
 void set_gathers(ClothModel& model, double share);
 
-// Changes the rest stretch (b_u, b_v) of a triangle or of a panel's triangles; 1 is as cut, 0.8 pulls together by a fifth.  Allowed
-// between any two steps: forces, the step control and contact distances follow.  Bend keeps its weight, that of the cloth as cut.
-// Throws InputError for an index that the mesh does not have, and for b that is not above zero and finite.
+// Changes the rest stretch (b_u, b_v) of a triangle or of a panel's triangles; 1 is as cut, 0.8 shortens by a fifth.
+// Allowed between any two steps: forces, step control and contact distances follow.  Bend keeps its weight, that of the
+// cloth as cut.  Throws InputError for an index that the mesh does not have, and for b that is not above zero and
+// finite.
 void set_rest_stretch(ClothModel& model, Index triangle, const Vec2& b);
 void set_panel_rest_stretch(ClothModel& model, Index panel, const Vec2& b);
 

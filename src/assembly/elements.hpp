@@ -1,10 +1,10 @@
-// assembly/elements.hpp: all internal forces of a cloth and their derivatives, gathered without races.     [BW98 2.3, 3]
+// assembly/elements.hpp: all internal forces of a cloth and their derivatives, gathered without races.    [BW98 2.3, 3]
 //
 //   evaluate(x, v)      one response per triangle and hinge, in parallel
 //   forces(...)         f_i = sum over elements in element order
-//   assemble(h, A)      A = M + h D + h^2 K: every block gathers its elements in a fixed order, so that the same bits come out at
-//                       any thread count, and a halved step needs no element evaluated again
-//   subtract_stiffness  K y element by element in double: what the right-hand side needs (momentum is kept to rounding)
+//   assemble(h, A)      A = M + h D + h^2 K: every block gathers its elements in a fixed order, so the bits
+//                       are the same at any thread count; a halved step evaluates no element again
+//   subtract_stiffness  K y element by element in double, for the right-hand side (momentum is kept to rounding)
 #pragma once
 #include "assembly/block_kernels.hpp"
 #include "assembly/cloth_model.hpp"
@@ -40,11 +40,11 @@ class Elements {
   // |w_u| and |w_v| of every triangle at x.
   void stretch(std::span<const Vec3> x, std::span<Vec2> w) const;
 
-  // What a linear step does not know of the energy of stretch and shear at its end F': E(F') - (E + P.d + d.K d / 2), d = F' - F, with
-  // the linearisation of the last evaluate(); the sum over the triangles that have more than they were thought to, J.  A piece that turns
-  // by the angle a along tangents has |w'| = sqrt(1 + a^2): k s^2 (|w'| - 1)^2 / 2 per thread, made out of nothing.
+  // The energy of stretch and shear beyond the linearisation at the end F' of a linear step:
+  // E(F') - (E + P.d + d.K d / 2), d = F' - F, about the last evaluate(), in J.  A piece that turns by the angle a
+  // along tangents has |w'| = sqrt(1 + a^2): k s^2 (|w'| - 1)^2 / 2 per thread, made out of nothing.
   struct BeyondLinear {
-    double made = 0, net = 0;  // summed over triangles where it is positive; over all
+    double made = 0, net = 0;  // sums over the triangles where it is positive; over all
   };
   BeyondLinear energy_beyond_linear(std::span<const Vec3> x);
 
@@ -64,7 +64,7 @@ class Elements {
   std::span<const Hinge> hinges_;
   std::span<const BendRest> bend_rest_;
   // Triangles, eight per batch; arrays over triangles are as long as all batches.
-  int rest_version_ = -1;  // of the model, when it was packed
+  int rest_version_ = -1;  // of the model, when the batches were packed
   std::vector<MembraneRestBatch> rest_;
   std::vector<MembraneStateBatch> state_;
   MembraneForm form_;
@@ -74,8 +74,8 @@ class Elements {
   std::vector<std::int32_t> particle_triangle_begin_, particle_hinge_begin_;  // per particle
   std::vector<std::pair<Index, std::uint8_t>> particle_triangles_, particle_hinges_;
   std::vector<BendResponse> bend_;
-  // Scratch of the gathers.  Of triangles: three blocks each, and one more that is never used; or the forces on the corners, one matrix
-  // each.  Of hinges what g is multiplied by: (h^2 + h tau) kappa in blocks; or the moment.
+  // Scratch of the gathers.  Triangles: three blocks each, and one more that is never used; or one matrix each, the
+  // forces on the corners.  Hinges: the factor of g, which is (h^2 + h tau) kappa in blocks, or the moment.
   mutable std::vector<Mat3> of_triangles_;
   mutable std::vector<double> of_hinges_;
   std::vector<double> beyond_linear_;  // [triangle]

@@ -1,6 +1,6 @@
-// assembly/implicit_row.hpp: a spring along one direction between up to four particles, as a rank-one term of the system.
+// assembly/implicit_row.hpp: a spring along one direction between up to four particles: a rank-one term of the system.
 //
-//   g_k = weight_k direction                       d = sum_k g_k . (displacement of particle k)  - what a body moved
+//   g_k = weight_k direction                       d = sum_k g_k . (displacement of particle k)  - travel of a body
 //   force along g:   F(dv) = force - k (h g.(v+dv) + g.y - body_displacement) - c (g.(v+dv) - body_displacement/h)
 //   A += a g g^T,  b += beta g,      a = h^2 k + h c,
 //   beta = h (force - k (h g.v + g.y - body_displacement) - c (g.v - body_displacement/h))
@@ -20,7 +20,7 @@ struct LinearSpring {
   double force_N = 0;              // at the start of the step, along +g
   double stiffness_N_per_m = 0;    // >= 0
   double damping_N_s_per_m = 0;    // >= 0
-  double body_displacement_m = 0;  // how far the other, prescribed side moves along `direction` in this step
+  double body_displacement_m = 0;  // travel of the other, prescribed side along `direction` in this step
 };
 
 struct ImplicitRow {
@@ -40,7 +40,7 @@ inline double along(const LinearSpring& spring, std::span<const Vec3> u) {
   return spring.direction.dot(sum);
 }
 
-// `y` is what moves the particles besides h v'.  Where the body's motion is over another time than h (BDF2), that is body_s.
+// `y`: the displacement of the particles besides h v'.  body_s: the time of the body's travel where it is not h (BDF2).
 inline ImplicitRow implicit_row(const LinearSpring& s, double h_s, std::span<const Vec3> v, std::span<const Vec3> y,
                                 double body_s) {
   const double speed = along(s, v);

@@ -1,4 +1,4 @@
-// assembly/lane.hpp: three numbers in four lanes, so that a 3x3 block times a vector is a handful of vector instructions.
+// assembly/lane.hpp: three numbers in four lanes, so that a 3x3 block times a vector takes few vector instructions.
 //
 // Lane 3 is always zero.  Element-wise IEEE arithmetic in a fixed order: the same bits on every instruction set.
 #pragma once
@@ -6,7 +6,7 @@
 
 namespace toile::internal {
 
-// Four doubles: for systems that single precision does not bear, and for tests and references.
+// Four doubles: for systems that need double precision, and for tests and references.
 struct alignas(32) DoubleLane {
   double value[4];
   double operator[](std::size_t k) const { return value[k]; }

@@ -1,9 +1,9 @@
-// constraint/particle_constraints.hpp: directions in which a particle may not choose its velocity.      [BW98 5.1-5.3]
+// constraint/particle_constraints.hpp: constraints on the velocity of single particles.                  [BW98 5.1-5.3]
 //
 //   S_i   3x3   I                   3 degrees of freedom
-//               I - p p^T           2: held along p
-//               I - p p^T - q q^T   1: held along p and q
-//               0                   0: held
+//               I - p p^T           2: constrained along p
+//               I - p p^T - q q^T   1: constrained along p and q
+//               0                   0: fixed
 //   z_i   m/s   prescribed change of velocity; lies in the range of (I - S_i)
 //
 // The solver keeps (I - S) dv = z exactly, at every iteration count: S filters every direction it adds to z.
@@ -23,8 +23,9 @@ class ParticleConstraints {
   void clear();  // every particle free; keeps the memory
 
   void hold(Index particle, const Vec3& z);  // no degree of freedom left
-  // Keeps z along the unit vector n.  On a particle that is already held along another direction the two are combined: z is the
-  // one velocity that satisfies both (least norm), S the projection onto what is left.  Parallel directions: the first stays.
+  // Prescribes z along the unit vector n.  On a particle that is already constrained along another direction the two
+  // are combined: z is the one velocity that satisfies both (least norm), S the projection onto the rest.  Of parallel
+  // directions the first stays.
   void hold_along(Index particle, const Vec3& n, double z_along_n);
 
   Index size() const { return static_cast<Index>(S_.size()); }
@@ -34,7 +35,7 @@ class ParticleConstraints {
   int degrees_of_freedom(Index particle) const { return dof_[static_cast<std::size_t>(particle)]; }
   bool is_free(Index particle) const { return dof_[static_cast<std::size_t>(particle)] == 3; }
 
-  // Particles with fewer than 3 degrees of freedom, in the order in which they were first held.
+  // Particles with fewer than 3 degrees of freedom, in the order of their first constraint.
   std::span<const Index> constrained() const { return constrained_; }
 
   // a_i <- S_i a_i for all particles.

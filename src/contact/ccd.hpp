@@ -1,18 +1,19 @@
-// contact/ccd.hpp: when do two moving features come too near?  Additive continuous collision detection.   [Li et al. 2021]
+// contact/ccd.hpp: when two moving features come too near: additive continuous collision detection.    [Li et al. 2021]
 //
 //   x_i(t) = x_i + t u_i,  0 <= t <= 1;   d(t) the distance of the two features,   d_0 = d(0)
 //   l      = |p_0| + max |p_j|  (vertex, face),   max |p_i| + max |p_j|  (edges),   p_i = u_i less their mean:
-//            d cannot change faster than l per unit of t, so t may advance by (d - xi) / l without looking
+//            d changes by at most l per unit of t, so t may advance by (d - xi) / l
 //   impact   the first t at which d(t) - xi is less than g = min(0.1 (d_0 - xi), 0.2 xi)
 //
 // Conservative by construction: no root is sought, and a motion that is called free keeps d > xi.  The small absolute
 // part of g lets a landing come close; with the relative part alone a pair 20 mm apart is an impact at 2 mm.
 //
-// Where d_0 < 2 xi, and advances would be short from the start, a direction is tried along which the features are farther apart than xi at
-// both ends: they are so all the way, because a difference of two corners along it is linear in t.
+// Where d_0 < 2 xi, advances would be short from the start.  Then a direction is tried along which the features are
+// farther apart than xi at both ends.  They are so all the way, because a difference of two corners along it is linear
+// in t.
 //
-// Rounding.  Closest points err on the wrong side: any two points are as far apart as the features, or farther; in a
-// needle or between nearly parallel edges they are found badly.  So no d is believed that is not proven: for every w
+// Rounding.  Closest points err on one side: any two points are at least as far apart as the features.  In a needle or
+// between nearly parallel edges they are found badly.  So d is not trusted but bounded: for every w
 //
 //   d >= min over corners a, b of the two features  w . (a - b) / |w|  = (|w|^2 - loss) / |w|,   w = x_a - x_b as found
 //
@@ -20,7 +21,7 @@
 // d is taken as found where loss / d <= 0.05 (d - xi) - e.  Elsewhere it is the best bound, less e, among the normals
 // of face or edges, of ends and edges, of ends: the nearest points of two polytopes have one of them.
 //
-//   e = 2^-45 M,  M = max |x_ij| + max |u_ij|.  It pays for these errors, in M 2^-53:
+//   e = 2^-45 M,  M = max |x_ij| + max |u_ij|.  It covers these errors, in M 2^-53:
 //     u as a rounded difference, t u, x + t u           3 a coordinate, two points         11
 //     w from differences and products                  20 a coordinate                     35
 //     |w| taken for the root of distance2              as much again, and a norm           47
@@ -29,7 +30,7 @@
 //                                                                          together 201 < 256
 //
 // 1 m from the origin e is 3e-14 m, 1 km from it 3e-11 m.  A pair with d <= xi + e at the start is an impact at 0,
-// wherever it goes.
+// whatever its motion.
 //
 // Easily got wrong: the answer is about the features' own distance.  Whether they may touch (neighbours in the cloth)
 // is the caller's business.

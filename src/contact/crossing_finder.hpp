@@ -1,17 +1,18 @@
-// contact/crossing_finder.hpp: every edge of a surface that passes through one of its triangles; what steers a run asks here.
+// contact/crossing_finder.hpp: all edges of a surface that pass through one of its triangles; for steering a run.
 //
 // Of cloth with itself, and of cloth with a body whose particles and triangles follow the cloth's in one mesh (as in
-// contact/intersection_contours.hpp).  The body is not asked about itself.  Pairs that share a particle are not tested: two triangles that
-// cross and share one do so through an edge that shares nothing with the other.
+// contact/intersection_contours.hpp).  The body is not tested against itself.  Pairs that share a particle are not
+// tested: two triangles that cross and share one do so through an edge that shares nothing with the other.
 //
-// Positions are rounded to whole numbers of a step of 2^-60 of the power of two of the largest coordinate of the cloth and of what of the body is around
-// it: exact for a double that is not 256
-// times smaller than that, 1e-18 m beside it in a scene of 2 m.  About the rounded mesh every answer is exact, and degenerate positions are
-// resolved for the whole mesh at once (contact/whole_orientation.hpp), a particle's rank being its index.  So a proper crossing is always found,
-// what is apart never is one, and a surface pierced through an edge or a particle is pierced once: contours have no loose ends.
+// Positions are rounded to multiples of 2^-60 of the power of two of the largest coordinate of the cloth and of the
+// nearby body.  That is exact for a double that is not 256 times smaller, and else errs by 1e-18 m in a scene of
+// 2 m.  About the rounded mesh every answer is exact.  Degenerate positions are resolved for the whole mesh at once
+// (contact/whole_orientation.hpp), a particle's rank being its index.  So a proper crossing is always found, separate
+// features never count as one, and a surface pierced through an edge or a particle is pierced once: contours have no
+// loose ends.
 //
-// Easily got wrong: this is not the judge.  The verdict has a finder of its own, with its own tree and arithmetic (src/verify), and neither may
-// use the other's (the test `layers`): what one of them overlooks, the other shows.
+// Easily got wrong: this is not the judge.  The verdict has a finder of its own, with its own tree and arithmetic
+// (src/verify), and neither may use the other's (the test `layers`), so that each can show what the other overlooks.
 #pragma once
 #include "contact/intersection_contours.hpp"
 #include "contact/triangle_tree.hpp"
@@ -23,23 +24,23 @@ namespace toile::internal {
 
 struct FoundCrossings {
   std::vector<SurfaceCrossing> all;  // of cloth with cloth, then of cloth with the body; each by (edge, triangle)
-  std::size_t of_cloth = 0;          // so many of the first kind
+  std::size_t of_cloth = 0;          // number of crossings of cloth with cloth
 };
 
 class CrossingFinder {
  public:
-  // `topology` is that of all `triangles`.  The first `cloth_triangles` are the cloth's, which has the first `cloth_particles`.  Topology and
-  // triangles must outlive this object.
+  // `topology` is that of all `triangles`.  The first `cloth_triangles` triangles and `cloth_particles` particles are
+  // the cloth's.  Topology and triangles must outlive this object.
   CrossingFinder(const Topology& topology, std::span<const Triangle> triangles, std::size_t cloth_triangles,
                  std::size_t cloth_particles);
   CrossingFinder(const Topology&&, std::span<const Triangle>, std::size_t, std::size_t) = delete;
 
-  // Depends on x alone, not on what was asked before.  Throws InputError for a position that is not finite.
+  // Depends on x alone, not on earlier calls.  Throws InputError for a position that is not finite.
   FoundCrossings find(std::span<const Vec3> x);
 
  private:
-  struct Side {                        // the cloth or the body, with its own numbers
-    Index triangle = 0, particle = 0;  // first of the whole mesh
+  struct Side {                        // the cloth or the body, with its own indices
+    Index triangle = 0, particle = 0;  // its first in the whole mesh
     std::vector<Triangle> triangles;
     TriangleTree tree;
   };
@@ -50,21 +51,21 @@ class CrossingFinder {
   void run_tasks(std::vector<SurfaceCrossing>& found, Work&& work) const;
 
   std::span<const Triangle> triangles_;
-  std::vector<std::uint8_t> owned_;  // [triangle] bit k: of those with its side k, it is the one that tests it
+  std::vector<std::uint8_t> owned_;  // [triangle] bit k: of the triangles with its side k, it is the one that tests it
   Side cloth_, body_;
-  Vec3s whole_, next_whole_;  // positions in steps
+  Vec3s whole_, next_whole_;  // positions in multiples of the step
   std::vector<TreeTask> tasks_;
 };
 
-// For a single look.  `body` may be empty; it is numbered from 0, and follows the cloth in the result.
+// For a single query.  `body` may be empty; it is numbered from 0, and follows the cloth in the result.
 FoundCrossings find_crossings(std::span<const Triangle> cloth, std::span<const Vec3> x, std::span<const Triangle> body,
                               std::span<const Vec3> body_x);
 
-// The triangles of the body behind those of the cloth, its particles behind the cloth's `particles`.
+// The triangles of the cloth, then those of the body with particles numbered from `particles` on.
 std::vector<Triangle> joined_triangles(std::span<const Triangle> cloth, std::size_t particles,
                                        std::span<const Triangle> body);
 
-// How many different edges a list that is sorted by edge names.
+// The number of different edges in a list that is sorted by edge.
 int count_crossing_edges(std::span<const SurfaceCrossing> crossings);
 
 }  // namespace toile::internal

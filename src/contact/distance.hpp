@@ -2,11 +2,11 @@
 //
 // Symbols: lengths in m.  Barycentric coordinates belong to the corners in the order in which they were given.
 //
-// Degenerate input is legal: a triangle without area is its three edges, an edge without length is a point.  Nothing
-// here divides by zero and nothing returns NaN for finite input.
+// Degenerate input is legal: a triangle without area is its three edges, an edge without length is a point.  No
+// division by zero, and no NaN for finite input.
 //
-// Easily got wrong: for nearly parallel edges the interior solution is a ratio of two vanishing numbers.  It is not
-// trusted below `parallel_sine2`; the ends of the edges decide instead, and `interior` is then false.
+// Easily got wrong: for nearly parallel edges the interior solution is a ratio of two vanishing numbers.  Below
+// `parallel_sine2` the ends of the edges decide instead, and `interior` is false.
 #pragma once
 #include "core/types.hpp"
 
@@ -17,7 +17,7 @@ enum class Feature : std::uint8_t { face, edge, vertex };
 struct VertexTriangle {
   double distance2 = 0;             // m^2
   Vec3 barycentric = Vec3::Zero();  // of the closest point; sums to 1, none negative
-  Feature feature = Feature::face;  // where on the triangle the closest point lies
+  Feature feature = Feature::face;  // of the triangle that contains the closest point
   int index = 0;                    // edge k (corners k, k+1) or vertex k when feature is not face
 };
 VertexTriangle closest_vertex_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
@@ -32,8 +32,8 @@ EdgeEdge closest_edge_edge(const Vec3& p0, const Vec3& p1, const Vec3& q0, const
 // Edges whose angle has a squared sine below this count as parallel (0.0057 degrees, 1 micrometre over 1 cm).
 inline constexpr double parallel_sine2 = 1e-8;
 
-// The quick half of closest_edge_edge: fills `result` and returns true exactly where that has `interior`, and returns
-// false, leaving `result` alone, elsewhere.
+// The fast part of closest_edge_edge: where that has `interior`, fills `result` and returns true; elsewhere leaves
+// `result` alone and returns false.
 inline bool interior_edge_edge(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1, EdgeEdge& result) {
   const Vec3 p = p1 - p0, q = q1 - q0, r = p0 - q0;
   const double pp = p.dot(p), qq = q.dot(q), pq = p.dot(q), pr = p.dot(r), qr = q.dot(r);

@@ -1,15 +1,17 @@
-// contact/feature_pairs.hpp: which features of a cloth may meet: vertices and triangles, edges and edges.   (L0 of contact)
+// contact/feature_pairs.hpp: pairs of features of a cloth that may meet: vertices and triangles, edges and edges.  (L0)
 //
-// They come from a walk of the tree, or out of lists that are kept from step to step while they hold.         [Verlet 1967]
-// Lists are made with boxes that are larger on every side by
+// The pairs come from a traversal of the tree, or from lists that are kept while they are valid. [Verlet 1967]
+// Lists are made with boxes enlarged on every side by
 //
-//   s_i = s_0 + 4 d_i            d_i  how far particle i has moved in a step of late, seen from the mean of the cloth
+//   s_i = s_0 + 4 d_i            d_i  recent motion of particle i in a step, relative to the mean of the cloth
 //
-// and hold for every query whose boxes lie within these.  What they list is what a walk finds and more: who asks holds the boxes of the
-// query against each other, and gets the same pairs from both.  Results do not depend on whether lists are there.
+// and are valid for every query whose boxes lie within these.  A list contains the pairs that a traversal finds and
+// more; the caller tests the boxes of the query against each other, and gets the same pairs from both.  Results do not
+// depend on whether there are lists.
 //
-// Lists pay where cloth comes to rest.  Cloth that moves by more than a few hundredths of its edges in a step leaves its boxes at once,
-// or needs such large ones that they hold most of what is around: then there are none.  Measured: bench/notes.md.
+// Lists pay where cloth comes to rest.  Cloth that moves by more than a few hundredths of its edges in a step leaves
+// its boxes at once, or needs such large ones that they contain most of its surroundings: then there are none.
+// Measured: bench/notes.md.
 #pragma once
 #include "contact/features.hpp"
 #include "contact/triangle_tree.hpp"
@@ -22,8 +24,8 @@
 
 namespace toile::internal {
 
-// Pairs of features that do not touch (share a merged particle) and whose boxes overlap, of one task of the tree's walk over itself:
-// on_vertex(particle, triangle) and on_edges(lesser edge, greater edge), each pair once.
+// Pairs of features that do not touch (share a merged particle) and whose boxes overlap, of one task of the tree's
+// traversal against itself: on_vertex(particle, triangle) and on_edges(lesser edge, greater edge), each pair once.
 template <class OnVertex, class OnEdges>
 void visit_feature_pairs(const ClothTopology& cloth, const TriangleTree& tree, TreeTask task, OnVertex&& on_vertex,
                          OnEdges&& on_edges) {
@@ -62,16 +64,16 @@ void visit_feature_pairs(const ClothTopology& cloth, const TriangleTree& tree, T
   });
 }
 
-// The lists of one cloth.  All boxes are seen from the mean (contact/particle_boxes.hpp).
+// The lists of one cloth.  All boxes are relative to the mean motion (contact/particle_boxes.hpp).
 class FeaturePairs {
  public:
-  // For a query of cloth at rest, once a step: do the lists hold for these boxes?  Makes them anew where that pays; then the boxes of
-  // `tree` are theirs.
+  // For the proximity query, once a step: are the lists valid for these boxes?  Rebuilds them where that pays; then the
+  // boxes of `tree` are theirs.
   bool seek(const ClothTopology& cloth, TriangleTree& tree, const ParticleBoxes& boxes);
-  // For any other query: do they?
+  // For any other query: are they valid?
   bool hold(const ParticleBoxes& boxes) const { return made_ && boxes.within(holds_); }
 
-  // While they hold: the triangles that the vertex may meet, and of the edges those of a greater number.
+  // While they are valid: the triangles that the vertex may meet, and the edges of a greater index that the edge may.
   std::span<const Index> triangles_near(Index vertex) const { return triangles_.row(vertex); }
   std::span<const Index> edges_near(Index edge) const { return edges_.row(edge); }
 
@@ -86,10 +88,10 @@ class FeaturePairs {
   void list(Keys Found::*keys, std::size_t rows, IndexRows& lists) const;
 
   bool made_ = false;
-  int wait_ = 0;  // steps until it is tried again
+  int wait_ = 0;  // steps until the next attempt
   ParticleBoxes holds_;
   IndexRows triangles_, edges_;
-  std::vector<std::array<float, 3>> last_;  // corners of the boxes that seek was last given; empty: never
+  std::vector<std::array<float, 3>> last_;  // corners of the boxes last given to seek; empty: never
   std::vector<float> motion_m_;             // d_i
   double mean_edge_m_ = 0, mean_motion_m_ = 0;
   std::vector<TreeTask> tasks_;

@@ -1,11 +1,11 @@
-// contact/features.hpp: which triangle speaks for which vertex and edge, and what surrounds them.     [Curtis 2008]
+// contact/features.hpp: representative triangles of vertices and edges, and the surroundings of features. [Curtis 2008]
 //
-// A vertex with six triangles over a face with six neighbours would be met 36 times if every pair of triangles tested
-// its corners.  Each vertex and each edge is therefore owned by one representative triangle, and only that one tests
-// it.
+// If every pair of triangles tested its corners, a vertex with six triangles over a face with six neighbours would be
+// tested 36 times.  Each vertex and each edge is therefore owned by one representative triangle, and only that one
+// tests it.
 //
-// Easily got wrong: two particles that a seam will weld are one vertex for the question "do these features touch?",
-// yet each has its own owner, because until the weld they are at two places.
+// Easily got wrong: two particles that a seam will weld are one vertex for the question "do these features touch?", yet
+// each has its own owner, because until the weld they are at two places.
 #pragma once
 #include "core/types.hpp"
 #include "mesh/topology.hpp"
@@ -31,11 +31,11 @@ struct IndexRows {
   }
 };
 
-// [particle] the 3 * triangle + corner at which it appears, ascending.
+// [particle] every 3 * triangle + corner with this particle, ascending.
 IndexRows particle_corners(std::size_t particle_count, std::span<const Triangle> triangles);
 
-// Everything about a cloth mesh that contact needs and that only a weld changes.  Holds references: `triangles` and
-// `topology` must outlive it.
+// The topology of a cloth mesh for contact, which only a weld changes.  Holds references: `triangles` and `topology`
+// must outlive it.
 //
 // merged_particle[i] is the particle that i will be welded to (or i); chains and mutual pairs are understood.
 // Empty: nothing is merged.  Throws InputError when its length is not the number of particles or an entry is out of
@@ -44,7 +44,7 @@ class ClothTopology {
  public:
   ClothTopology(std::size_t particle_count, std::span<const Triangle> triangles, const Topology& topology,
                 std::span<const Index> merged_particle = {});
-  // Would keep a pointer to something that is gone at the end of the line.
+  // Deleted: it would keep a pointer to a temporary.
   ClothTopology(std::size_t, std::span<const Triangle>, Topology&&, std::span<const Index> = {}) = delete;
 
   std::size_t particle_count() const { return merged_.size(); }
@@ -57,13 +57,13 @@ class ClothTopology {
   }
 
   std::uint8_t owned(Index triangle) const { return owned_[static_cast<std::size_t>(triangle)]; }
-  // The smallest particle of those that will be one with `particle`.
+  // The smallest of the particles that will be welded to `particle`.
   Index merged(Index particle) const { return merged_[static_cast<std::size_t>(particle)]; }
   const Triangle& merged_triangle(Index t) const { return merged_triangles_[static_cast<std::size_t>(t)]; }
 
   // 3 * triangle + corner at every particle merged with this one, itself included.
   std::span<const Index> corners_around(Index particle) const { return corners_.row(merged(particle)); }
-  // Edges whose ends are merged with this edge's, itself included.
+  // Edges whose ends are merged with those of this edge, itself included.
   std::span<const Index> merged_edges(Index edge) const {
     return edge_rows_.row(edge_class_[static_cast<std::size_t>(edge)]);
   }

@@ -7,15 +7,15 @@
 //   contour    segments joined at crossings: over the edge of one triangle into its neighbour, within the other.  It
 //              has two sides, 0 and 1: the two surfaces (or two places of one surface) that meet along it.
 //
-//   closed     the curve comes back to where it began
+//   closed     the curve returns to its first point
 //   open       it ends where an edge of the boundary passes through the other surface, or at a shared particle
 //
 // Cloth and body are one mesh here: the body's particles and triangles follow the cloth's.  The crossings must be those
 // of an exact finder (or of one with consistent ties): then a pair of triangles has two crossings, or one and a shared
-// particle, and nothing is left over.  Where that fails a contour ends.
+// particle, and none is left over.  Where that fails a contour ends.
 //
-// Easily got wrong: in a surface that crosses itself both sides run over the same mesh, so "which edges does the
-// contour cut?" has an answer only per side.
+// Easily got wrong: in a surface that crosses itself both sides run over the same mesh, so the edges that the contour
+// cuts are defined only per side.
 #pragma once
 #include "mesh/topology.hpp"
 
@@ -32,17 +32,17 @@ struct SurfaceCrossing {
 
 struct ContourPoint {
   Index crossing;
-  int edge_side;  // 0 or 1: whose edge it is; the triangle is the other side's
+  int edge_side;  // 0 or 1: the side of the edge; the triangle is the other side's
 };
 
 struct IntersectionContour {
   std::vector<ContourPoint> points;  // along the curve
-  // [segment] its triangles of side 0 and of side 1; segment k joins points k and k+1, a closed contour's last one the
-  // last point and the first.
+  // [segment] its triangles of side 0 and of side 1.  Segment k joins points k and k+1; the last one of a closed
+  // contour joins the last point and the first.
   std::vector<std::array<Index, 2>> triangles;
   bool closed = false;
   std::array<Index, 2> end_particle{-1, -1};  // open: the shared particle before the first and after the last point
-  bool sides_joined = false;                  // closed, and side 0 continues as side 1: one curve, run through twice
+  bool sides_joined = false;                  // closed, and side 0 continues as side 1: one curve, traversed twice
 };
 
 // Contours in the order of their first crossing, open ones first; every crossing belongs to exactly one.  The result
@@ -54,9 +54,9 @@ std::vector<IntersectionContour> trace_contours(const Topology& topology, std::s
 double contour_length(const IntersectionContour& contour, std::span<const SurfaceCrossing> crossings,
                       std::span<const Vec3> x);
 
-// Which part of a surface a contour cuts off: what a flood fill from one bank reaches without crossing the curve.
+// The part of a surface that a contour cuts off: the reach of a flood fill from one bank that does not cross the curve.
 struct CutRegion {
-  bool separates = false;           // false: the fill comes round to the other bank
+  bool separates = false;           // false: the fill reaches the other bank
   std::vector<Index> particles;     // of the smaller part, ascending; empty where the curve stays within one triangle
   double area_m2 = 0, rest_m2 = 0;  // of the smaller part and of the other
 };
@@ -64,11 +64,11 @@ struct CutRegion {
 // Flood fills on one mesh; keeps its memory.
 class SurfaceRegions {
  public:
-  // `area_m2` per particle: the shares of the triangles around it.
+  // `area_m2` per particle: its share of the triangles around it.
   SurfaceRegions(const Topology& topology, std::size_t particle_count, std::vector<double> area_m2);
 
   CutRegion cut_off(const IntersectionContour& contour, std::span<const SurfaceCrossing> crossings, int side);
-  // Particles at most `rings` edges away from those that are marked are marked too.
+  // Also marks all particles at most `rings` edges away from marked ones.
   void grow(std::vector<char>& marked, int rings) const;
 
  private:

@@ -1,8 +1,8 @@
-// contact/lane_boxes.hpp: boxes in single precision, one and four side by side, of which the tree is made.
+// contact/lane_boxes.hpp: bounding boxes in single precision, single ones and groups of four, the nodes of the tree.
 //
-// Half the memory traffic of double precision, one vector instruction for four boxes, and never smaller than the exact box: whoever finds
-// that two do not overlap knows it of what is inside.  At 2 m from the origin the rounding outward adds at most 0.4 micrometres.
-// Coordinates must be below 1e30 m.
+// Half the memory traffic of double precision, and one vector instruction for four boxes.  A box is never smaller than
+// the exact one: if two boxes do not overlap, neither do their contents.  At 2 m from the origin the outward rounding
+// adds at most 0.4 micrometres.  Coordinates must be below 1e30 m.
 #pragma once
 #include "core/types.hpp"
 
@@ -14,12 +14,12 @@
 
 namespace toile::internal {
 
-// A box in single precision that holds the double precision box it was made from.
+// A box in single precision that contains the double precision box it was made from.
 struct OuterBox {
   std::array<float, 3> low{}, high{};
 
-  // A float at most, and one at least, as large as x.  Converting errs by half a unit in the last place;
-  // |f| 2^-23 is one to two such units, the small constant does the same for numbers near zero.
+  // below: a float at most as large as x; above: one at least as large.  Conversion errs by half a unit in the last
+  // place; |f| 2^-23 is one to two such units, and the small constant serves numbers near zero.
   static float below(double x) {
     const float f = static_cast<float>(x);
     return f - (std::fabs(f) * 0x1p-23f + 1e-37f);
@@ -55,7 +55,7 @@ struct OuterBox {
   }
 };
 
-// Four boxes side by side; an empty lane overlaps nothing and is infinitely far.
+// Four boxes in lanes; an empty lane overlaps nothing and is infinitely far.
 struct LaneBoxes {
   using Lanes = float __attribute__((vector_size(16)));
   using Mask = std::int32_t __attribute__((vector_size(16)));
@@ -89,7 +89,8 @@ struct LaneBoxes {
     const std::uint64_t both = halves[0] | halves[1];
     return static_cast<unsigned>(both | both >> 32) & 15u;
   }
-  // At most the squared distances to a point in the box [below, above]: the factor covers the rounding of the sums.
+  // Lower bounds of the squared distances to a point in the box [below, above]: the factor covers the rounding of the
+  // sums.
   Lanes distance2(const std::array<float, 3>& below, const std::array<float, 3>& above) const {
     Lanes sum = all(0);
     for (std::size_t k = 0; k < 3; ++k) {

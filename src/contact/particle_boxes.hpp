@@ -1,7 +1,7 @@
-// contact/particle_boxes.hpp: the box of every particle of a mesh on a straight motion, and of what has particles for corners.
+// contact/particle_boxes.hpp: bounding boxes of particles, edges and triangles on a straight motion.
 //
-// Easily got wrong: boxes seen from the mean have it taken out.  They say which features of one mesh can meet, and nothing about where
-// they are: never hold them against boxes of something else.
+// Easily got wrong: boxes relative to the mean have its motion taken out.  They tell which features of one mesh can
+// meet, but not their place: never compare them with boxes of something else.
 #pragma once
 #include "contact/lane_boxes.hpp"
 
@@ -13,14 +13,14 @@ namespace toile::internal {
 
 class ParticleBoxes {
  public:
-  // Box i holds start[i], end[i] and all between, grown by `margin_m`.
+  // Box i contains start[i], end[i] and all between, grown by `margin_m`.
   void set(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
-  // Likewise those whose moved[i] is not 0; the others stay as they are.
+  // The same for particles whose moved[i] is not 0; the others stay as they are.
   void set(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m,
            std::span<const std::uint8_t> moved);
-  // As the first, as one sees it who moves as the mean of the particles does: what falls or walks as a whole has small boxes.
+  // Like the first, but relative to the mean motion of the particles: a falling or walking garment has small boxes.
   void set_seen_from_mean(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
-  // Grows box i by a length of its own.
+  // Grows box i by its own length.
   template <class Length>
   void grow(Length&& by_m) {
     for (std::size_t i = 0; i < boxes_.size(); ++i) boxes_[i].grow(by_m(i));

@@ -1,4 +1,4 @@
-// contact/proximity_memory.hpp: what the proximity queries keep between calls, and what both of them ask.  Internal.
+// contact/proximity_memory.hpp: the memory of the proximity queries, and the region test that both use.  Internal.
 #pragma once
 #include "contact/proximity.hpp"
 
@@ -12,8 +12,8 @@ namespace toile::internal {
 struct ProximityWorkspace::Memory {
   using Keys = std::vector<std::pair<Index, Index>>;
 
-  // Where on a triangle the point next to a vertex lies.  In one number, ascending with the triangle: on a fine mesh every vertex has
-  // dozens of these, and few of them come to anything.
+  // The place on a triangle nearest to a vertex.  Packed into one number, ascending with the triangle: on a fine mesh
+  // every vertex has dozens of these, and few become contacts.
   class Place {
    public:
     Place() = default;
@@ -30,20 +30,20 @@ struct ProximityWorkspace::Memory {
     std::uint32_t packed_ = 0;
   };
 
-  // What one block of features finds, in the order of its walks.
+  // The pairs found by one block of features, in the order of its traversals.
   struct Found {
-    Keys vertex_keys, edge_keys;      // features of the two sides; vertices: the body's
+    Keys vertex_keys, edge_keys;      // features of the two sides; vertex_keys: the body's vertices
     std::vector<ClothContact> edges;  // cloth: by edge_keys
     std::vector<BodyContact> body_vertices, body_edges;
   };
-  // What one block of vertices reports.
+  // The contacts reported by one block of vertices.
   struct Reported {
     std::vector<ClothContact> faces, edges, vertices;
-    std::vector<Place> places;  // near the present vertex
+    std::vector<Place> places;  // near the current vertex
     std::vector<Index> edge_candidates, vertex_candidates;
   };
 
-  ParticleBoxes boxes;  // of the cloth against itself, seen from its mean
+  ParticleBoxes boxes;  // of the cloth against itself, relative to its mean
   std::vector<Vec3> face_normals;
   std::vector<std::uint8_t> flat;           // [triangle] bit 3 + k: edge k is flat
   std::vector<std::uint8_t> body_features;  // [triangle of the body] as BodySurface::owned_ridges
@@ -58,14 +58,14 @@ struct ProximityWorkspace::Memory {
   void check(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x) const;
   void set_face_normals(const ClothTopology& cloth, std::span<const Vec3> x);
   void start_blocks(std::size_t blocks);
-  // `keys` and `all` become what the blocks have found, one after the other.
+  // `keys` and `all` become the results of the blocks, one after the other.
   template <class Record>
   void join(std::size_t blocks, Keys Found::*keys_of, std::vector<Record> Found::*records, std::vector<Record>& all) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < blocks; ++i) count += (found[i].*keys_of).size();
     keys.clear();
     all.clear();
-    if (count > keys.capacity()) keys.reserve(2 * count);  // or they would grow by one record, time and again
+    if (count > keys.capacity()) keys.reserve(2 * count);  // else they would grow by one record, time and again
     if (count > all.capacity()) all.reserve(2 * count);
     for (std::size_t i = 0; i < blocks; ++i) {
       keys.insert(keys.end(), (found[i].*keys_of).begin(), (found[i].*keys_of).end());
@@ -74,8 +74,8 @@ struct ProximityWorkspace::Memory {
   }
 };
 
-// The surroundings of the cloth's features, for the region test.  A seam's partner counts as soon as it is within
-// `range_m`: an open seam is two rims, a closed one is cloth.
+// The surroundings of the cloth's features, for the region test.  A seam's partner counts once it is within `range_m`:
+// an open seam is two rims, a closed one is cloth.
 class Surroundings {
  public:
   Surroundings(const ClothTopology& cloth, std::span<const Vec3> x, const ProximityOptions& options)

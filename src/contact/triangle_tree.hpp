@@ -1,8 +1,8 @@
-// contact/triangle_tree.hpp: a tree of boxes over triangles; built once, refitted every step.      (L0 of contact)
+// contact/triangle_tree.hpp: a bounding volume hierarchy over triangles, refitted every step.           (L0 of contact)
 //
-// Four children to a node, in one array in depth-first order, so that one vector instruction looks at all four.  The
-// tree is built by splitting near the median along the longest axis of the centroids of the positions given to build
-// it. The topology of the mesh is fixed, so it is never rebuilt; only boxes change.  Queries visit nodes in a fixed
+// Four children to a node, in one array in depth-first order, so that one vector instruction tests all four.  The tree
+// is built by splitting near the median along the longest axis of the centroids of the positions given to build it.
+// The topology of the mesh is fixed, so the tree is never rebuilt; only boxes change.  Queries visit nodes in a fixed
 // order: the same input gives the same list at any thread count.
 //
 // Boxes are single precision, rounded outward (contact/lane_boxes.hpp).
@@ -30,13 +30,13 @@ struct Box {
   }
 };
 
-// A piece of a query, cut so that pieces can be worked on by several threads: node a against node b, or (within one
-// tree, a = b) node a against itself.
+// A part of a query, for division among threads: node a against node b, or (within one tree, a = b) node a against
+// itself.
 struct TreeTask {
   Index a, b;
 };
 
-// Memory that self_pairs and cross_pairs keep between calls.
+// Memory of self_pairs and cross_pairs, kept between calls.
 struct PairWorkspace {
   std::vector<TreeTask> tasks;
   std::vector<std::vector<std::pair<Index, Index>>> found;  // by task
@@ -49,12 +49,13 @@ class TriangleTree {
   TriangleTree() = default;
   TriangleTree(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
-  // Boxes hold every triangle at `start` and at `end` (linear motion between), grown by `margin_m`.
+  // Boxes contain every triangle at `start` and at `end` (linear motion between), grown by `margin_m`.
   void refit(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m);
-  // Likewise, where only particles with moved[i] != 0 have other boxes than at the last refit: the others are left alone.
+  // The same, where only particles with moved[i] != 0 have other boxes than at the last refit: the others are left
+  // alone.
   void refit(std::span<const Vec3> start, std::span<const Vec3> end, double margin_m,
              std::span<const std::uint8_t> moved);
-  // Boxes hold those of the particles.
+  // Boxes contain those of the particles.
   void refit(const ParticleBoxes& particles);
 
   // Pairs (a, b) with a < b of this tree's triangles whose boxes overlap, sorted.  A pair that shares a particle is
@@ -67,7 +68,7 @@ class TriangleTree {
                    PairWorkspace& workspace) const;
   void cross_pairs(const TriangleTree& other, std::vector<std::pair<Index, Index>>& pairs) const;
 
-  // Triangles whose box overlaps `box`, ascending; and unsorted, by visit(triangle).
+  // Triangles whose box overlaps `box`, ascending; or unsorted, by visit(triangle).
   void overlapping(const Box& box, std::vector<Index>& triangles) const;
   template <class Visit>
   void visit_overlapping(const OuterBox& box, Visit&& visit) const;
@@ -77,10 +78,9 @@ class TriangleTree {
   template <class Visit>
   double nearest(const Vec3& p, double bound2, Visit&& visit) const;
 
-  // The same walks as self_pairs and cross_pairs in pieces, unsorted, for callers that look at each pair once and
-  // keep little.
-  // visit(a, b) with a, b triangles.  Within one tree a != b, and each unordered pair comes once.
-  // The number of tasks depends on the mesh and the boxes only.
+  // The traversals of self_pairs and cross_pairs in parts, unsorted, for callers that use each pair once and keep few:
+  // visit(a, b) with a, b triangles.  Within one tree a != b, and each unordered pair comes once.  The number of tasks
+  // depends on the mesh and the boxes only.
   void self_tasks(std::vector<TreeTask>& tasks) const;
   void cross_tasks(const TriangleTree& other, std::vector<TreeTask>& tasks) const;
   template <class Visit>
@@ -89,7 +89,7 @@ class TriangleTree {
   void visit_cross(const TriangleTree& other, TreeTask task, Visit&& visit) const;
 
   Index triangle_count() const { return static_cast<Index>(triangles_ ? triangles_->size() : 0); }
-  // Of the last refit: the box of the motion, grown by the margin.
+  // The boxes of the last refit: of the motion, grown by the margin.
   const ParticleBoxes& particle_boxes() const { return particle_boxes_; }
   const OuterBox& particle_box(Index particle) const { return particle_boxes_[particle]; }
   const OuterBox& triangle_box(Index triangle) const { return triangle_boxes_[static_cast<std::size_t>(triangle)]; }
@@ -123,7 +123,7 @@ class TriangleTree {
 
   std::vector<Node> nodes_;
   std::vector<Subtree> subtrees_;
-  std::vector<Index> upper_nodes_;  // the others, ascending
+  std::vector<Index> upper_nodes_;  // all other nodes, ascending
   std::shared_ptr<const std::vector<Triangle>> triangles_;
   std::vector<OuterBox> triangle_boxes_;
   std::vector<std::uint8_t> triangle_moved_, node_moved_;  // by refit
@@ -131,15 +131,15 @@ class TriangleTree {
 };
 
 // ---------------------------------------------------------------------------------------------------------------------
-// Walks with an explicit stack.  A node with n triangles has children with at most n/4 + 8, so the depth is below 20
-// for any 31-bit count; a pair is replaced by at most 16, and the two sides may go down one after the other: 15 * 40
+// Traversals with an explicit stack.  A node with n triangles has children with at most n/4 + 8, so the depth is below
+// 20 for any 31-bit count; a pair is replaced by at most 16, and the two sides may descend one after the other: 15 * 40
 // + 1 entries.
 
 namespace tree_walk {
 inline constexpr std::size_t pair_stack = 640, node_stack = 96;
 }  // namespace tree_walk
 
-// One step of a walk over pairs: passes pairs of triangles to `visit` and pairs of nodes to `push`.
+// One step of a traversal of pairs: passes pairs of triangles to `visit` and pairs of nodes to `push`.
 template <class Visit, class Push>
 void TriangleTree::meet(const TriangleTree& first, const TriangleTree& second, TreeTask pair, Visit&& visit,
                         Push&& push) {

@@ -1,6 +1,6 @@
-// material/batch.hpp: eight elements side by side, number by number, as vector registers want them.
+// material/batch.hpp: eight elements in one array per number, the layout of vector registers.
 //
-// A batch is the same on every machine; how many of its lanes are worked on at once depends on the registers and changes no bit.
+// A batch is the same on every machine; the registers decide how many lanes are computed at once, and change no bit.
 #pragma once
 #include "core/types.hpp"
 

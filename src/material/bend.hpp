@@ -7,7 +7,7 @@
 // The part (theta - theta_0) d2theta is left out, because it is indefinite at every fold.     docs/theory/bend.md
 //
 // theta jumps from pi to -pi where the two triangles pass through each other.  theta - theta_0 is never wrapped:
-// from rest to fold without such a passage it is the angle turned.
+// without such a passage it is the angle turned since rest.
 #pragma once
 #include "core/types.hpp"
 
@@ -24,13 +24,13 @@ struct BendResponse {
   std::array<Vec3, 4> g;    // dtheta/dx_i, 1/m
   double moment = 0;        // kappa (theta - theta_0): elastic force on i is -moment g_i
   double damping = 0;       // tau kappa theta_dot:     damping force on i is -damping g_i
-  bool degenerate = false;  // a triangle so thin that the angle means nothing: g, moment, damping are zero
+  bool degenerate = false;  // a triangle too thin for an angle: g, moment, damping are zero
 };
 
 // x in m, v in m/s.  A hinge is degenerate when one of its four angles at the edge has a sine below 1e-4.
 BendResponse bend_response(const BendRest& rest, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& v);
 
-// theta alone, and its derivatives (not for degenerate hinges); the Hessian is what tests check forces with.
+// theta alone, and its derivatives (not for degenerate hinges); tests check forces with the Hessian.
 double hinge_angle(const std::array<Vec3, 4>& x);
 std::array<Vec3, 4> hinge_angle_gradient(const std::array<Vec3, 4>& x);
 std::array<std::array<Mat3, 4>, 4> hinge_angle_hessian(const std::array<Vec3, 4>& x);
@@ -38,15 +38,16 @@ std::array<std::array<Mat3, 4>, 4> hinge_angle_hessian(const std::array<Vec3, 4>
 // kappa per unit of bending rigidity: L^2 / (A_1 + A_2) from the rest state, capped at 20 (slivers).
 double bend_weight(double edge_length_m, double area_a_m2, double area_b_m2);
 
-// D of a hinge such that a near-equilateral sheet bends with D_u along the warp and D_v along the weft, however its
-// triangles lie.  b is the angle from the warp to `across` (across the edge: the fibres that bend; need not be normalised):
+// D of a hinge such that a near-equilateral sheet bends with D_u along the warp and D_v along the weft, whatever the
+// orientation of its triangles.  b is the angle from the warp to `across` (across the edge: the fibres that bend; need
+// not be normalised):
 //   D = sqrt(D_u D_v) (1 + z)/(1 - z),   z = 3/2 (sqrt D_u - sqrt D_v)/(sqrt D_u + sqrt D_v) (cos 2b - cos(6b)/4)
-// Derived in docs/theory/bend.md#warp-and-weft.  Above largest_bend_ratio the softer is raised, because z must stay below 1.
-// For a zero vector z = 0.
+// Derived in docs/theory/bend.md#warp-and-weft.  Above largest_bend_ratio the softer is raised, because z must stay
+// below 1.  For a zero vector z = 0.
 inline constexpr double largest_bend_ratio = 12;
 double hinge_rigidity(const Vec2& across, double bend_u_N_m, double bend_v_N_m);
 
-// The weight of 1998, for `along` the edge itself: (k_u du^2 + k_v dv^2)/(du^2 + dv^2); the mean of both for a zero vector.
+// The weight of 1998, `along` being the edge: (k_u du^2 + k_v dv^2)/(du^2 + dv^2); the mean of both for a zero vector.
 double paper_bend_stiffness(const Vec2& along, double k_u, double k_v);
 
 }  // namespace toile::internal

@@ -1,4 +1,4 @@
-// material/condition.hpp: internal forces written as conditions, as the paper has them.          [BW98 4.1, 4.5]
+// material/condition.hpp: internal forces as energies of conditions, as in the paper.                   [BW98 4.1, 4.5]
 //
 // A condition C(x) reads N particles, has M components, and is zero at rest.  All an integrator needs follows
 // from C and its derivatives, so it is written once, here.  With C_dot = sum_i dC/dx_i . v_i, per component:
@@ -10,9 +10,9 @@
 //                 -dd_i/dv_j          =  k_d dC/dx_i dC/dx_j^T
 //                 -dd_i/dx_j          =  k_d (dC/dx_i dC_dot/dx_j^T + C_dot d2C/dx_i dx_j); the paper keeps the second
 //
-// This is the reference: to read beside the paper, and to check the production kernels (membrane.hpp, bend.hpp)
-// against.  Those give the same forces from fewer numbers and a matrix that is always semidefinite; the literal
-// stiffness below is indefinite on a compressed triangle.                    docs/theory/stretch-and-shear.md
+// This is the reference, to read beside the paper and to check the production kernels (membrane.hpp, bend.hpp) against.
+// Those give the same forces from fewer numbers, and a matrix that is always semidefinite; the literal stiffness below
+// is indefinite on a compressed triangle.                                              docs/theory/stretch-and-shear.md
 #pragma once
 #include <concepts>
 #include <string_view>
@@ -28,9 +28,9 @@ struct ConditionValue {
   std::array<std::array<std::array<Mat3, N>, N>, M> d2C{};  // d2C[m][i][j] = d2C_m/dx_i dx_j
 };
 
-// A struct with the numbers N = particles and M = components, the rest data of one element, and the value.
-// To try a behaviour of your own, write one and add it to the list in tests/material/condition_test.cpp: the
-// derivative and invariance checks then run on it.
+// A struct with N = particles, M = components, the rest data of one element, and the value.  To try a behaviour of your
+// own, write one and add it to the list in tests/material/condition_test.cpp: the derivative and invariance checks then
+// run on it.
 template <class T>
 concept Condition = requires(const typename T::Rest& rest, const std::array<Vec3, T::particles>& x) {
   { T::name } -> std::convertible_to<std::string_view>;

@@ -1,4 +1,4 @@
-// material/fabric.hpp: what a cloth is made of, in SI, with five presets.     Sources: docs/theory/fabrics.md
+// material/fabric.hpp: the material parameters of a cloth, in SI, with five presets.  Sources: docs/theory/fabrics.md
 //
 // A member has the name of its key in a scene.  Stiffness is force per width (stretch, shear) and moment per width per
 // curvature (bend), so none of them depends on the mesh.
@@ -22,7 +22,7 @@ struct Fabric {
   double thickness_m = 2.5e-3;  // rest distance of two layers in contact, and of cloth from a body
 };
 
-// Of two fabrics on each other, by name, in either order.
+// For two fabrics in contact, by name, in either order.
 struct PairFriction {
   std::string first, second;
   double friction = 0;

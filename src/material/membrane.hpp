@@ -1,24 +1,24 @@
-// material/membrane.hpp: stretch and shear of one triangle, ready for assembly.            [BW98 4.2, 4.3, 4.5]
+// material/membrane.hpp: stretch and shear of one triangle, ready for assembly.                    [BW98 4.2, 4.3, 4.5]
 //
 //   stretch   C_u = s (|w_u| - b_u),  C_v = s (|w_v| - b_v)           E = k_u/2 C_u^2 + k_v/2 C_v^2
 //   shear     C_s = s  w_u . w_v                                      E = k_s/2 C_s^2
 //   s = sqrt(area): k is in N/m and does not depend on the mesh; s = area is the 1998 form (`paper_scaling`).
 //
-// Everything is expressed by the six numbers F = [w_u w_v] (3x2); a corner i follows by
+// All quantities depend on the six numbers F = [w_u w_v] (3x2) only; a corner i follows by
 //   f_i = -(alpha_i P_u + beta_i P_v),
 //   K_ij = alpha_i alpha_j K_uu + alpha_i beta_j K_uv + beta_i alpha_j K_uv^T + beta_i beta_j K_vv.
-// K is the energy's Hessian projected to positive semidefinite in closed form (no eigen-solver); D its
-// Gauss-Newton part times the relaxation time tau = k_d / k of each condition.  F has no unit, so P, Q, K are in J
-// and D in J s.                                     docs/theory/stretch-and-shear.md, docs/theory/damping.md
+// K is the energy's Hessian projected to positive semidefinite in closed form (no eigen-solver); D its Gauss-Newton
+// part times the relaxation time tau = k_d / k of each condition.  F has no unit, so P, Q, K are in J and D in J s.
+//                                                              docs/theory/stretch-and-shear.md, docs/theory/damping.md
 //
-// A thread shorter than b may be softer, k times `compression`: the energy and the force stay continuous, and so does the damping,
-// which keeps the k of tension.  The projected K loses only what it had along the thread.
+// A thread shorter than b may be softer, k times `compression`: the energy and the force stay continuous, and so does
+// the damping, which keeps the k of tension.  The projected K only loses its part along the thread.
 //
-// Strain limit (off by default): a thread may not be longer than L = (1 + limit) c, c = max(b, 1): elastic that is worn is longer than it
-// wants to be, and may be.  From half of the limit on, e_0 = c + (L - c)/2, a barrier is added to its energy, with
-// y = (|w| - e_0) / d, d = L - e_0:
+// Strain limit (off by default): a thread may not be longer than L = (1 + limit) c, c = max(b, 1): worn elastic is
+// stretched beyond its rest length, which is allowed.  From half of the limit on, e_0 = c + (L - c)/2, a barrier is
+// added to the energy, with y = (|w| - e_0) / d, d = L - e_0:
 //   E = k s^2 d^2 phi(y),   phi = y^3 / (1 - y)   up to y_1 = 0.95, and its second-order expansion about y_1 beyond it,
-// so that there is a force to be found wherever a trial step ends; who accepts steps refuses those beyond L.  phi begins with y^3, so the
+// so that every trial step has a finite force; the step control refuses steps beyond L.  phi begins with y^3, so the
 // stiffness is continuous; 397 k s^2 d hold a thread at y_1, 1197 at L.
 //
 // A thread squeezed to |w| = 0 has no direction: its stretch force and stiffness are then zero, never NaN.
@@ -30,7 +30,7 @@ namespace toile::internal {
 struct MembraneStiffness {
   double k_u = 0, k_v = 0, k_shear = 0;   // N/m (N/m^3 with paper scaling)
   double tau_stretch = 0, tau_shear = 0;  // s
-  double compression = 1;                 // in (0, 1]: k of a thread shorter than b, as part of k
+  double compression = 1;                 // in (0, 1]: k of a thread shorter than b over k
   double strain_limit = 0;                // of |w| / limited_from(b) - 1; 0: none
 };
 
@@ -50,22 +50,24 @@ struct FMatrix {
 
 struct MembraneResponse {
   double energy_J = 0;
-  Vec3 w_u, w_v;  // deformation gradient's columns
+  Vec3 w_u, w_v;  // columns of the deformation gradient
   Vec3 P_u, P_v;  // dE/dw_u, dE/dw_v: elastic
   Vec3 Q_u, Q_v;  // the same for damping, at the velocities given
   FMatrix K, D;   // stiffness (projected) and damping
 };
 
-// What dd/dx of damping contributes to K (docs/theory/damping.md): nothing, or the symmetric part that the paper keeps.
+// The part of dd/dx of damping that K contains (docs/theory/damping.md): none, or the symmetric part that the paper
+// keeps.
 enum class DampingJacobian { gauss_newton, paper };
 
-// How the energy's Hessian is made semidefinite; `none` is the true Hessian, for tests.
+// Projection of the energy's Hessian; `none` is the true Hessian, for tests.
 enum class Projection { semidefinite, none };
 
 // E at F = [w_u w_v], J, of one triangle.
 double membrane_energy(const MembraneRest& rest, const MembraneStiffness& k, const Vec3& w_u, const Vec3& w_v);
 
-// Of one triangle, for diagnosis and tests; a cloth has its triangles in batches (membrane_batch.hpp).  x in m and v in m/s, per corner.
+// For one triangle, in diagnosis and tests; a cloth has its triangles in batches (membrane_batch.hpp).  x in m and v in
+// m/s, per corner.
 MembraneResponse membrane_response(const MembraneRest& rest, const MembraneStiffness& k, const std::array<Vec3, 3>& x,
                                    const std::array<Vec3, 3>& v,
                                    DampingJacobian damping_jacobian = DampingJacobian::gauss_newton,

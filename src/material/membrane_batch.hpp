@@ -1,10 +1,10 @@
-// material/membrane_batch.hpp: stretch and shear of eight triangles at once; the formulas are those of material/membrane.hpp.
+// material/membrane_batch.hpp: stretch and shear of eight triangles at once, by the formulas of material/membrane.hpp.
 //
-// Of the state only the deformation gradient and its rate are kept.  What follows from them is made where it is asked for: reading 3x3
-// matrices back takes longer than making them.
+// Of the state only the deformation gradient and its rate are kept.  Everything else is recomputed where it is needed:
+// reading 3x3 matrices back takes longer than computing them.
 //
-// Every function works on batches [begin, end); arrays over triangles have `batch_size` entries per batch, so the last one may need
-// padding.  Unused lanes of the last batch repeat its last triangle.
+// Every function works on batches [begin, end); arrays over triangles have `batch_size` entries per batch, so the last
+// one may need padding.  Unused lanes of the last batch repeat its last triangle.
 #pragma once
 #include "material/batch.hpp"
 #include "material/membrane.hpp"
@@ -28,7 +28,7 @@ struct alignas(64) MembraneStateBatch {
   Batched energy_J;
 };
 
-// How the response is asked for; the same for all triangles.
+// Options of the response; the same for all triangles.
 struct MembraneForm {
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   Projection projection = Projection::semidefinite;
@@ -48,14 +48,14 @@ void evaluate_membranes(const MembraneRestBatch* rest, std::size_t begin, std::s
 void membrane_forces(const MembraneBatches& of, Mat3* force);
 // K displacement on each corner, a column each; with `velocity`, which may be null, K displacement + D velocity.
 void membrane_stiffness_times(const MembraneBatches& of, const Vec3* displacement, const Vec3* velocity, Mat3* force);
-// h D + h^2 K of the pairs of corners (0, 1), (1, 2), (2, 0), three per triangle: the block of rows of the lower particle and columns of
-// the higher one.
+// h D + h^2 K of the pairs of corners (0, 1), (1, 2), (2, 0), three per triangle: rows of the lower particle, columns
+// of the higher one.
 void membrane_blocks(const MembraneBatches& of, double h_s, Mat3* blocks);
 // |w_u| and |w_v| at x.
 void membrane_stretch(const MembraneRestBatch* rest, std::size_t begin, std::size_t end, const Vec3* x, Vec2* w);
 // Energy at x beyond the second-order expansion about the evaluated state, J.
 void membrane_energy_beyond(const MembraneBatches& of, const Vec3* x, double* energy_J);
-// All of it of the first lane of one batch, for diagnosis and tests.
+// The full response of the first lane of one batch, for diagnosis and tests.
 MembraneResponse membrane_response_of(const MembraneRestBatch& rest, const MembraneStateBatch& state, std::size_t lane,
                                       const MembraneForm& form);
 // E at (w_u, w_v) of the state, J.

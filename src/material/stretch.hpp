@@ -1,6 +1,6 @@
 // material/stretch.hpp: resistance to stretch along warp (u) and weft (v), as a condition.             [BW98 4.2]
 //
-//   w_u = sum_i alpha_i x_i,   w_v = sum_i beta_i x_i            how one metre of thread lies in the world
+//   w_u = sum_i alpha_i x_i,   w_v = sum_i beta_i x_i            the image of one metre of thread
 //   C   = s (|w_u| - b_u, |w_v| - b_v)
 //   dC_u/dx_i = s alpha_i n,   d2C_u/dx_i dx_j = s alpha_i alpha_j (I - n n^T)/|w_u|,   n = w_u/|w_u|
 //

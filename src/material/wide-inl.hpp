@@ -1,7 +1,7 @@
 // material/wide-inl.hpp: numbers and vectors of several elements at once, so that formulas read as they do for one.
 //
-// Included once for each instruction set that the compiler knows (Highway).  Every operation is a single one of IEEE 754 and every sum
-// has one order, so that each element gets the same bits however many fit into a register.
+// Included once for each instruction set that the compiler knows (Highway).  Every operation is a single one of IEEE
+// 754 and every sum has one order, so each element gets the same bits whatever the width of a register.
 #if defined(TOILE_MATERIAL_WIDE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef TOILE_MATERIAL_WIDE_INL_HPP
 #undef TOILE_MATERIAL_WIDE_INL_HPP
@@ -38,7 +38,7 @@ HWY_INLINE WideMask operator<(Wide a, Wide b) { return {hn::Lt(a.v, b.v)}; }
 HWY_INLINE WideMask operator>(Wide a, Wide b) { return {hn::Gt(a.v, b.v)}; }
 HWY_INLINE Wide select(WideMask where, Wide yes, Wide no) { return {hn::IfThenElse(where.m, yes.v, no.v)}; }
 HWY_INLINE Wide or_zero(WideMask where, Wide yes) { return {hn::IfThenElseZero(where.m, yes.v)}; }
-// As std::max(0.0, a) and std::min(a, b) are; a is no NaN.
+// Like std::max(0.0, a) and std::min(a, b); a is no NaN.
 HWY_INLINE Wide at_least_zero(Wide a) { return or_zero(wide(0) < a, a); }
 HWY_INLINE Wide smaller(Wide a, Wide b) { return select(b < a, b, a); }
 

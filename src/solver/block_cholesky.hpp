@@ -1,7 +1,8 @@
-// solver/block_cholesky.hpp: E = U^T U of a symmetric matrix of 9 x 9 blocks of which most are empty.
+// solver/block_cholesky.hpp: Cholesky factor E = U^T U of a sparse symmetric matrix of 9 x 9 blocks.
 //
-// Aggregates are numbered by the cuts that made them, so that neighbours have near numbers: blocks that fill up stay few, as in nested
-// dissection.  Which do is found by elimination on the blocks alone, anew when other blocks are coupled.      [George & Liu 1981, 5]
+// Aggregates are numbered by the cuts that made them, so neighbours have near numbers and fill-in stays small, as in
+// nested dissection.  A symbolic elimination on the blocks finds it, again when other blocks are coupled.
+//                                                                                                [George & Liu 1981, 5]
 #pragma once
 #include "core/types.hpp"
 
@@ -16,14 +17,16 @@ class BlockCholesky {
  public:
   static constexpr std::size_t side = 9;
 
-  // `couples`: pairs (p, q), p < q < blocks, in any order, also twice, whose block is not empty.  All entries become zero.
+  // `couples`: the pairs (p, q), p < q < blocks, of non-empty blocks, in any order, duplicates allowed.  Sets all
+  // entries to zero.
   void begin(Index blocks, std::span<const std::pair<Index, Index>> couples);
-  // Of a couple, or p = q: rows of p, columns of q, by rows.
+  // The block of a couple, or of p = q: rows of p, columns of q, row by row.
   double* block(Index p, Index q) { return &value_[offset(p, q)]; }
 
-  // After all blocks are set.  A pivot that is nothing beside the largest (1e-9) is struck out: nothing moves in its direction.
+  // Call after all blocks are set.  A pivot below 1e-9 of the largest is dropped: the solution is zero in its
+  // direction.
   void factorise();
-  // x <- E^-1 x, zero in what was struck out.
+  // x <- E^-1 x, zero in dropped directions.
   void solve(std::span<double> x) const;
 
   std::size_t stored_blocks() const { return column_.size(); }

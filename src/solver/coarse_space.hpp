@@ -1,16 +1,17 @@
-// solver/coarse_space.hpp: a small system that moves whole patches of cloth at once.
+// solver/coarse_space.hpp: deflation by a coarse space, a small system that moves whole patches of cloth at once.
 //
-// The cloth is cut into aggregates of neighbouring particles.  On each, the correction may be any affine function of the
-// pattern coordinates, 9 numbers:   z_i = S_i (a + u' b + v' c),   u', v' relative to the aggregate and scaled to [-1, 1].
+// The cloth is cut into aggregates of neighbouring particles.  On each, the correction may be any affine function of
+// the pattern coordinates, 9 numbers:   z_i = S_i (a + u' b + v' c),   u', v' relative to it and scaled to [-1, 1].
 //
 //   E = Z^T A' Z          Q = Z E^-1 Z^T                       (contact rows included)
 //   deflated form (A-DEF2):   s = t + Q (r - A' t),   t = SSOR(r)
 //
-// so that no residual is left in the coarse modes, whatever t did to them.  A' s comes for free: A' t is known from the
-// sweeps, and A' Z, of which E is made anyway, is kept.
+// so no residual is left in the coarse modes, whatever t did to them.  A' s costs no product: A' t is known from the
+// sweeps, and A' Z, from which E is made, is kept.
 //
-// Without it a loosely solved step leaves the low modes at their old velocity: an artificial brake that makes draping cloth
-// look viscous (docs/theory/solver.md#coarse-space has the measurement).        [Nicolaides 1987; Tang et al. 2009]
+// Without the coarse space a loosely solved step leaves the low modes at their old velocity: an artificial brake that
+// makes draping cloth look viscous (docs/theory/solver.md#coarse-space has the measurement).
+//                                                                                   [Nicolaides 1987; Tang et al. 2009]
 #pragma once
 #include "mesh/cloth_mesh.hpp"
 #include "solver/block_cholesky.hpp"
@@ -23,27 +24,28 @@ namespace toile::internal {
 template <class T>
 class CoarseSpace {
  public:
-  // Cuts each piece of each panel by recursive bisection of its particles' pattern coordinates.  A particle of two panels belongs to
-  // the first.
+  // Cuts each piece of each panel by recursive bisection of its particles' pattern coordinates.  A particle of two
+  // panels belongs to the first.
   explicit CoarseSpace(const ClothMesh& mesh);
 
   int aggregates() const { return aggregate_count_; }
   int dimension() const { return 9 * aggregate_count_; }
-  // Of A' Z: the aggregates that the rows of all particles reach.  Known after factorise().
+  // The number of entries of A' Z: aggregates per row, summed over all particles.  Known after factorise().
   std::size_t entries() const { return entry_aggregate_.size(); }
   std::size_t factor_blocks() const { return E_.stored_blocks(); }
 
-  // A' Z and the factor of E.  Call when A, the rows or the constraints have changed.
+  // Computes A' Z and the factor of E.  Call when A, the rows or the constraints have changed.
   void factorise(const LinearSystem<T>& system);
-  // t += Q (r - At) and At += A' Q (r - At) in parts, for those who share the work; r and At in the range of S, all in the order of places.
+  // t += Q (r - At) and At += A' Q (r - At), divided among threads; r and At in the range of S, all vectors in the
+  // order of places.
   //   restrict   sum = Z^T (r - At) of places [begin, end): their part of `dimension()` numbers
-  //   solve      y = E^-1 of all parts, added in their order; cheaper for each to do than to wait for one
-  //   prolong    Zy = Z y but for S, which is the caller's,
-  //   add        t += Zy, and At += A' Z y without the rows, which are the caller's
+  //   solve      y = E^-1 of all parts, added in their order; cheaper for each to repeat than to wait for
+  //   prolong    Zy = Z y without S, which the caller applies,
+  //   add        t += Zy, and At += A' Z y without the rows, which the caller adds
   struct Solution {
     std::vector<double> rhs;
     std::vector<Lane<T>> y;       // [coarse direction] each in all lanes
-    std::vector<Lane<T>> affine;  // [3 aggregate + l]: the same, three directions of basis function l in one
+    std::vector<Lane<T>> affine;  // [3 aggregate + l]: the same, the three directions of function l in one
   };
   void restrict(Index begin, Index end, std::span<const Lane<T>> r, std::span<const Lane<T>> At,
                 std::span<double> sum) const;
@@ -58,7 +60,7 @@ class CoarseSpace {
   void find_entries(const BlockPattern& pattern);
   void find_blocks();
   void find_stale_rows(const LinearSystem<T>& system);
-  void multiply_basis(const LinearSystem<T>& system);  // A' Z without the rows, where it is not what it was
+  void multiply_basis(const LinearSystem<T>& system);  // A' Z without the rows, where it has changed
   void sum_coarse_matrix(const LinearSystem<T>& system);
   void sum_columns(std::size_t aggregate);
   std::size_t aggregates_of(const ImplicitRow& row, std::array<Index, 4>& aggregates) const;
@@ -78,18 +80,18 @@ class CoarseSpace {
   std::vector<Index> entry_aggregate_;                   // [entry]
   std::vector<std::array<std::int32_t, 2>> slot_entry_;  // [slot (i, j)] entry of i for j's aggregate, of j for i's
   std::vector<Columns> AZ_;                              // [entry]
-  // What A' Z was made of: between passes of the active set few particles change, and no block.
+  // The inputs of A' Z: between passes of the active set few particles change, and no block.
   std::uint64_t version_ = 0;  // of A
-  std::vector<Index> held_;    // particles, and their S
+  std::vector<Index> held_;    // constrained particles, and their S
   std::vector<Mat3> S_of_held_;
   std::vector<std::uint8_t> was_held_;  // [particle]
-  std::vector<std::uint8_t> stale_;     // [particle] its row of A' Z
+  std::vector<std::uint8_t> stale_;     // [particle] its row of A' Z is out of date
   // The upper triangle of Z^T A' Z without the rows.
   std::vector<std::pair<Index, Index>> couples_of_A_;  // [couple] (p, q), p <= q, ascending in q
   std::vector<std::int32_t> couple_begin_;             // [q]
   std::vector<std::int32_t> entry_couple_;             // [entry]; -1 below the diagonal
   std::vector<std::array<double, 81>> E_of_A_;         // [couple] rows of p, columns of q
-  std::vector<std::pair<Index, Index>> couples_;       // with those of the rows
+  std::vector<std::pair<Index, Index>> couples_;       // the same with those of the rows
   BlockCholesky E_;
   std::vector<double> rhs_;
 };

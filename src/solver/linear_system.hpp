@@ -1,11 +1,13 @@
-// solver/linear_system.hpp: the constrained system of one step in prefiltered form.                    [BW98 5, TJM15 8]
+// solver/linear_system.hpp: the constrained system of one step in prefiltered form.                   [BW98 5, TJM15 8]
 //
 //   A' = S (A + sum a g g^T) S + sigma (I - S)        b' = S (b - A z)         dv = z + w,  A' w = b'
 //
-// A' is an ordinary symmetric positive definite matrix, so every preconditioner works on it.  A itself is never overwritten:
-// a held particle needs all of its row for its constraint force (I - S)(A dv - b)/h.  sigma_i = trace(A_ii)/3 keeps the spectrum.
-// All vectors of the iteration stay in the range of S.  Those of single precision that sweeps work on are in the order of the pattern's places;
-// all others in that of particles.
+// A' is an ordinary symmetric positive definite matrix, so every preconditioner works on it.  A itself is never
+// overwritten: the constraint force (I - S)(A dv - b)/h of a particle needs all of its row.  sigma_i = trace(A_ii)/3
+// keeps the spectrum.
+//
+// All vectors of the iteration stay in the range of S.  Vectors of single precision that sweeps work on are in the
+// order of the pattern's places; all others in that of particles.
 #pragma once
 #include "assembly/block_matrix.hpp"
 #include "assembly/implicit_row.hpp"
@@ -34,24 +36,25 @@ class LinearSystem {
   // y = A' x for x in the range of S, and y <- S y.
   void multiply(std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
   void filter(std::span<Lane<T>> y) const;
-  // For those who share the work: what a row of sum a g g^T x gives to those of its particles whose bit k is set in `ends`.
+  // For divided work: the contribution of a row of sum a g g^T x to its particles k with bit k set in `ends`.
   void add_row(std::size_t row, unsigned ends, std::span<const Vec3> x, std::span<Vec3> y) const;
   void add_row_by_place(std::size_t row, unsigned ends, std::span<const Lane<T>> x, std::span<Lane<T>> y) const;
-  // S y of the held particle at a position of ParticleConstraints::constrained.
+  // S y of the particle at a position of ParticleConstraints::constrained.
   Lane<T> filtered(std::size_t held, const Lane<T>& y) const { return filter_[held].times(y); }
-  // y = (A + sum a g g^T) x, unfiltered, in double, and as much momentum as it must be.
+  // y = (A + sum a g g^T) x, unfiltered, in double, with exact momentum.
   void multiply_unfiltered(std::span<const Vec3> x, std::span<Vec3> y) const;
-  // y = (A + sum a g g^T) z of the constraints' z, which only held particles have.
+  // y = (A + sum a g g^T) z of the constraints' z, which is nonzero on constrained particles only.
   void multiply_prescribed(std::span<Vec3> y) const;
-  // e = (A + sum a g g^T) x - b of held particles: what holds them.  0 of others, where it is what the solve left.
+  // e = (A + sum a g g^T) x - b of constrained particles: their constraint impulse.  0 for others, where it is
+  // only the residual of the solve.
   void held_residual(std::span<const Vec3> x, std::span<const Vec3> b, std::span<Vec3> e) const;
-  // y += sum a g g^T x, its part of the rows.
+  // y += sum a g g^T x, the part of the rows.
   void add_rows(std::span<const Vec3> x, std::span<Vec3> y) const;
 
   // G_i = S_i D_i^-1 S_i with D_i the diagonal block of A', in double, and in T by places.
   const Mat3& filtered_inverse(Index i) const { return inverse_[static_cast<std::size_t>(i)]; }
   std::span<const Block<T>> filtered_inverses_by_place() const { return inverse_at_; }
-  // A_ii + rows, before filtering; made when asked for.
+  // A_ii + rows, before filtering; computed on demand.
   std::vector<Mat3> diagonals() const;
 
   Eigen::MatrixXd to_dense() const;  // A + rows, unfiltered; for tests
@@ -63,7 +66,7 @@ class LinearSystem {
     Lane<T> direction;
     T a;
   };
-  // a g^T x, with x of the row's particles at those positions.
+  // a g^T x, with x at the positions of the row's particles.
   static T pull(const Row& row, const std::array<Index, 4>& at, std::span<const Lane<T>> x);
   const BlockMatrix<T>* A_;
   std::span<const ImplicitRow> rows_;

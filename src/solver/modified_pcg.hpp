@@ -1,14 +1,16 @@
-// solver/modified_pcg.hpp: the paper's modified conjugate gradient method, in its prefiltered form.        [BW98 5.3, TJM15 8]
+// solver/modified_pcg.hpp: the paper's modified conjugate gradient method, in its prefiltered form. [BW98 5.3, TJM15 8]
 //
 //   dv_0 = z + S w_0,   r = S (b - A dv_0),   then ordinary PCG on A' (solver/linear_system.hpp);
 //   (I - S) dv = z exactly at every iteration count, and the constraint force is read from the residual:
 //   force = (I - S)(A dv - b) / h                                                                        [BW98 5.4]
 //
-// Stop, one rule for every preconditioner, norms in D^-1 (D: block diagonal of A'):
-//   |r| <= max( min(tol |b'|, max(0.02 |reference|, 0.2 tol |b'|)), min(0.1 tol, 1e-4) |reference| ),      reference = S h m g
-// Relative to b' alone is wrong twice: a garment at rest would be the dearest frame, and where contact or seam forces dwarf gravity a
-// relative 1e-3 would ignore gravity.  Never below 1e-5 |b'|: in a hit at 10 m/s and a step of 0.1 ms that is more than h m g, and
-// single precision gets no further.      What the printed 1998 listing does instead: docs/deviations.md#pcg
+// Stop rule, the same for every preconditioner, norms in D^-1 (D: block diagonal of A'):
+//   |r| <= max( min(tol |b'|, max(0.02 |reference|, 0.2 tol |b'|)), min(0.1 tol, 1e-4) |reference| ),
+//   reference = S h m g
+// A rule relative to b' alone is wrong twice: a garment at rest would be the most expensive frame, and where contact or
+// seam forces dwarf gravity a relative 1e-3 would ignore gravity.  The target is never below 1e-5 |b'|: in a hit at 10
+// m/s and a step of 0.1 ms that is more than h m g, and single precision gets no further.  The printed 1998 listing's
+// rule: docs/deviations.md#pcg
 #pragma once
 #include "core/team.hpp"
 #include "solver/coarse_space.hpp"
@@ -25,11 +27,12 @@ namespace toile::internal {
 enum class Preconditioner { diagonal, block_jacobi, block_ssor, block_ssor_coarse };
 std::string_view to_string(Preconditioner preconditioner);
 
-// Ours, or the listing of 1998 in the reading that must have been run (solver/paper_pcg.hpp); for comparison.
+// Our method, or the listing of 1998 in the reading that must have been run (solver/paper_pcg.hpp); for comparison.
 enum class PcgProcedure { prefiltered, paper_1998 };
 enum class PaperReading { inverse_everywhere, diagonal_of_A, as_printed };
 
-// What keeps the motion with the coarse space brakes it without (docs/theory/solver.md#what-the-tolerance-keeps); absent: the best one.
+// A tolerance that is fine enough with the coarse space brakes the motion without it
+// (docs/theory/solver.md#what-the-tolerance-keeps); absent: the best one.
 constexpr double usual_tolerance(std::optional<Preconditioner> preconditioner, PcgProcedure procedure) {
   const bool coarse = preconditioner.value_or(Preconditioner::block_ssor_coarse) == Preconditioner::block_ssor_coarse;
   return coarse && procedure == PcgProcedure::prefiltered ? 1e-2 : 1e-3;
@@ -39,13 +42,13 @@ struct PcgOptions {
   Preconditioner preconditioner = Preconditioner::block_ssor_coarse;
   double tolerance = usual_tolerance(Preconditioner::block_ssor_coarse, PcgProcedure::prefiltered);
   int max_iterations = 1000;
-  double loosen = 1;  // times the target of the stop rule
+  double loosen = 1;  // factor on the target of the stop rule
   PcgProcedure procedure = PcgProcedure::prefiltered;
 };
 
 enum class PcgStatus { converged, iteration_limit, not_positive_definite, not_finite };
 
-struct PcgReport {  // why the solve ended, in numbers
+struct PcgReport {  // the outcome of a solve, in numbers
   PcgStatus status = PcgStatus::converged;
   int iterations = 0;
   double initial_residual = 0, residual = 0, target = 0;  // in the D^-1 norm
@@ -58,7 +61,7 @@ template <class T>
 class ModifiedPcg {
  public:
   explicit ModifiedPcg(const ClothMesh& mesh) : coarse_(mesh) {}
-  ModifiedPcg(const ModifiedPcg&) = delete;  // team_ is one of its own
+  ModifiedPcg(const ModifiedPcg&) = delete;  // team_ may point at a member
   ModifiedPcg& operator=(const ModifiedPcg&) = delete;
 
   // Call when the system's A, rows or constraints have changed.
@@ -69,8 +72,8 @@ class ModifiedPcg {
                                 const PcgOptions& options, std::span<Vec3> dv);
 
  private:
-  // The members of a team go through the same iterations, each on its own domains; every scalar is the sum of the domains' parts in
-  // their order, which each member makes for itself after a barrier.
+  // The members of a team run the same iterations, each on its own domains.  Every scalar is the sum of the domains'
+  // parts in their order, which each member adds for itself after a barrier.
   struct Share {
     int member, members;
     bool odd = false;  // which of the two sets of parts the next sum uses
@@ -95,13 +98,13 @@ class ModifiedPcg {
 
   CoarseSpace<T> coarse_;
   SweepDomains<T> domains_;
-  // On a machine with other work members wait for each other longer than they work: then one does it all for a while.  Speed only;
-  // the bits do not depend on who does what.
+  // On a busy machine members wait for each other longer than they work; then one does all the work for a while.  This
+  // changes the speed only: the bits do not depend on the division of work.
   Team& team_for(const PcgOptions& options);
   std::unique_ptr<Team> alone_ = std::make_unique<Team>(1);
   std::unique_ptr<Team> all_;
   Team* team_ = alone_.get();                                 // of this solve
-  int solves_alone_ = 0;                                      // to come
+  int solves_alone_ = 0;                                      // still to be done by one member
   std::vector<std::array<double, 2>> parts_;                  // [domain] of sums over particles
   std::vector<std::vector<double>> coarse_parts_;             // [domain] of Z^T r
   std::vector<typename CoarseSpace<T>::Solution> solutions_;  // [member]
@@ -109,7 +112,7 @@ class ModifiedPcg {
   std::vector<Lane<T>> s_, As_, w_;                           // M^-1 r, A' s, correction to the guess
   std::vector<Lane<T>> Zy_;                      // the coarse part of s; all of these in the order of places
   std::vector<Lane<T>> inverse_diagonal_;        // [place] of the diagonal preconditioner
-  std::vector<Lane<T>> of_particles_, product_;  // of those that do not sweep
+  std::vector<Lane<T>> of_particles_, product_;  // for preconditioners without sweeps
   Vec3s start_, work_, work2_;
 };
 

@@ -1,12 +1,14 @@
-// solver/step_solver.hpp: the linear system of a step and its solver, in single precision where that bears it, else in double.
+// solver/step_solver.hpp: a step's linear system and solver, in single precision where that suffices, else in double.
 //
-// Every block of A is rounded by 2^-24 of its size.  What resists the fastest modes across the cloth, in which neighbours move against each
-// other and no thread gets longer, is little more than the mass, so A in single precision stays positive definite only while
+// Every block of A is rounded by 2^-24 of its size.  The fastest modes across the cloth, in which neighbours move
+// against each other and no thread gets longer, are resisted by little more than the mass.  So A in single precision
+// stays positive definite only while
 //
-//   2^-24 trace(A_ii) <= 0.2 trace(G_i)            G_i: the part of A_ii that is not of threads, m_i I and drag
+//   2^-24 trace(A_ii) <= 0.2 trace(G_i)            G_i: the part of A_ii without threads, m_i I and drag
 //
-// of nine particles in ten.  That is about 2^-24 of a few h^2 k / (rho L^2): a step of 1/30 s of cotton with edges of 21 mm is at 0.004, of 3.4 mm
-// at 0.15.  A drape with edges of 21 mm that is 50 times as stiff (0.17) takes 90 steps in single precision and 74 in double, 70 times (0.24) 282 and 75.
+// for nine particles in ten.  That is about 2^-24 of a few h^2 k / (rho L^2): a step of 1/30 s of cotton with edges of
+// 21 mm is at 0.004, of 3.4 mm at 0.15.  A drape with edges of 21 mm that is 50 times as stiff (0.17) takes 90 steps in
+// single precision and 74 in double, 70 times (0.24) 282 and 75.
 #pragma once
 #include "solver/modified_pcg.hpp"
 
@@ -35,7 +37,7 @@ class StepSolver {
 
   // Call when A, the rows or the constraints have changed.  The spans must outlive the solve.
   void prepare(std::span<const ImplicitRow> rows, const ParticleConstraints& constraints, const PcgOptions& options);
-  // As ModifiedPcg::solve and LinearSystem's, of what was prepared.
+  // Like ModifiedPcg::solve and the functions of LinearSystem, for the prepared system.
   [[nodiscard]] PcgReport solve(std::span<const Vec3> b, std::span<const Vec3> reference, const PcgOptions& options,
                                 std::span<Vec3> dv);
   void multiply_unfiltered(std::span<const Vec3> x, std::span<Vec3> y) const;
@@ -58,7 +60,7 @@ class StepSolver {
   std::shared_ptr<const BlockPattern> pattern_;
   const ClothMesh* mesh_;
   Precision<float> single_;
-  std::unique_ptr<Precision<double>> double_;  // from the first time on that it is needed
+  std::unique_ptr<Precision<double>> double_;  // from its first use on
   bool in_double_ = false;
 };
 

@@ -1,9 +1,9 @@
-// solver/strip_rows.hpp: a copy of the blocks inside a domain, in the order in which sweep_kernels.hpp walks through them.
+// solver/strip_rows.hpp: a copy of the blocks of a domain, in the order in which sweep_kernels.hpp traverses them.
 //
-// The domain is cut into strips of consecutive places, and row k of every strip is swept at the same time k.  A block of two rows
-// belongs to the earlier one, whichever strips they are in; of two rows of one time none can wait for the other, and their block is
-// left out.  Rows with fewer blocks are padded by zeros.  A copy, because who writes the matrix and who multiplies by it want it row
-// by row; it is made once for every change of A, and read in every iteration.
+// The domain is cut into strips of consecutive places, and row k of every strip is swept at the same time k.  A block
+// of two rows belongs to the earlier one, whichever strips they are in.  Two rows of one time cannot wait for each
+// other, and their block is left out.  Rows with fewer blocks are padded by zeros.  It is a copy because assembly and
+// products need the matrix row by row; it is made once for every change of A, and read in every iteration.
 #pragma once
 #include "assembly/block_matrix.hpp"
 #include "solver/sweep_kernels.hpp"
@@ -17,16 +17,16 @@ namespace toile::internal {
 
 class StripRows {
  public:
-  // Strip s has the rows of the places [begin[s], begin[s + 1]); as many as the last one, or one more.
+  // Strip s has the rows of the places [begin[s], begin[s + 1]): as many rows as the last strip, or one more.
   void arrange(const BlockPattern& pattern, std::span<const Index, strips_at_once + 1> begin);
   void copy(const BlockMatrix<float>& A);
 
-  // When the row of a place of the domain is swept.
+  // The time at which the row of a place of the domain is swept.
   Index time(Index place) const;
   Strips strips() const;
 
-  // The rows of times [begin, end) by the blocks that are here, as sweep_kernels.hpp says, with G and vectors from place 0 on.  In double from A itself, row by
-  // row as it is written in books.
+  // Sweeps the rows of times [begin, end) with the blocks held here, as in sweep_kernels.hpp, with G and vectors from
+  // place 0 on.  In double from A itself, row by row as in textbooks.
   void forward(const BlockMatrix<float>& A, Index begin, Index end, std::span<const Block<float>> G,
                std::span<Lane<float>> s, std::span<Lane<float>> As) const;
   void backward(const BlockMatrix<float>& A, Index begin, Index end, std::span<const Block<float>> G,

@@ -1,12 +1,15 @@
-// solver/sweep_domains.hpp: the particles cut into ranges that are swept side by side.
+// solver/sweep_domains.hpp: SSOR sweeps (symmetric Gauss-Seidel) in ranges of particles that run in parallel.
 //
-// A Gauss-Seidel sweep is a chain: every row needs the ones before it.  The rows, in the order of the pattern's places, are therefore cut
-// into domains, one thread's work, and each of them into four strips, the quarters of a vector register, which are swept side by side
-// (strip_rows.hpp): row k of each strip of each domain at the same time k.  A block, of A or of a contact, belongs to the earlier of its
-// rows.  Blocks in other domains are read where they are finished: a sweep goes in epochs, between which all wait for each other.
-//   M = SSOR of all blocks in this order, but for those of two rows of one time, or of one epoch in two domains; they are in A' only.
-// Of neighbours along the cloth there are none as long as a strip is longer than the band is wide.  The cut depends on the pattern and never
-// on the number of threads or the width of registers, so that the result does not either.  All vectors are in the order of places.
+// A Gauss-Seidel sweep is a chain: every row needs the ones before it.  The rows, in the order of the pattern's places,
+// are therefore cut into domains, one thread's work.  Each domain is cut into four strips, the quarters of a vector
+// register, which are swept in parallel (strip_rows.hpp): row k of each strip of each domain at the same time k.  A
+// block, of A or of a contact, belongs to the earlier of its rows.  Values of other domains are read once they are
+// finished: a sweep has epochs, with a barrier between them.
+//   M = SSOR of all blocks in this order, except those of two rows of one time, or of one epoch in two domains; those
+//   are in A' only.
+// Neighbours along the cloth have no such block as long as a strip is longer than the band is wide.  The cut depends on
+// the pattern and never on the number of threads or the width of registers, so the result does not either.  All vectors
+// are in the order of places.
 #pragma once
 #include "solver/linear_system.hpp"
 #include "solver/strip_rows.hpp"
@@ -19,7 +22,7 @@ namespace toile::internal {
 template <class T>
 class SweepDomains {
  public:
-  // The domains of a pattern; nothing is done when it is the one of the last call.
+  // Sets the domains of a pattern; nothing is done if it is that of the last call.
   void cut(const BlockPattern& pattern);
   // Call when the system has changed in any way.
   void update(const LinearSystem<T>& system);
@@ -30,15 +33,16 @@ class SweepDomains {
   Index particle_at(Index place) const { return pattern_->row_at(place); }
   std::size_t epochs() const { return epoch_begin_.size() - 1; }
 
-  // s = M^-1 r and As = A' s, one epoch of one domain at a time: forward through the epochs, each when all domains have done the one before,
-  // then backward, likewise; and then, when all are done, `finish`.  As is r before.
+  // s = M^-1 r and As = A' s, one epoch of one domain at a time: forward through the epochs, each when all domains have
+  // done the one before, then backward likewise; then, when all are done, `finish`.  As is r before.
   void forward(const LinearSystem<T>& system, std::size_t domain, std::size_t epoch, std::span<Lane<T>> s,
                std::span<Lane<T>> As) const;
   void backward(const LinearSystem<T>& system, std::size_t domain, std::size_t epoch, std::span<Lane<T>> s,
                 std::span<Lane<T>> As) const;
   void finish(const LinearSystem<T>& system, std::size_t domain, std::span<const Lane<T>> s,
               std::span<Lane<T>> As) const;
-  // y += R x on one domain, R = sum a g g^T, of an x that is complete; in double by particles, those whose places are the domain's.
+  // y += R x on one domain, R = sum a g g^T, with x complete; in double by particles, those whose places are the
+  // domain's.
   void add_rows(const LinearSystem<T>& system, std::size_t domain, std::span<const Lane<T>> x,
                 std::span<Lane<T>> y) const;
   void add_rows(const LinearSystem<T>& system, std::size_t domain, std::span<const Vec3> x, std::span<Vec3> y) const;
@@ -46,21 +50,21 @@ class SweepDomains {
   void filter(const LinearSystem<T>& system, std::size_t domain, std::span<Lane<T>> y) const;
 
  private:
-  struct Coupling {  // a block of a row that the strips do not hold
+  struct Coupling {  // a block of a row that is not in the strips
     Block<T> block;
     Index own, other;  // places
     Slot slot;         // of A; -1: a contact's
-    bool below;        // the diagonal
-    Index time = 0;    // of the sweep, at which it is applied: not after own's, and when other is known
+    bool below;        // the block is below the diagonal
+    Index time = 0;    // of the sweep, when it is applied: not after own's, and when other is known
   };
-  // Of the rows of one domain: with rows that are swept earlier, later, or so that none of the two can wait for the other.  The first two
-  // ascend in time.
+  // The couplings of one domain's rows: with rows swept earlier, with rows swept later, and with rows at the same time,
+  // neither of which can wait for the other.  The first two ascend in time.
   struct Couplings {
     std::vector<Coupling> earlier, later, together;
     void clear();
     void sort();
   };
-  struct OwnEnds {  // of a row: those on particles of the domain, bit k
+  struct OwnEnds {  // the ends of a row on particles of the domain, bit k
     std::int32_t row;
     unsigned ends;
   };
@@ -75,7 +79,7 @@ class SweepDomains {
   void couple(std::span<const ImplicitRow> of_one_contact);
 
   const BlockPattern* pattern_ = nullptr;
-  std::uint64_t version_ = 0;               // of the blocks that are copied
+  std::uint64_t version_ = 0;               // of the copied blocks
   std::vector<Index> strip_begin_{0};       // of all domains, and the end of the last
   std::vector<Index> time_;                 // [place] when its row is swept
   std::vector<Index> epoch_begin_;          // first time of each, and the end of the last

@@ -1,7 +1,8 @@
-// solver/vector_kernels.hpp: the iteration's loops over particles in the order of their places, compiled for each instruction set.
+// solver/vector_kernels.hpp: the iteration's loops over particles, by places, compiled for each instruction set.
 //
-// Numbers of four particles at a time; products and sums of a dot product are double, each lane of each of the four adds up on its own,
-// and at the end they are added in one order: the same bits on every set.  All on places [begin, end) of the pattern; vectors begin with place 0.
+// Four particles at a time.  Products and sums of a dot product are double; each lane of each of the four adds up on
+// its own, and at the end they are added in one order: the same bits on every set.  All loops run over places [begin,
+// end) of the pattern; vectors begin with place 0.
 #pragma once
 #include "assembly/lane.hpp"
 
@@ -17,12 +18,12 @@ double next_residual(Index begin, Index end, float alpha, const Lane<float>* c, 
                      const Block<float>* G, Lane<float>* w, Lane<float>* r);
 // r.G r
 double residual_norm2(Index begin, Index end, const Block<float>* G, const Lane<float>* r);
-// sum[9 aggregate + 3 l + c] += of the particles of each aggregate, basis function l times (r - At)_c; `basis` is (1, u, v).  Added up over
-// neighbours in the order of places, which are mostly of one aggregate.
+// sum[9 aggregate + 3 l + c] += basis function l times (r - At)_c, over the particles of each aggregate; `basis` is (1,
+// u, v).  Sums run over neighbours in the order of places, mostly of one aggregate.
 void add_moments(Index begin, Index end, const Lane<float>* r, const Lane<float>* At, const Vec3* basis,
                  const Index* aggregate, double* sum);
 
-// The same in double, one particle after the other.
+// The same in double, one particle at a time.
 double dot_lanes(Index begin, Index end, const Lane<double>* a, const Lane<double>* b);
 double next_direction(Index begin, Index end, bool first, double beta, const Lane<double>* s, const Lane<double>* As,
                       Lane<double>* c, Lane<double>* q);

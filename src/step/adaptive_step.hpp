@@ -1,12 +1,12 @@
-// step/adaptive_step.hpp: how long a step may be, from what it does to the threads.                               [BW98 7]
+// step/adaptive_step.hpp: the length of steps, from how much threads change in them.                           [BW98 7]
 //
-//   accept   while no |w_u| or |w_v| changes by more than `stretch_limit` in the step and the solve converged
-//            and the safe filter could keep cloth apart from cloth and from the body
-//   reject   otherwise: h <- h / 2, the state is untouched and no element is evaluated again
+//   accept   no |w_u| or |w_v| changes by more than `stretch_limit`, the solve converged, and the safe filter could
+//            keep cloth apart from cloth and from the body
+//   reject   otherwise: h <- h / 2; the state is untouched and no element is evaluated again
 //   grow     after two accepted steps try 2 h, up to h_max; after a failed increase wait 2, 4, 8 ... 40 accepted steps
 //
-// h = frame / ceil(frame / h_max) / 2^k, and a doubling waits until the time is a multiple of the longer step: every halving lands on
-// the frame boundary.
+// h = frame / ceil(frame / h_max) / 2^k.  A doubling waits until the time is a multiple of the longer step, so that
+// steps end on frame boundaries.
 #pragma once
 #include "step/implicit_euler.hpp"
 
@@ -20,11 +20,11 @@ namespace toile::internal {
 struct AdaptiveOptions {
   double step_max_s = 1.0 / 30;
   double stretch_limit = 0.05;  // change of |w| per step
-  int most_halvings = 10;       // frame / 1024: then the run has collapsed
-  int stretch_floor = 11;       // from this many halvings on the stretch is no longer judged (sewing sets it lower)
-  std::function<bool()> stop;   // asked before every step; true ends the frame early
-  // From this many halvings on, of what the safe filter cannot keep apart: cloth that the body pinches goes into it; cloth with
-  // cloth is cut short (step/safe_filter.hpp); and any cloth goes into the body, rather than that the run ends.
+  int most_halvings = 10;       // frame / 1024: below it the run has collapsed
+  int stretch_floor = 11;       // halvings from which stretch is no longer judged (sewing sets it lower)
+  std::function<bool()> stop;   // called before every step; true ends the frame early
+  // Halvings from which impacts that the safe filter cannot remove no longer refuse the step: pinched cloth may enter
+  // the body; the motion of cloth against cloth is clipped (step/safe_filter.hpp); any cloth may enter the body.
   int pinch_piercing_floor = 1, truncation_floor = 4, piercing_floor = 5;
 };
 
@@ -36,12 +36,12 @@ struct FrameReport {
   int cg_iterations = 0, cg_max = 0;  // summed over steps; the largest of one step
   int passes = 0;
   int corrected = 0,
-      truncated = 0;      // particles moved by the safe filter, and of them those in zones cut short; summed over steps
-  int met = 0;            // steps in which the safe filter met impacts
-  int refused = 0;        // of those rejected, by the safe filter
-  int pierced = 0;        // impacts with the body that could not be prevented, summed over steps
-  int pinched = 0;        // particles held between parts of the body, most of all steps
-  StepReport last;        // of the last attempt: when !ok, why
+      truncated = 0;      // particles moved by the safe filter, and of them with clipped motion; summed over steps
+  int met = 0;            // steps with impacts in the safe filter
+  int refused = 0;        // rejected by the safe filter
+  int pierced = 0;        // impacts with the body that were let through, summed over steps
+  int pinched = 0;        // pinched particles, the most of any step
+  StepReport last;        // of the last attempt: the reason when !ok
   std::string diagnosis;  // when !ok: which triangles and particles, in words
   std::vector<Index> offenders;  // when !ok: triangles of the cloth to look at, ascending
 };
@@ -50,20 +50,20 @@ class AdaptiveStep {
  public:
   AdaptiveStep(const ClothModel& model, const StepWorld& world, const StepOptions& step, const AdaptiveOptions& options)
       : integrator_(model, world, step), options_(options) {}
-  AdaptiveStep(const AdaptiveStep&) = delete;  // as the integrator
+  AdaptiveStep(const AdaptiveStep&) = delete;  // like the integrator
   AdaptiveStep& operator=(const AdaptiveStep&) = delete;
 
-  // Advances from t_s by exactly frame_s.  When the step collapses, `state` stays where it last was accepted.
+  // Advances from t_s by exactly frame_s.  When the step collapses, `state` is the last accepted one.
   FrameReport advance(ClothState& state, double t_s, double frame_s);
 
-  // The steps accepted in the last advance, in order.
+  // The accepted steps of the last advance, in order.
   std::span<const double> steps_s() const { return steps_s_; }
 
   ImplicitEuler& integrator() { return integrator_; }
   const ImplicitEuler& integrator() const { return integrator_; }
   AdaptiveOptions& options() { return options_; }
 
-  // What outlives a frame (core/state_archive.hpp).
+  // State that outlives a frame (core/state_archive.hpp).
   template <class Archive>
   void remember(Archive& archive) {
     archive(integrator_, halvings_, successes_, wait_, patience_, growing_);

@@ -1,8 +1,8 @@
-// step/body_at.hpp: where a body's vertices are at any time, m.
+// step/body_at.hpp: the positions of a body's vertices as a function of time, m.
 //
-// The function gets room for all vertices and writes where they are.  The room comes filled with where the body stands: what the
-// function leaves alone stands still, and never is what the memory held before.  In builds with assertions it comes filled with
-// NaN, and a function that left any of it is a bug of ours.
+// The function writes into a vector for all vertices.  The vector comes filled with the standing positions, so vertices
+// that the function leaves alone stand still.  In builds with assertions it comes filled with NaN, and a vertex left
+// unwritten is a bug of ours.
 #pragma once
 #include "core/error.hpp"
 #include "core/types.hpp"
@@ -20,7 +20,7 @@ class BodyAt {
  public:
   using Function = std::function<void(double t_s, std::span<Vec3> x)>;
 
-  BodyAt() = default;  // nothing that moves
+  BodyAt() = default;  // no motion
   template <class F>
   requires(!std::same_as<std::remove_cvref_t<F>, BodyAt> && std::invocable<F&, double, std::span<Vec3>>)
       BodyAt(F&& function)
@@ -28,7 +28,7 @@ class BodyAt {
 
   explicit operator bool() const { return static_cast<bool>(function_); }
 
-  // Where the body is at t_s into `x`, which may be `standing` itself.
+  // Writes the positions at t_s into `x`, which may be `standing` itself.
   void operator()(double t_s, std::span<const Vec3> standing, Vec3s& x) const {
     if (x.data() != standing.data()) x.assign(standing.begin(), standing.end());
 #ifndef NDEBUG
@@ -38,7 +38,7 @@ class BodyAt {
     TOILE_ASSERT(std::all_of(x.begin(), x.end(), [](const Vec3& p) { return !p.hasNaN(); }));
   }
 
-  // Within the function of another one, whose room it shares.
+  // For use within another function, whose vector it shares.
   const Function& function() const { return function_; }
 
  private:

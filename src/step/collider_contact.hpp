@@ -1,4 +1,4 @@
-// step/collider_contact.hpp: how cloth lies on a body, and on each of the colliders whose union its surface is.
+// step/collider_contact.hpp: rest offset and friction of a body, and of each collider that it is the union of.
 #pragma once
 #include "core/types.hpp"
 
@@ -8,15 +8,15 @@
 
 namespace toile::internal {
 
-// What a collider has of its own.
+// Values of one collider that replace the common ones.
 struct ColliderContact {
   std::optional<double> offset_m, friction;
 };
 
 struct BodyContactOptions {
-  double offset_m = 2.5e-3;                     // r: where cloth rests above a collider
-  std::optional<double> friction;               // mu; kinetic, the static one is 2 % larger; absent: the cloth's own
-  std::vector<ColliderContact> colliders = {};  // [BodySurface::collider]; the others are as the two above say
+  double offset_m = 2.5e-3;                     // r: rest offset of cloth above a collider
+  std::optional<double> friction;               // mu, kinetic; the static one is 2 % larger; absent: the cloth's own
+  std::vector<ColliderContact> colliders = {};  // [BodySurface::collider]; missing values are the two above
 
   double offset_of(Index collider) const {
     const ColliderContact* own = find(collider);
@@ -46,7 +46,7 @@ struct BodyContactOptions {
     return smallest;
   }
 
-  // The same with nothing that holds along the surface, and no offset below `least_m`.
+  // The same without friction, and with no offset below `least_m`.
   BodyContactOptions slippery(double least_m) const {
     BodyContactOptions changed = *this;
     changed.offset_m = std::max(offset_m, least_m);

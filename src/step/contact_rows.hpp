@@ -1,14 +1,15 @@
-// step/contact_rows.hpp: implicit contact of cloth on cloth, and of body edges and vertices on cloth faces.         (L2)
+// step/contact_rows.hpp: implicit contact of cloth on cloth, and of body edges and vertices on cloth.              (L2)
 //
 //   gap after the step, linear in dv:   g(dv) = d + n . ( sum_i w_i (h (v_i + dv_i) + y_i) - body travel )
-//   active while g < r:                 E = k/2 (r - g)^2         -> one rank-one row of the system (assembly/implicit_row.hpp)
-//   k = (m_eff + h^2 k_n) / h^2,  m_eff = 1 / sum(w_i^2/m_i),  k_n = sum w_i^2 n.K_ii n     matched to inertia and elasticity
-//       but between layers at most c / (h^2 sum w_i^2 n.D_i^-1 n),  D_i = M_i + h^2 K_ii:  c times what the pair gives way by along n, free in
-//       all directions; c = 3 with a face, 1 between edges.  n.K n alone makes a hem, whose n leans into the cloth, a hundred times
-//       as stiff as its neighbours, and layers lock like gears; c = 1 everywhere lets a fold in an armpit tremble.
-//   k grows while the contact lives so that the load of the last step takes a tenth of r, and never shrinks: a spring
-//   that softened under load would give back more energy than it took.
-//   friction: a bristle with k_t = k (step/bristle.hpp), with lambda and the way along the surface of the pass before.
+//   active while g < r:                 E = k/2 (r - g)^2     -> one rank-one row (assembly/implicit_row.hpp)
+//   k = (m_eff + h^2 k_n) / h^2,  m_eff = 1 / sum(w_i^2/m_i),  k_n = sum w_i^2 n.K_ii n     for inertia and elasticity
+//       between layers at most c / (h^2 sum w_i^2 n.D_i^-1 n),  D_i = M_i + h^2 K_ii:  c over the compliance of the
+//       pair along n with its particles free; c = 3 with a face, 1 between edges.  n.K n alone makes a row at a hem,
+//       whose n leans into the cloth, a hundred times as stiff as its neighbours, and layers interlock like gears;
+//       c = 1 everywhere lets a fold in an armpit tremble.
+//   k grows while the contact lives, so that the load of the last step compresses it by a tenth of r.  It never
+//   shrinks: a spring that softened under load would return more energy than it took.
+//   friction: a bristle with k_t = k (step/bristle.hpp), with lambda and the tangential motion of the previous pass.
 #pragma once
 #include "assembly/block_matrix.hpp"
 #include "assembly/cloth_model.hpp"
@@ -28,52 +29,54 @@ namespace toile::internal {
 
 struct ContactRowOptions {
   bool cloth_cloth = true;
-  double body_share = 0.5;  // r of body rows, as part of the body's offset: they only stop what pokes between particles
+  double body_share = 0.5;  // r of body rows over the body's offset: they stop features that poke between particles
   double damping_s = 2e-3;  // relaxation time of contact springs
   double region_tolerance =
       0.5;  // contact/proximity.hpp; 0.1 lost contacts in the corners of seams (docs/deviations.md#contact-rows)
-  double look_ahead = 1;  // pairs farther than r + look_ahead r are left to the next step
+  double look_ahead = 1;  // pairs farther apart than r + look_ahead r are left to the next step
 };
 
 class ContactRows {
  public:
-  // `merged_particle`: of seams still open, as in contact/features.hpp; may be empty.
+  // `merged_particle`: open seams, as in contact/features.hpp; may be empty.
   ContactRows(const ClothModel& model, const BodySurface* body, std::span<const Index> merged_particle,
               const BodyContactOptions& body_contact, const ContactRowOptions& options);
 
-  // L0: pairs near at the state's positions.
+  // L0: finds the near pairs at the state's positions.
   void detect(const ClothState& state, double h_s);
-  // Stiffness of each pair and the rows with which a step begins.  `base_h_s` is the frame's own step, before any halving.
-  // A pair that was active in the last step, or that the guess `dv` brings below r, begins active.
+  // The stiffness of each pair and the first active rows of a step.  `base_h_s` is the frame's own step, before any
+  // halving.  A pair that was active in the last step, or that the guess `dv` brings below r, starts active.
   void begin(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step, double base_h_s,
              std::span<const Mat3> diagonal);
   void append_springs(std::vector<LinearSpring>& springs) const;
 
   struct Change {
     int dropped = 0, added = 0, active = 0;
-    int turned_back = 0;  // slid against a friction that would now drive them
+    int turned_back = 0;  // bristles turned back (Bristle::decide)
   };
   Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> y, const StepFormula& step,
                 bool may_drop);
-  // Whether other rows act than at the end of the last accepted step.
+  // Whether the active rows differ from those at the end of the last accepted step.
   bool changed() const;
   void accept(const ClothState& end_state);
 
-  // Scales the distance at which layers of cloth meet, per particle (empty: the fabrics' own everywhere).  Four layers in a corner of a seam
-  // are a centimetre thick: sewing thins them there to let the corner close.  0 switches the contact of layers off.
+  // Scales the contact distance of layers, per particle (empty: 1 everywhere).  Four layers in a corner of a seam are a
+  // centimetre thick: sewing thins them there to let the corner close.  0 switches the contact of layers off.
   void set_thickness_scale(std::span<const double> scale) { distance_.set_scale(scale); }
 
-  // [particle] From the next detect on pairs of which all is pinched get no rows, neither with layers nor with the body.  Empty: all do.
+  // [particle] From the next detect on, pairs whose particles are all pinched (contact/pinched.hpp) get no rows, neither
+  // with layers nor with the body.  Empty: all pairs do.
   void let_be(std::span<const Pinched> particles) { pinched_.assign(particles.begin(), particles.end()); }
 
-  // What the safe filter asks for: whose features touch, a hierarchy over the triangles (after detect) and lists of near features, and the
-  // distance that neighbours keep, per particle: what it keeps of a gap is far less than either.
+  // For the safe filter: which features touch, a hierarchy over the triangles (after detect), lists of near features,
+  // and the distance that neighbours keep, per particle; the separation that the filter keeps is far less than either.
   const ClothTopology& topology() const { return topology_; }
   TriangleTree& tree() { return tree_; }
   const FeaturePairs& near() const { return near_; }
   std::span<const double> contact_m() const { return distance_.of_neighbours_m(); }
 
-  // How near layers lie at x, of cloth without open seams.  With the memory of `detect`, whose pairs it leaves alone.
+  // The distances of layers at x, of cloth without open seams.  Shares the memory of `detect` and leaves its pairs
+  // alone.
   LayerGap layer_gap(std::span<const Vec3> x);
 
   void set_body_friction(std::optional<Index> collider, double friction) {
@@ -81,11 +84,11 @@ class ContactRows {
   }
 
   int active() const;
-  // What the springs of the last step hold, in J, each by the load that it bore.
+  // Energy of the springs of the last step, J, each by its load.
   double stored_J() const;
   std::size_t candidates() const { return pairs_.size(); }
 
-  // Between two steps (core/state_archive.hpp); set_thickness_scale is the caller's.
+  // State between two steps (core/state_archive.hpp); set_thickness_scale is the caller's.
   template <class Archive>
   void remember(Archive& archive) {
     archive(memory_, cloth_seconds, body_seconds);
@@ -107,24 +110,24 @@ class ContactRows {
     Key key;
     LinearSpring spring;  // direction, particles, weights, stiffness, body travel
     double gap_m, r_m, friction;
-    Vec3 normal{0, 0, 0};  // at the start of the step; the spring may be made about its end
+    Vec3 normal{0, 0, 0};  // at the start of the step; the spring's may be that of its end
     std::array<double, 4> weight{0, 0, 0, 0};
-    bool passes_by = false;  // is nowhere near at the end of the step
-    bool loaded = false;     // carried a load in the step before
-    double lambda_N = 0;     // that friction knows: of the step before, of a new contact that of the last pass
+    bool passes_by = false;  // is farther apart than r at the end of the step
+    bool loaded = false;     // carried a load in the last step
+    double lambda_N = 0;     // for friction: load of the last step, for a new contact of the last pass
     Bristle bristle{};
     Vec3 start_m{0, 0, 0};        // sum of weight x at the start of the step
     Vec3 body_travel_m{0, 0, 0};  // of the body's point over the step; cloth-cloth: 0
     double body_parameter = 0;    // of the point on the body's edge
     bool active = false;
-    int idle_steps = 0;      // since it was active last
-    double predicted_m = 0;  // gap of the last update
+    int idle_steps = 0;      // since it was last active
+    double predicted_m = 0;  // gap in the last update
   };
-  struct Memory {  // what outlives a step
+  struct Memory {  // of a pair, from step to step
     Key key;
     double stiffness, lambda_N;
     Bristle bristle;
-    Vec3 way_m, normal;  // along the surface, in the last step
+    Vec3 way_m, normal;  // tangential motion, in the last step
     int idle_steps;      // 0: was active
     bool rests;          // was active and hardly slid
     template <class Archive>
@@ -132,7 +135,7 @@ class ContactRows {
       archive(key, stiffness, lambda_N, bristle, way_m, normal, idle_steps, rests);
     }
   };
-  struct Orphan {  // a contact of a vertex that is not among the pairs any more
+  struct Orphan {  // a vertex's contact whose pair no longer exists
     Index vertex;
     std::size_t memory;
     auto operator<=>(const Orphan&) const = default;  // NOLINT(modernize-use-nullptr)
@@ -159,13 +162,13 @@ class ContactRows {
   FeaturePairs near_;
   ProximityWorkspace workspace_;
   std::vector<std::array<Index, 2>>
-      acting_edges_;  // of rows of two edges that acted in the last accepted step and hardly slid
+      acting_edges_;  // of edge-edge rows that were active in the last accepted step and hardly slid
   std::vector<ClothContact> cloth_contacts_;
   std::vector<BodyContact> body_contacts_;
   std::vector<Pair> pairs_;     // sorted by key
   std::vector<Memory> memory_;  // sorted by key
   std::vector<Orphan> orphans_;
-  std::vector<char> kept_;  // [memory] its pair is still there
+  std::vector<char> kept_;  // [memory] its pair still exists
   double h_s_ = 0;
 };
 

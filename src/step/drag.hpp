@@ -1,12 +1,12 @@
-// step/drag.hpp: a point of the cloth pulled by a damped spring to a target that moves: the user's hand.         [BW98 4.4]
+// step/drag.hpp: the user's hand: a damped spring from a point of the cloth to a moving target.         [BW98 4.4]
 //
 //   p = sum_k weight_k x_k       d = target - p
 //   F = k_s d + c (k_s/k) (target's velocity - p'),      k_s = min( k, max / |d| )      at the end of the step
 //
-// Three rows of the implicit system (assembly/implicit_row.hpp): however stiff, it does not overshoot within a step.
+// Three rows of the implicit system (assembly/implicit_row.hpp): no stiffness overshoots within a step.
 //
-// Easily got wrong: max_force_N limits the spring with the distance that the step begins with.  A point that is torn away within a
-// step feels more, until the next.
+// Easily got wrong: max_force_N limits the spring by its length at the start of the step.  A point that moves away
+// within a step feels a larger force until the next.
 #pragma once
 #include "assembly/cloth_model.hpp"
 #include "assembly/implicit_row.hpp"
@@ -23,10 +23,10 @@ struct Drag {
   std::function<Vec3(double t_s)> target;     // m
   double stiffness_N_per_m = 50;              // k > 0
   double damping_N_s_per_m = 0.5;             // c
-  double max_force_N = 5;                     // infinite: however far away
+  double max_force_N = 5;                     // infinity: no limit
 };
 
-// Appends the rows of a step from t_s to t_s + h_s.
+// Appends the rows for a step from t_s to t_s + h_s.
 void append_springs(const Drag& drag, const ClothState& state, double t_s, double h_s,
                     std::vector<LinearSpring>& springs);
 

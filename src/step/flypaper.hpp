@@ -1,19 +1,22 @@
-// step/flypaper.hpp: cloth between two parts of the body that come nearer to each other than their two offsets.   (L1) [BWK03 5]
+// step/flypaper.hpp: cloth pinched between parts of the body nearer to each other than two offsets.      (L1) [BWK03 5]
 //
-//   The offset cannot be kept from both.  What is pinched is held (S = 0) and goes with the two surfaces:
-//     with room      r/2 or more between them, and outside of both: it keeps its place among them,
-//                      x' = x + (1-s) u_1 + s u_2,   s = g_1/(g_1 + g_2)      g  gap,  u  travel of the nearest point of each
-//                    so it meets neither, layers keep their order, and come out as far apart as they went in.  All stays guarded.
-//     without room   x' = x + (u_1 + u_2)/2
-//                    so that layers stay as far apart as they are: with s they would coincide where the surfaces meet.  Pairs of
-//                    which all is held, some of it so, are let be (contact/pinched.hpp); what is free is kept out of it.
+// The offset cannot be kept from both.  A pinched particle is constrained (S = 0) and moves with the two surfaces:
+//   with room      r/2 or more between them, and outside of both: it keeps its relative place,
+//                    x' = x + (1-s) u_1 + s u_2,   s = g_1/(g_1 + g_2)      g  gap,  u  travel of the nearest point
+//                  so it meets neither, layers keep their order, and part again.  The safe filter guards all.
+//   without room   x' = x + (u_1 + u_2)/2
+//                  so that the distances between layers are kept: with s they would coincide where the surfaces meet.
+//                  A pair of pinched particles, one or more without room, is exempt from contact (contact/pinched.hpp);
+//                  free particles are kept out of the pinch.
 //
-//   begins  outside of both, between faces that look at each other (n_1 . n_2 < -1/2, either within 60 degrees over the other) and close
-//           on each other, less than 2 r apart now or at the end of the step (r: the mean of their offsets).  The back of a finger is no second surface: from its
-//           front, the particle is within it.
-//   goes on with the nearest faces that look the way that the last ones looked, found anew in every step: the particle may be within both
-//   ends    2.2 r apart; or outside of both, while they part and are r apart; or when one of them is not found any more; or when
-//           they look the same way: a crease that has opened
+//   begins     outside of both, between faces that look at each other (n_1 . n_2 < -1/2, the particle within 60 degrees
+//              over each) and approach each other, less than 2 r apart now or at the end of the step (r: the mean of
+//              their offsets).  The back of a finger is no second surface: seen from its front, the particle is within
+//              it.
+//   continues  with the nearest faces that look the way the last ones did, searched in every step: the particle may be
+//              within both
+//   ends       2.2 r apart; or outside of both, r apart and receding; or when a face is not found any more; or when the
+//              faces look the same way: a crease that has opened
 //
 // A crease that does not close pinches nothing, however narrow it is.
 #pragma once
@@ -32,22 +35,23 @@ namespace toile::internal {
 
 class Flypaper {
  public:
-  // `body` may be null: then nothing is ever pinched.
+  // `body` may be null: nothing is pinched then.
   Flypaper(const BodySurface* body, std::size_t particles, BodyContactOptions contact);
 
-  // Who is pinched in the coming step.  `nearest` [particle]: the body's nearest point, or triangle -1 where it is far.
+  // Finds the pinched particles of the coming step.  `nearest` [particle]: the body's nearest point, or triangle -1
+  // where it is far.
   void detect(const ClothState& state, std::span<const BodyPoint> nearest);
-  // Holds them, but for those that `constraints` hold already.  The body may have been told of a shorter step since.
+  // Constrains them, except those already in `constraints`.  The body's step may be shorter than in detect.
   void apply(const ClothState& state, const StepFormula& step, ParticleConstraints& constraints) const;
 
   bool any() const { return !pinches_.empty(); }
   std::size_t count() const { return pinches_.size(); }
   std::span<const Pinched> pinched() const { return pinched_; }  // [particle]
-  // Steps so far in which something was without room: more of them than before, and cloth may have passed through cloth.
+  // Number of steps with a particle without room; if it has grown, cloth may have passed through cloth.
   long steps_without_room() const { return steps_without_room_; }
   bool any_without_room() const { return any_without_room_; }
 
-  // Between two steps (core/state_archive.hpp).
+  // State between two steps (core/state_archive.hpp).
   template <class Archive>
   void remember(Archive& archive) {
     archive(pinches_);

@@ -1,13 +1,14 @@
-// step/implicit_euler.hpp: one linearised backward Euler step with contact.                                 [BW98 3, 5, 6]
+// step/implicit_euler.hpp: one linearised backward Euler step with contact.                              [BW98 3, 5, 6]
 //
 //   A  = M + h D + h^2 K                      K, D positive semidefinite by construction (material/)
-//   b  = h (f - K (h v + y) - D y_l / h)      f: elastic, damping and external forces at (x, v);  y_l: of y what is the end of a fall
+//   b  = h (f - K (h v + y) - D y_l / h)      f: elastic, damping and external forces at (x, v);  y_l: the part of y
+//                                             that is the rest of a fall
 //   A dv = b  under S, z                      v <- v + dv,   x <- x + h (v + dv) + y
 //
-//   data flow   state -> elements -> A, f          (once per state: a halved step needs no element again)
+//   data flow   state -> elements -> A, f          (once per state: a halved step evaluates no element again)
 //                     -> near pairs                 (once per state)
-//                     -> [ constraints, rows -> b -> modified PCG -> dv, e -> active set ] until consistent; about the end
-//                        found so far, once more, while a thread stretches too much there
+//                     -> [ constraints, rows -> b -> modified PCG -> dv, e -> active set ] until consistent;
+//                        relinearised about the end found so far while a thread stretches too much there
 //                     -> candidate -> safe filter
 #pragma once
 #include "assembly/air.hpp"
@@ -32,13 +33,13 @@ namespace toile::internal {
 // A particle held by the user.
 struct Pin {
   Index particle = -1;
-  int held_directions = 3;                // 3: held; 2: along p and q (moves on a line); 1: along p (moves in a plane)
+  int held_directions = 3;                // 3: fixed; 2: along p and q (moves on a line); 1: along p (moves in a plane)
   Vec3 p{1, 0, 0}, q{0, 1, 0};            // unit, orthogonal
-  std::function<Vec3(double t_s)> path;   // where it must be; empty: it stays where it is along the held directions
+  std::function<Vec3(double t_s)> path;   // its position; empty: it stays where it is along the held directions
   std::optional<BodyAttachment> on_body;  // instead: it goes where the world's body takes it
 };
 
-// Whether the solve knows where contact will move particles (K y in b), or they jump once it is done; the latter for comparison.
+// Position alteration within the solve (K y in b), or as a jump after it; the latter for comparison.
 enum class PositionAlteration { in_solve, after_solve };
 
 struct StepOptions {
@@ -47,39 +48,42 @@ struct StepOptions {
   BodyContactOptions body;
   PositionAlteration position_alteration = PositionAlteration::in_solve;
   Integrator integrator = Integrator::backward_euler;
-  int newton_iterations = 1;  // linear solves per step, each about the end that the last one found; the paper: 1
-  // More solves about where the last one ended, while a thread changes by more than it may, and one where turning makes energy; the
-  // paper: none.
+  int newton_iterations = 1;  // linear solves per step, each about the end of the last; the paper: 1
+  // More solves about the end of the last one while a thread changes by more than it may, and one if the end has too
+  // much energy beyond the linearisation; the paper: none.
   int relinearisations = 6;
-  // Of the speed that free fall gives in a step: slower turning is not solved again for the energy that it makes, and is braked by it.
+  // As a share of the speed of one step's free fall: turning slower than that is not solved again for its energy beyond
+  // the linearisation, which brakes it.
   double slow_motion = 1;
   int max_passes = 8;              // of the active set, per linear solve
-  double max_speed_m_per_s = 100;  // beyond this the step is refused
-  bool guard_body = true;          // the safe filter keeps cloth out of the body too
-  bool flypaper = true;            // what the body pinches goes with it (step/flypaper.hpp)
+  double max_speed_m_per_s = 100;  // above it the step is refused
+  bool guard_body = true;          // the safe filter also keeps cloth out of the body
+  bool flypaper = true;            // pinched cloth moves with the body (step/flypaper.hpp)
 };
 
-// What a step must not do.
+// Limits beyond which a candidate is refused.
 struct StepLimits {
-  double stretch = 0.05;  // largest accepted change of |w_u| or |w_v| away from rest; a squeeze counts sqrt(c)
-  bool truncate = false;  // cut the motion short where cloth would pass through cloth, instead of refusing the step
-  // Let cloth go into the body where the filter cannot keep it out, instead of refusing the step: only what the body pinches, or all.
+  double stretch = 0.05;  // largest change of |w_u| or |w_v| away from rest; compression counts as sqrt(c) of it
+  bool truncate = false;  // clip the motion where cloth would pass through cloth, instead of refusing the step
+  // Let cloth into the body where the filter cannot keep it out, instead of refusing the step: pinched cloth only, or
+  // all.
   enum class Pierce { nothing, pinched, all } pierce = Pierce::nothing;
 };
 
 // Everything that acts on the cloth besides its own elements.
 struct StepWorld {
   BodySurface* body = nullptr;
-  // Where the body's vertices are at time t, m; empty: it moves only as its owner says (BodySurface::set_motion).  Every
-  // step, however short, asks for its own two ends, so that cloth follows the body's velocity over just that step.
+  // The positions of the body's vertices at time t, m; empty: the body moves by its owner (BodySurface::set_motion).
+  // Every step, however short, evaluates its own two ends, so that cloth follows the body's velocity over just that
+  // step.
   BodyAt body_at;
-  std::vector<Pin> pins;  // both may change between steps: what is let go is free from the next step on
+  std::vector<Pin> pins;  // both may change between steps: a released particle is free from the next step on
   std::vector<Drag> drags;
-  // Extra springs (sewing, attachments) at a state, for a step of h_s that ends at end_s.
+  // Appends extra springs (sewing, attachments) at a state, for a step of h_s that ends at end_s.
   std::function<void(const ClothState&, double end_s, double h_s, std::vector<LinearSpring>&)> springs;
   AirOptions air;                        // density 0: none
   std::function<Vec3(double t_s)> wind;  // m/s, at the end of a step; empty: air.wind_m_per_s at all times
-  std::vector<Index> merged_particle;    // of seams still open: contact/proximity.hpp
+  std::vector<Index> merged_particle;    // open seams: contact/proximity.hpp
 };
 
 class ImplicitEuler {
@@ -89,13 +93,13 @@ class ImplicitEuler {
   ImplicitEuler(const ImplicitEuler&) = delete;  // its members point at each other
   ImplicitEuler& operator=(const ImplicitEuler&) = delete;
 
-  // Evaluates elements and near pairs at the state (at time t_s).  `h_s` is the longest step that will be tried from it,
-  // `base_h_s` >= h_s the one before any halving.
+  // Evaluates elements and near pairs at the state (at time t_s).  `h_s` is the longest step to be tried from it,
+  // `base_h_s` >= h_s the step before any halving.
   void prepare(const ClothState& state, double t_s, double h_s, double base_h_s);
-  // Tries a step of h_s from the prepared state (at time t_s) and writes the candidate.  The state is not touched.
+  // Tries a step of h_s from the prepared state (at time t_s) and writes the candidate; the state is not touched.
   [[nodiscard]] StepReport attempt(const ClothState& state, double t_s, double h_s, const StepLimits& limits,
                                    ClothState& candidate);
-  // The candidate of the last attempt, over h_s, becomes the state: contacts and forces are remembered.
+  // Accepts the candidate of the last attempt, over h_s: contacts and forces are stored for the next step.
   void accept(const ClothState& candidate, double h_s);
 
   const Elements& elements() const { return elements_; }
@@ -104,7 +108,7 @@ class ImplicitEuler {
   const Flypaper& flypaper() const { return flypaper_; }
   ContactRows& contact_rows() { return rows_; }
   const ContactRows& contact_rows() const { return rows_; }
-  // e = A dv - b of the last pass on held particles, N s; H times the force.
+  // e = A dv - b of the last pass, of constrained particles, N s; H times the constraint force.
   std::span<const Vec3> constraint_impulse() const { return e_; }
   const SafeFilter& filter() const { return filter_; }  // of the last attempt
   PhaseSeconds seconds() const;
@@ -118,7 +122,7 @@ class ImplicitEuler {
   void set_tolerance(double tolerance) { options_.pcg.tolerance = tolerance; }
   const ClothModel& model() const { return *model_; }
 
-  // What outlives a step (core/state_archive.hpp); options, model and world are the caller's.
+  // State that outlives a step (core/state_archive.hpp); options, model and world are the caller's.
   template <class Archive>
   void remember(Archive& archive) {
     archive(body_, flypaper_, rows_, history_, h_last_s_, may_be_through_, pierced_, seconds_);
@@ -157,9 +161,9 @@ class ImplicitEuler {
   Swallowed swallowed_;
   ContactRows rows_;
   SafeFilter filter_;
-  std::vector<double> inverse_mass_, before_body_;  // [particle] 1/kg, 0 while it is held; held by a pin
-  std::vector<char> through_body_;  // [particle] is within the body, or next to where cloth passes through it
-  bool may_be_through_ = true, pierced_ = false;  // pierced_: by the last attempt
+  std::vector<double> inverse_mass_, before_body_;  // [particle] 1/kg: 0 for constrained particles; 0 for pins alone
+  std::vector<char> through_body_;                  // [particle] within the body, or next to a crossing with it
+  bool may_be_through_ = true, pierced_ = false;    // pierced_: by the last attempt
   BodyImpactWorkspace body_workspace_;
   std::vector<LinearSpring> springs_;
   std::vector<ImplicitRow> implicit_rows_;

@@ -1,4 +1,4 @@
-// step/layer_gap.hpp: how near layers of cloth lie to each other, beside the distance that they are asked to keep.
+// step/layer_gap.hpp: the gaps between layers of cloth, compared with the distances that contact asks for.
 //
 //   gap     = distance of two features of the cloth that do not touch (contact/proximity.hpp)
 //   asked   = r of the pair, unscaled (step/layer_distance.hpp)
@@ -12,15 +12,15 @@
 namespace toile::internal {
 
 struct LayerGap {
-  int pairs = 0;                          // of features nearer than 2 r; 0: no layer lies on another, and all else is 0
-  int particles = 0;                      // that lie on another layer; 0: only edges do, and the median is 0
-  double least_m = 0, least_share = 0;    // of all pairs, edges with edges too; the share is gap / r
+  int pairs = 0;                          // of features nearer than 2 r; 0: no layers in contact, and all else is 0
+  int particles = 0;                      // with a `nearest`; 0: only edges are near each other, and the median is 0
+  double least_m = 0, least_share = 0;    // of all pairs, edges with edges too; share = gap / r
   double median_m = 0, median_share = 0;  // of `nearest`
 };
 
-inline constexpr double layer_gap_reach = 2;  // in r: what is farther does not lie on the other layer
+inline constexpr double layer_gap_reach = 2;  // in r: features farther apart are not in contact
 
-// Of all contacts within layer_gap_reach of the largest r, of cloth without open seams.
+// From all contacts within layer_gap_reach of the largest r, of cloth without open seams.
 LayerGap measure_layer_gap(std::span<const ClothContact> contacts, const LayerDistance& distance,
                            std::size_t particles);
 

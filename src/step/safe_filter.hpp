@@ -1,19 +1,20 @@
-// step/safe_filter.hpp: the end of a step, corrected so that cloth does not pass through cloth or the body.        (L3)
+// step/safe_filter.hpp: corrects the end of a step so that cloth does not pass through cloth or the body.          (L3)
 //
-//   1  impacts on the straight way from the state to the candidate (contact/impacts.hpp, contact/body_impacts.hpp)
-//   2  at most 4 rounds of 3 sweeps, earliest impact first: inelastic impulses without friction that bring the pair's
-//      gap at the end to min(r/4, max(d_0, r/50));  particles that are held (pins, body) have infinite mass, the body has too,
-//      and against it only pins do: what it touches may always be moved away from it.  Layers that a crease of the body presses together are all held: of these, what has
-//      room moves.  Of an edge held at one end, and met near
-//      it, the other end would fly: none goes farther than four times what the pair is moved apart
-//      every round looks for impacts anew
-//   3  impacts left: the step is refused and halved by its caller; so is one with more impacts than are worth correcting
-//   4  where a step may not be shorter, zones are cut short: particles joined by impacts move by
+//   1  impacts on the straight motion from the state to the candidate (contact/impacts.hpp, contact/body_impacts.hpp)
+//   2  at most 4 rounds of 3 sweeps, earliest impact first: inelastic impulses without friction that bring the gap of
+//      the pair at the end to min(r/4, max(d_0, r/50)).  Every round searches for impacts anew.
+//      Pinned particles and those on the body have infinite mass.  Where all particles of a pair have, as in layers
+//      that a crease of the body presses together, those pinched with room move.  Against the body only pins have
+//      infinite mass, since cloth that touches the body may always be moved away.  An edge with one such end, hit near
+//      it, would throw its other end: no particle moves farther than four times the correction of the pair.
+//   3  impacts left: the step is refused and halved by the caller; so is one with too many impacts to be worth
+//      correcting
+//   4  where a step may not be shorter, motion is clipped by impact zones: particles joined by impacts move by
 //            m + s (u - m),   u their displacement, m the zone's mean, s = 0.9 x the zone's earliest impact,
-//      so their relative motion shrinks to what was found free.  Pairs across zones are asked again and join them.
-//      The body goes where it goes: cloth that it pinches, or that is cut short before it, may end within it.
+//      so their relative motion is part of one that was free.  Pairs across zones are tested again and merge them.
+//      The body is not stopped: pinched cloth, or cloth clipped before the body, may end within it.
 //
-// Works on positions after the solve: the paper's step is untouched.  Velocities are the caller's business.
+// It works on positions after the solve: the paper's step is untouched.  Velocities are the caller's business.
 //
 // Easily got wrong: pairs that intersect already would be kept so; their particles must have contact_m = 0.
 #pragma once
@@ -26,40 +27,40 @@
 namespace toile::internal {
 
 struct FilterReport {
-  int impacts = 0;        // on the way to the candidate
-  int left = 0;           // of cloth with cloth, after the last round; 0 once zones are cut short
-  int body_left = 0;      // of cloth with the body, in the end
+  int impacts = 0;        // in the motion to the candidate
+  int left = 0;           // of cloth with cloth, after the last round; 0 once motion is clipped
+  int body_left = 0;      // of cloth with the body, at the end
   int rounds = 0;         // of impulses
-  int corrected = 0;      // particles that were moved
-  int truncated = 0;      // particles in zones that were cut short
-  bool hopeless = false;  // more impacts than most_impacts: it gave up, `left` and `body_left` are what was counted
+  int corrected = 0;      // particles moved
+  int truncated = 0;      // particles of zones whose motion was clipped
+  bool hopeless = false;  // more than most_impacts: given up; `left` and `body_left` are the counts so far
 };
 
-// Velocity of a particle that moves by `moved_m` in a step of h_s in which it was to be altered by y.  Only the part of y that was
-// carried out is no velocity; the rest, of a motion that was cut short, would throw the particle back.
+// The velocity of a particle that moves by `moved_m` in a step of h_s with the alteration y.  Only the part of y that
+// was carried out is excluded; excluding all of y would throw back a particle whose motion was clipped.
 Vec3 velocity_of_motion(const Vec3& moved_m, const Vec3& y_m, double h_s);
 
-// Of a correction in a step of h_s, the share that counts as velocity: what stops the particle, and what the longest step would have
-// given it.  A pair is moved apart by as much in however short a step, so that all of it would throw cloth at 100 m/s in 16 us.
+// The share of a correction in a step of h_s that counts as velocity: what stops the particle, and what the longest
+// step would have given it.  The length of a correction does not depend on h: all of it would be 100 m/s in 16 us.
 double counted_share(const Vec3& correction_m, const Vec3& v_m_per_s, double h_s, double base_h_s);
 
 class SafeFilter {
  public:
-  // Moves `end` where needed.  `inverse_mass` per particle in 1/kg, 0 where it is held; `contact_m` is r per particle
-  // (0: not guarded; empty: none is).  With `truncate` the result is free of impacts of cloth with cloth, without it `left` may
-  // be positive.  `before_body` are the inverse masses against the body; without a guard there is no body.
-  // `pinched` [particle], or empty: pairs that are let be are not looked at (contact/pinched.hpp).  `near`: as find_impacts has it.
+  // Moves `end` where needed.  `inverse_mass` per particle in 1/kg, 0 for constrained ones; `contact_m` is r per
+  // particle (0: not guarded; empty: none is).  With `truncate` the result has no impacts of cloth with cloth; without
+  // it `left` may be positive.  `before_body`: inverse masses against the body; without a guard there is no body.
+  // `pinched` [particle], or empty: exempts pairs (contact/pinched.hpp).  `near`: as in find_impacts.
   FilterReport operator()(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> start,
                           std::span<const double> inverse_mass, std::span<const double> contact_m, bool truncate,
                           std::span<Vec3> end, const BodyGuard* guard = nullptr,
                           std::span<const double> before_body = {}, std::span<const Pinched> pinched = {},
                           const FeaturePairs* near = nullptr);
 
-  // Of the last call without `truncate`: the impacts of cloth with cloth that are left.
+  // The impacts of cloth with cloth left by the last call without `truncate`.
   std::span<const Impact> left() const { return impacts_; }
-  // Those of cloth with the body; particles from the cloth's number on are the body's.
+  // Those of cloth with the body; indices from the number of cloth particles on are the body's vertices.
   std::span<const Impact> left_with_body() const { return body_impacts_; }
-  // [particle] of the last call: moved.
+  // [particle] moved by the last call.
   std::span<const char> moved() const { return moved_; }
 
  private:
@@ -75,7 +76,7 @@ class SafeFilter {
   std::vector<std::size_t> order_;
   std::vector<char> moved_;
   DisjointSets zones_;
-  Vec3s whole_;  // the candidate before zones were cut
+  Vec3s whole_;  // the candidate before its motion was clipped
 };
 
 }  // namespace toile::internal

@@ -1,15 +1,15 @@
-// step/step_formula.hpp: how the end of a step follows from its velocity: backward Euler, or BDF2 with varying steps.
+// step/step_formula.hpp: the end of a step from its velocity: backward Euler, or BDF2 with varying steps.
 //
 //   x' = x + drift + H v' + y            M (v' - v - kick) = H f(x', v')
 //
 //   backward Euler   H = h,                   drift = kick = 0                                             [BW98 3]
 //   BDF2             H = h (1 + w)/(1 + 2w),  drift = beta (x - x_prev),  kick = beta (v - v_prev),
-//                    beta = w^2/(1 + 2w),     w = h/h_prev <= 2.4                                 [Choi & Ko 2002, for w = 1]
+//                    beta = w^2/(1 + 2w),     w = h/h_prev <= 2.4                           [Choi & Ko 2002, for w = 1]
 //
-// Everything that is linear in the new velocity, contacts, rows and constraints, uses H where backward Euler has h, and h only
-// where it divides what a body moves.  The matrix is the same with H for h.
+// Contacts, rows and constraints are linear in the new velocity and use H where backward Euler has h; h itself only
+// divides the travel of a body.  The matrix is the same with H for h.
 //
-// Easily got wrong: x_prev must not know of a position alteration.  What y moved is no motion, and would be extrapolated.
+// Easily got wrong: x_prev must not contain a position alteration.  y is no motion, and would be extrapolated.
 #pragma once
 #include "assembly/cloth_model.hpp"
 
@@ -29,21 +29,23 @@ struct StepFormula {
   std::span<const Vec3> drift_m;  // [particle]; empty: zero
 };
 
-// What BDF2 remembers of the last accepted step.
+// The last accepted step, for BDF2.
 class MotionHistory {
  public:
-  // The last step, or the one at hand, is no smooth motion (contacts came or went, the safe filter moved something): backward Euler.
+  // The last step or this one is not smooth (contacts began or ended, the safe filter moved a particle): use backward
+  // Euler.
   void forget() { h_s_ = 0; }
   // `moved` is x' - x - y.
   void remember(const ClothState& start, const ClothState& end, std::span<const Vec3> moved, double h_s);
-  // Forgets when the state is not the one that the last step ended with: somebody has set it anew.
+  // Forgets if the state is not the end of the last step: it has been set from outside.
   void check(const ClothState& state);
 
-  // Of a step of h_s: drift and kick live here until the next call.  Backward Euler without a history, or beyond w = 2.4.
+  // The formula for a step of h_s; its drift and kick live until the next call.  Backward Euler without a history, or
+  // beyond w = 2.4.
   StepFormula formula(double h_s);
   std::span<const Vec3> kick() const { return kick_; }  // empty: zero
 
-  // Between two steps (core/state_archive.hpp).
+  // State between two steps (core/state_archive.hpp).
   template <class Archive>
   void remember(Archive& archive) {
     archive(h_s_, moved_, dv_, end_);

@@ -1,7 +1,7 @@
-// step/stretch_changes.hpp: how much threads change in a step, away from rest, and which are beyond their strain limit.      [BW98 7]
+// step/stretch_changes.hpp: the largest change of a thread in a step, away from rest, and strain limits.       [BW98 7]
 //
-//   change    max over triangles of | |w'| - |w| |, w = w_u, w_v, where |w'| is farther from its rest length than |w|; of a thread that is pushed
-//             together sqrt(c) of it, so that a squeeze counts by its energy, k c C^2 / 2
+//   change    max over triangles of | |w'| - |w| |, w = w_u, w_v, where |w'| is farther from its rest length than |w|.
+//             Compression counts as sqrt(c) of it, so that it counts by its energy, k c C^2 / 2.
 #pragma once
 #include "assembly/elements.hpp"
 
@@ -13,9 +13,9 @@ namespace toile::internal {
 struct StretchChange {
   double change = 0;
   Index triangle = -1;
-  Index beyond = -1;    // of those that got longer beyond their strain limit, the one farthest beyond
-  double strain = 0;    // of it
-  double farthest = 1;  // it is at that many times its limit
+  Index beyond = -1;    // of the triangles that got longer beyond their strain limit, the worst
+  double strain = 0;    // of `beyond`
+  double farthest = 1;  // strain over limit of `beyond`
 };
 
 class StretchChanges {
@@ -23,9 +23,9 @@ class StretchChanges {
   // Model and elements must outlive this object.
   StretchChanges(const ClothModel& model, const Elements& elements);
 
-  // The start of a step, x in m, [particle].
+  // Stores the start of a step, x in m, [particle].
   void begin(std::span<const Vec3> x);
-  // From there to an end; the same on any number of threads.
+  // The largest change from there to x; the same on any number of threads.
   StretchChange largest(std::span<const Vec3> x);
 
  private:

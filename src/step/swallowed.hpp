@@ -1,10 +1,11 @@
-// step/swallowed.hpp: cloth deep within the body, and its way out.                                                    (L4)
+// step/swallowed.hpp: a force that draws cloth out of the body.                                                    (L4)
 //
-//   F = c (v_out n + v_body - v) . n  along n     c = 500 m / s,  v_out = depth / 0.25 s, 0.1 to 0.5 m/s,  n at the nearest point
+//   F = c (v_out n + v_body - v) . n  along n     n at the nearest point,  c = 500 m / s  (m: the particle's mass)
+//   v_out = depth / 0.25 s, 0.1 to 0.5 m/s
 //
-// Body constraints (step/body_constraints.hpp) hold what comes to the surface within a step.  What is farther in than that came there
-// by a start, or out of a pinch: nothing acts on it, and it would fall through the body.  It goes the shortest way out; of a limb that
-// cloth is threaded on, no side is the right one, and the cloth stays around it.
+// Body constraints (step/body_constraints.hpp) act on particles that reach the surface within a step.  Particles deeper
+// in, from the start of a run or out of a pinch, would have no contact and fall through the body.  They are drawn out
+// the shortest way.  Cloth that a limb is threaded through has no right side to leave by, and stays around the limb.
 #pragma once
 #include "assembly/cloth_model.hpp"
 #include "assembly/implicit_row.hpp"
@@ -17,15 +18,15 @@ namespace toile::internal {
 
 class Swallowed {
  public:
-  // Both are kept; `body` may be null.
+  // Keeps references to both; `body` may be null.
   Swallowed(const ClothModel& model, const BodySurface* body) : model_(&model), body_(body) {}
 
-  // Who is too deep within the body for `constraints`, which have looked at the same x.
+  // Finds the particles that are BodyConstraints::too_deep; `constraints` must have detected at the same x.
   void detect(std::span<const Vec3> x, const BodyConstraints& constraints);
   void clear();
-  // Is anything, be there a way out for it now or not?
+  // Whether any particle is, with a way out at present or without.
   bool any() const { return any_; }
-  // For a step in which the body moves as it was last told to.
+  // For a step with the body's motion as last set.
   void append_springs(std::vector<LinearSpring>& springs) const;
 
  private:

@@ -1,4 +1,4 @@
-// step/tangents.hpp: two directions along a surface, for friction.
+// step/tangents.hpp: two tangents of a surface, for friction.
 #pragma once
 #include "core/types.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace toile::internal {
 
-// Two unit vectors across n, chosen without a decision that could flip between machines.
+// Two unit vectors orthogonal to n and to each other, chosen without a comparison that could differ between machines.
 inline std::array<Vec3, 2> tangents(const Vec3& n) {
   Eigen::Index smallest = 0;
   if (std::abs(n.y()) < std::abs(n[smallest])) smallest = 1;
