@@ -19,8 +19,6 @@
 namespace toile::internal {
 namespace {
 
-using test::at;
-
 // An upright capsule: a straight post of 24 sides with round ends.
 BodySurface capsule(double radius, double half_length) {
   constexpr Index sides = 24, end_rings = 5;

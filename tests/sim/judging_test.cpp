@@ -180,7 +180,7 @@ TEST(Untangle, LeavesWhatIsHeldWhereItIsToTheBit) {
     const UntangleReport report = untangle(start.triangles, x, start.body.triangles, start.body.positions, options);
     EXPECT_GT(report.iterations, 0);
     EXPECT_GT(report.largest_move, 0) << "the others may move";
-    for (const Index i : options.held) ASSERT_EQ(x[test::at(i)], start.x[test::at(i)]) << i;
+    for (const Index i : options.held) ASSERT_EQ(x[at(i)], start.x[at(i)]) << i;
   }
 }
 
@@ -194,16 +194,16 @@ TEST(Untangle, MovesTheOtherSheetOffOneThatIsHeld) {
   for (bool more = true; more;) {
     more = false;
     for (const Edge& e : topology.edges) {
-      const Index low = std::min(sheet[test::at(e.a)], sheet[test::at(e.b)]);
-      more |= sheet[test::at(e.a)] != low || sheet[test::at(e.b)] != low;
-      sheet[test::at(e.a)] = sheet[test::at(e.b)] = low;
+      const Index low = std::min(sheet[at(e.a)], sheet[at(e.b)]);
+      more |= sheet[at(e.a)] != low || sheet[at(e.b)] != low;
+      sheet[at(e.a)] = sheet[at(e.b)] = low;
     }
   }
   for (std::size_t i = 0; i < x.size(); ++i)
     if (sheet[i] == 0) options.held.push_back(static_cast<Index>(i));
   ASSERT_LT(options.held.size(), x.size());
   EXPECT_TRUE(untangle(start.triangles, x, {}, {}, options).resolved);
-  for (const Index i : options.held) ASSERT_EQ(x[test::at(i)], start.x[test::at(i)]);
+  for (const Index i : options.held) ASSERT_EQ(x[at(i)], start.x[at(i)]);
 }
 
 // A sheet that stands by `deep` in one that is pinned at its rim.
@@ -233,7 +233,7 @@ TEST(Judging, UntanglingMovesNoPinnedParticle) {
   const LoadedCloth lying = load_cloth(scene, scene.cloth.front(), read_text_file, inputs);
   ASSERT_GT(lying.pins.size(), 100u);
   for (const TimedPin& pin : lying.pins) {
-    const auto i = test::at(pin.pin.particle);
+    const auto i = at(pin.pin.particle);
     for (Eigen::Index k = 0; k < 3; ++k)
       ASSERT_EQ(first[i][k], static_cast<double>(static_cast<float>(lying.garment.x[i][k]))) << i;
   }
@@ -281,8 +281,8 @@ TEST(Weld, PutsWhatIsWornBeforeWhatIsNew) {
   const std::vector<Vec2> rest_stretch(2, Vec2(1, 1));
   GarmentMesh worn = mesh_garment(pattern, 0.03);
   const WeldedMesh welded = weld(worn);
-  Vec3s x(test::at(welded.mesh.particle_count));
-  for (std::size_t i = 0; i < worn.x.size(); ++i) x[test::at(welded.particle_of[i])] = worn.x[i];
+  Vec3s x(at(welded.mesh.particle_count));
+  for (std::size_t i = 0; i < worn.x.size(); ++i) x[at(welded.particle_of[i])] = worn.x[i];
   worn.mesh = welded.mesh;
   worn.x = x;
   worn.pairs.clear();
@@ -291,7 +291,7 @@ TEST(Weld, PutsWhatIsWornBeforeWhatIsNew) {
   const WeldedMesh together = weld(both);
   const Index held = outfit.mesh.particle_count;
   ASSERT_GT(together.mesh.particle_count, held);
-  for (Index i = 0; i < held; ++i) ASSERT_LT(together.particle_of[test::at(i)], held) << i;
+  for (Index i = 0; i < held; ++i) ASSERT_LT(together.particle_of[at(i)], held) << i;
 }
 
 TEST(Judging, AGarmentWithAWaistThatLiesBelowTheHipsIsNotWorn) {
@@ -326,7 +326,7 @@ TEST(Judging, WhereAGarmentBelongsIsReadFromItsLabels) {
   EXPECT_FALSE(belonging_of(garment).bodice);
   LabelledEdge edge{"lower_interface", {}};
   for (Index i = 0; i < 3; ++i) {
-    garment.x[test::at(i)] = Vec3(0.1 * i, 1, 0);
+    garment.x[at(i)] = Vec3(0.1 * i, 1, 0);
     edge.particles.push_back(i);
   }
   garment.labels.push_back(edge);
