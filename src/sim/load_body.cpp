@@ -3,7 +3,7 @@
 #include "body/solid_shapes.hpp"
 #include "core/error.hpp"
 #include "io/file.hpp"
-#include "io/obj.hpp"
+#include "io/mesh_file.hpp"
 #include "mesh/check.hpp"
 #include "sim/setup.hpp"
 
@@ -50,9 +50,12 @@ void check_areas(std::string_view file, std::span<const Vec3> positions, std::sp
   }
 }
 
-CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit) {
+CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, Hash* inputs) {
   const std::string file = printable(path);
-  CollisionBody body = make_collision_body(parse_obj(text, file), file, unit);
+  const SurfaceMesh mesh = parse_mesh(text, path, [&](std::string_view beside) {
+    if (inputs != nullptr) inputs->add_text(beside);
+  });
+  CollisionBody body = make_collision_body(mesh, file, unit);
   check_areas(file, body.positions, body.triangles);
   return body;
 }
@@ -142,7 +145,7 @@ LoadedBody load_body(const SceneBody& body, Hash& inputs) {
     case SceneBody::Kind::mesh: {
       const std::string text = read_file(body.mesh);
       inputs.add_text(text);
-      CollisionBody read = read_body(body.mesh, text, body.unit);
+      CollisionBody read = read_body(body.mesh, text, body.unit, &inputs);
       loaded.warnings = std::move(read.notes);
       load_measurements(body, read.positions, loaded, inputs);
       if (body.motion && body.motion->name.empty()) {
@@ -172,9 +175,7 @@ SolidMesh shape_of(const SceneSolid& solid, Hash& inputs) {
       return toile::internal::revolved(revolved.profile_m, solid.edge_m);
     }
     SolidMesh operator()(const SceneSolid::Mesh& mesh) const {
-      const std::string text = read_file(mesh.path), file = printable(mesh.path);
-      inputs.add_text(text);
-      return whole_of(parse_obj(text, file));
+      return whole_of(load_mesh(mesh.path, [&](std::string_view bytes) { inputs.add_text(bytes); }));
     }
   };
   SolidMesh shape;

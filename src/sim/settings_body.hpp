@@ -25,7 +25,7 @@ void describe(V& v, SceneMotion& motion) {
                 "([motions.md](motions.md))",
                 "a file"},
                motion_names(), motion.name);
-  v.path({"file", "a .pc2 file, or a folder of OBJ files", "a name"}, motion.path);
+  v.path({"file", "a .pc2 file, or a folder of OBJ or PLY files", "a name"}, motion.path);
   v.number({"fps", "of the file"}, {1, most_fps}, motion.fps);
   v.number({"lead_in_s", "from the pose in which the body stands into the motion"}, {0, 10}, motion.lead_in_s);
 }
@@ -57,7 +57,7 @@ void describe(V& v, SceneBody& body) {
   v.alternative(
       "mesh", chosen(Kind::mesh), [&] { body.kind = Kind::mesh; },
       [&](auto& of) {
-        of.path({"mesh", "a closed OBJ", "no"}, body.mesh);
+        of.path({"mesh", "a closed [mesh file](#mesh-files)", "no"}, body.mesh);
       });
   v.alternative(
       "cylinder", chosen(Kind::cylinder), [&] { body.kind = Kind::cylinder; },
@@ -114,7 +114,7 @@ void describe(V& v, SceneSolid& solid) {
     of.object({"revolved", "an outline that sweeps around the y axis", "no"}, shape);
   });
   alternative(std::type_identity<SceneSolid::Mesh>{}, "mesh", [](auto& of, auto& shape) {
-    of.path({"mesh", "a closed OBJ in metres, with all its parts", "no"}, shape.path);
+    of.path({"mesh", "a closed [mesh file](#mesh-files) in metres, with all its parts", "no"}, shape.path);
   });
   v.number({"edge_m", "edge length of curved shapes"}, {5e-4, 10}, solid.edge_m);
   v.flag({"inside_out", "a room"}, solid.inside_out);

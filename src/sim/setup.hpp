@@ -28,8 +28,8 @@ struct LoadedBody {
   std::optional<BodyMovement> movement;
 };
 
-// The body of an OBJ file with this text, checked.  Throws InputError.
-CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit);
+// The body of a mesh file with this text, checked; other files that it is made of are added to `inputs`.  Throws InputError, IoError.
+CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, Hash* inputs = nullptr);
 // The file that the body's measurements are read from: the one that is named, or one beside the mesh; empty: there is none.
 std::string measurements_path(const SceneBody& body);
 // Adds the bytes of its files to `inputs`.  Throws IoError, InputError, also for measurements of another body; every sample of a motion is checked here, before

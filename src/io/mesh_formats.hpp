@@ -1,0 +1,14 @@
+// io/mesh_formats.hpp: the formats of meshes, read and written: a format is its own file and its lines here.        ARCHITECTURE.md#how-to-add
+#pragma once
+#include "io/mesh_file.hpp"
+#include "io/mesh_writer.hpp"
+
+namespace toile::internal {
+
+MeshReader obj_reader();  // obj_read.cpp
+inline std::vector<MeshReader> all_mesh_readers() { return {obj_reader()}; }
+
+MeshWriter obj_writer();  // obj_write.cpp
+inline std::vector<MeshWriter> all_mesh_writers() { return {obj_writer()}; }
+
+}  // namespace toile::internal
