@@ -6,7 +6,8 @@
 namespace toile::internal {
 
 MeshReader obj_reader();  // obj_read.cpp
-inline std::vector<MeshReader> all_mesh_readers() { return {obj_reader()}; }
+MeshReader ply_reader();  // ply_read.cpp
+inline std::vector<MeshReader> all_mesh_readers() { return {obj_reader(), ply_reader()}; }
 
 MeshWriter obj_writer();  // obj_write.cpp
 inline std::vector<MeshWriter> all_mesh_writers() { return {obj_writer()}; }
