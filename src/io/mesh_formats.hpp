@@ -5,9 +5,10 @@
 
 namespace toile::internal {
 
-MeshReader obj_reader();  // obj_read.cpp
-MeshReader ply_reader();  // ply_read.cpp
-inline std::vector<MeshReader> all_mesh_readers() { return {obj_reader(), ply_reader()}; }
+MeshReader obj_reader();   // obj_read.cpp
+MeshReader ply_reader();   // ply_read.cpp
+MeshReader gltf_reader();  // gltf_read.cpp
+inline std::vector<MeshReader> all_mesh_readers() { return {obj_reader(), ply_reader(), gltf_reader()}; }
 
 MeshWriter obj_writer();  // obj_write.cpp
 inline std::vector<MeshWriter> all_mesh_writers() { return {obj_writer()}; }
