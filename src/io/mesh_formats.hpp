@@ -11,6 +11,7 @@ MeshReader gltf_reader();  // gltf_read.cpp
 inline std::vector<MeshReader> all_mesh_readers() { return {obj_reader(), ply_reader(), gltf_reader()}; }
 
 MeshWriter obj_writer();  // obj_write.cpp
-inline std::vector<MeshWriter> all_mesh_writers() { return {obj_writer()}; }
+MeshWriter ply_writer();  // ply_write.cpp
+inline std::vector<MeshWriter> all_mesh_writers() { return {obj_writer(), ply_writer()}; }
 
 }  // namespace toile::internal
