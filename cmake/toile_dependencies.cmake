@@ -42,6 +42,14 @@ if(toile_has_PREVIEW)
   list(APPEND toile_pc_libs -lembree${toile_embree_major})
 endif()
 
+# glTF files.  Debian's package has a library too, which brings readers of images with it: its header alone is used (src/io/gltf_library.hpp).
+if(TOILE_GLTF)
+  find_package(TinyGLTF QUIET)
+  find_path(toile_tiny_gltf tiny_gltf.h)
+  mark_as_advanced(toile_tiny_gltf)
+endif()
+toile_part(GLTF "glTF files" NEEDS "tinygltf (Debian: libtinygltf-dev)" FOUND TinyGLTF_FOUND toile_tiny_gltf WANTED TRUE)
+
 # What is for those who work on Toile.
 if(TOILE_TESTS AND (PROJECT_IS_TOP_LEVEL OR NOT TOILE_TESTS STREQUAL "AUTO"))
   find_package(GTest QUIET)

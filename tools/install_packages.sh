@@ -8,6 +8,7 @@ packages=(
   clang libclang-rt-14-dev                                            # the second compiler of the tests, and its sanitizers
   libeigen3-dev libtbb-dev nlohmann-json3-dev libcli11-dev libfmt-dev # core, io, command line
   libyaml-cpp-dev                                                     # io: measurements of bodies
+  libtinygltf-dev                                                     # io: glTF files
   libhwy-dev                                                          # solver: vectors of the width the processor has
   libembree-dev libpng-dev ffmpeg                                     # preview: pictures and film
   libgtest-dev libbenchmark-dev python3                               # tests, benchmarks

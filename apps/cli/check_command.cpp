@@ -8,7 +8,7 @@
 #include "io/file.hpp"
 #include "io/json.hpp"
 #include "io/json_text.hpp"
-#include "io/obj.hpp"
+#include "io/mesh_file.hpp"
 #include "mesh/check.hpp"
 #include "output_folder.hpp"
 #include "sim/setup.hpp"
@@ -17,6 +17,7 @@
 
 #include <fmt/printf.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -38,9 +39,13 @@ std::string complaint(Work&& work) {
 // A mesh may be meant as a cloth (`untangle CLOTH`) or as a body; one that neither command takes is refused.
 std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json) {
   const std::string file = printable(path), text = read_file(path);
-  const ObjMesh mesh = parse_obj(text, file);
+  const SurfaceMesh mesh = parse_mesh(text, path);
   const SolidMesh used = whole_of(mesh);  // `untangle` and `dress` leave the rest out, too
-  const std::size_t unused = mesh.positions.size() - used.positions.size();
+  std::vector<char> in_triangle(mesh.positions.size(), 0);
+  for (const Triangle& t : mesh.triangles)
+    for (const Index i : t) in_triangle[at(i)] = 1;
+  const auto unused = static_cast<std::size_t>(std::count(in_triangle.begin(), in_triangle.end(), 0));
+  const std::size_t joined = mesh.positions.size() - unused - used.positions.size();
   const std::string no_cloth = complaint([&] {
     check_triangles(file, used.positions, used.triangles);
     check_areas(file, used.positions, used.triangles);
@@ -48,6 +53,7 @@ std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json)
   const std::string open = complaint([&] { check_closed(file, used.positions, used.triangles); });
   CollisionBody body;
   const std::string no_body = complaint([&] { body = read_body(path, text, unit); });
+  const std::vector<std::string>& notes = no_body.empty() ? body.notes : mesh.notes;
   if (!no_cloth.empty() && !no_body.empty()) throw Error(ExitCode::bad_input, open.empty() ? no_body : no_cloth);
   Vec3 low = mesh.positions.front(), high = low;
   for (const Vec3& p : mesh.positions) {
@@ -57,6 +63,7 @@ std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json)
   json.member("kind", "mesh");
   json.member("vertices", mesh.positions.size());
   json.member("unused_vertices", unused);
+  json.member("joined_vertices", joined);
   json.member("triangles", mesh.triangles.size());
   json.member("panels", mesh.group_names.size());
   json.member("closed", open.empty());
@@ -75,7 +82,7 @@ std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json)
   json.member("not_a_cloth", no_cloth);
   json.key("notes");
   json.begin_array();
-  for (const std::string& note : body.notes) json.value(note);
+  for (const std::string& note : notes) json.value(note);
   json.end_array();
   std::string said =
       fmt::sprintf("mesh, %zu vertices, %zu triangles, %zu groups, %s, %.3f x %.3f x %.3f units\n",
@@ -85,7 +92,7 @@ std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json)
   if (no_body.empty())
     said += fmt::sprintf("  as a body: %zu vertices, %zu triangles, %.3f m high\n", body.positions.size(),
                          body.triangles.size(), body.height_m);
-  for (const std::string& note : body.notes) said += "  note: " + note + '\n';
+  for (const std::string& note : notes) said += "  note: " + note + '\n';
   if (!no_body.empty()) said += "  not a body: " + no_body + '\n';
   if (!no_cloth.empty()) said += "  not a cloth: " + no_cloth + '\n';
   return said;
@@ -118,13 +125,14 @@ std::string check_scene(const std::string& path, const std::string& text, const 
 
 Checked check_file(const CommandLine& line, const std::string& path, JsonText& json) {
   const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending == ".obj" || ending == ".OBJ") {
+  if (has_mesh_ending(path)) {
     refuse_other_files(line, false, path);
     return {check_mesh(path, unit_option(line), json)};
   }
   if (ending != ".json" && ending != ".JSON") {
     read_file(path);  // a missing file is told as such
-    throw InputError(printable(path), "name", "a file that ends in .json (scene or pattern) or .obj (mesh)",
+    throw InputError(printable(path), "name",
+                     "a file that ends in .json (scene or pattern), or as a mesh in " + mesh_formats_in_words(),
                      '"' + printable(ending) + '"');
   }
   const std::string text = read_text_file(path);

@@ -1,6 +1,7 @@
 #include "command_line.hpp"
 
 #include "core/error.hpp"
+#include "io/mesh_writer.hpp"
 #include "sim/report.hpp"
 
 #include <CLI/CLI.hpp>
@@ -42,10 +43,25 @@ void add_limits(CLI::App& command, CommandLine& line) {
 }
 
 void add_untangle_options(CLI::App& command, CommandLine& line) {
-  command.add_option("CLOTH", line.inputs, "Cloth mesh (OBJ)")->required()->expected(1);
-  command.add_option("--body", line.body, "Body mesh (OBJ), or a mannequin: woman (also: mannequin), dancer, man");
+  command.add_option("CLOTH", line.inputs, "Cloth mesh (OBJ, PLY, glTF)")->required()->expected(1);
+  command.add_option("--body", line.body,
+                     "Body mesh (OBJ, PLY, glTF), or a mannequin: woman (also: mannequin), dancer, man");
   command.add_option("--body-unit", line.body_unit, "Unit of both files")->check(CLI::IsMember({"m", "dm", "cm"}));
   command.add_option("--out", line.out, "Where the cloth goes (default: out/NAME_untangled.obj)");
+  command.add_option("--threads", line.threads, "Threads; 0: one per core. The result does not depend on it")
+      ->check(CLI::Range(0, 1024));
+  command.add_flag("--quiet", line.quiet, "Print errors only");
+  command.add_flag("--json", line.json, "Print the result as one JSON object");
+}
+
+void add_export_options(CLI::App& command, CommandLine& line) {
+  command.add_option("DIR", line.inputs, "Directory of the run")->required()->expected(1);
+  command.add_option("--to", line.to, "Format: " + mesh_writers_in_words() + " (default: by the ending of --out)");
+  CLI::Option* const frame = command.add_option("--frame", line.export_frame, "Frame of the cloth (default: the last)")
+                                 ->check(CLI::Range(0, 1000000000));
+  command.add_flag("--all", line.all, "Every frame, in numbered files of a folder")->excludes(frame);
+  command.add_option("--of", line.of, "cloth or body (default: cloth)")->check(CLI::IsMember({"cloth", "body"}));
+  command.add_option("--out", line.out, "A file; with --all a folder (default: out/NAME.ENDING, out/NAME_FORMAT)");
   command.add_option("--threads", line.threads, "Threads; 0: one per core. The result does not depend on it")
       ->check(CLI::Range(0, 1024));
   command.add_flag("--quiet", line.quiet, "Print errors only");
@@ -111,7 +127,7 @@ std::string one_line(std::string text) {
 }
 
 struct Commands {
-  CLI::App *demo, *dress, *run, *check, *verify, *preview, *resume, *untangle, *bench;
+  CLI::App *demo, *dress, *run, *check, *verify, *preview, *resume, *untangle, *export_run, *bench;
 };
 
 // `demo_name` is what `demo` was given.
@@ -123,7 +139,9 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
 
   CLI::App* dress = app.add_subcommand("dress", "Sew a pattern around a body and drape it");
   dress->add_option("PATTERN", line.inputs, "Pattern files, GarmentCode JSON, from the inside out")->required();
-  dress->add_option("--body", line.body, "Body mesh (OBJ), or a mannequin: woman (also: mannequin), dancer, man")
+  dress
+      ->add_option("--body", line.body,
+                   "Body mesh (OBJ, PLY, glTF), or a mannequin: woman (also: mannequin), dancer, man")
       ->required();
   dress->add_option("--body-unit", line.body_unit, "Unit of the body's file")->check(CLI::IsMember({"m", "dm", "cm"}));
   dress->add_option("--measurements", line.measurements,
@@ -139,10 +157,10 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
   add_garment_options(*run, line);
 
   CLI::App* check = app.add_subcommand("check", "Check scenes, patterns and meshes; simulate nothing");
-  check->add_option("FILE", line.inputs, "Scene or pattern (.json), mesh (.obj)")->required();
+  check->add_option("FILE", line.inputs, "Scene or pattern (.json), mesh (.obj, .ply, .glb)")->required();
   check->add_option("--resolution", line.resolution_cm, "Edge length at which patterns are meshed, cm (default: 1)")
       ->check(CLI::Range(0.1, 20.0));
-  check->add_option("--body", line.body, "Of a pattern: who is to wear it; OBJ, or a mannequin: woman, dancer, man");
+  check->add_option("--body", line.body, "Of a pattern: who is to wear it; a mesh, or a mannequin: woman, dancer, man");
   check->add_option("--measurements", line.measurements,
                     "Measurements of the body's mesh, YAML (default: the file of its name beside it)");
   check->add_option("--svg", line.svg, "Of one pattern: draw its panels here, with the places that were found");
@@ -173,6 +191,9 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
       app.add_subcommand("untangle", "Move a cloth that passes through itself or a body until it does not");
   add_untangle_options(*untangle, line);
 
+  CLI::App* export_run = app.add_subcommand("export", "Write frames of a run as files for other programs");
+  add_export_options(*export_run, line);
+
   CLI::App* bench = add_bench(app, line);
   for (CLI::App* command : {demo, dress, run, check, verify, preview}) add_common(*command, line);
   for (CLI::App* command : {demo, dress, run, check}) add_limits(*command, line);
@@ -181,7 +202,7 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
         ->add_option("--time-limit", line.time_limit_s,
                      "Seconds that dressing may take, up to the motion; then what there is is written; 0: any")
         ->check(CLI::Range(0.0, 1e9));
-  return {demo, dress, run, check, verify, preview, resume, untangle, bench};
+  return {demo, dress, run, check, verify, preview, resume, untangle, export_run, bench};
 }
 
 // CLI::Range lets NaN pass.
@@ -235,9 +256,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     throw Error(ExitCode::usage, one_line(error.what()) + " (toile --help lists what there is)");
   }
   if (app.get_subcommands().empty())
-    throw Error(
-        ExitCode::usage,
-        "a command is missing: demo, dress, run, check, verify, preview, resume, untangle or bench (toile --help)");
+    throw Error(ExitCode::usage,
+                "a command is missing: demo, dress, run, check, verify, preview, resume, untangle, export or bench "
+                "(toile --help)");
 
   const CLI::App* chosen = app.get_subcommands().front();
   require_finite(line);
@@ -245,7 +266,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   const std::pair<const CLI::App*, Command> commands[] = {
       {known.demo, Command::demo},     {known.dress, Command::dress},       {known.run, Command::run},
       {known.check, Command::check},   {known.verify, Command::verify},     {known.preview, Command::preview},
-      {known.resume, Command::resume}, {known.untangle, Command::untangle}, {known.bench, Command::bench}};
+      {known.resume, Command::resume}, {known.untangle, Command::untangle}, {known.export_run, Command::export_run},
+      {known.bench, Command::bench}};
   for (const auto& [command, value] : commands)
     if (command == chosen) line.command = value;
   if (chosen == known.bench) settle_bench(*known.bench, line);

@@ -9,7 +9,7 @@
 namespace toile::internal {
 
 struct CommandLine {
-  enum class Command { help, demo, dress, run, check, verify, preview, resume, untangle, bench };
+  enum class Command { help, demo, dress, run, check, verify, preview, resume, untangle, export_run, bench };
   Command command = Command::help;
   std::string help;                 // Command::help: what to print
   std::vector<std::string> inputs;  // patterns, scene, files, directory, the demo's or the benchmark's name
@@ -21,8 +21,11 @@ struct CommandLine {
   bool no_preview = false, quiet = false, json = false, picture = false;
 
   std::string body, body_unit, measurements, motion, quality, start;
-  std::string svg, repair;  // of check: files to write; empty: none
-  std::vector<int> frames;  // of preview
+  std::string svg, repair;          // of check: files to write; empty: none
+  std::vector<int> frames;          // of preview
+  std::string to, of = "cloth";     // of export
+  std::optional<int> export_frame;  // of export; absent: the last
+  bool all = false;                 // of export
   std::optional<std::string> fabric;
   std::optional<double> resolution_cm, fps, seconds;
   bool strict_start = false;

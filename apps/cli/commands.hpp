@@ -11,6 +11,7 @@ ExitCode check_command(const CommandLine& line);
 ExitCode verify_command(const CommandLine& line);
 ExitCode preview_command(const CommandLine& line);
 ExitCode untangle_command(const CommandLine& line);
+ExitCode export_command(const CommandLine& line);
 ExitCode bench_command(const CommandLine& line);
 
 }  // namespace toile::internal

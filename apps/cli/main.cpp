@@ -31,6 +31,8 @@ ExitCode run_command(const CommandLine& line) {
       return preview_command(line);
     case CommandLine::Command::untangle:
       return untangle_command(line);
+    case CommandLine::Command::export_run:
+      return export_command(line);
     case CommandLine::Command::bench:
       return bench_command(line);
   }

@@ -3,9 +3,12 @@
 #include "commands.hpp"
 #include "io/file.hpp"
 #include "io/json_text.hpp"
+#include "io/mesh_file.hpp"
+#include "io/mesh_writer.hpp"
 #include "io/obj.hpp"
 #include "io/obj_replace.hpp"
 #include "mesh/check.hpp"
+#include "mesh/join_sides.hpp"
 #include "sim/setup.hpp"
 #include "sim/untangle.hpp"
 #include "terminal.hpp"
@@ -25,9 +28,10 @@ constexpr std::size_t told_contours = 3, told_pairs = 2;  // in the one line on 
 
 struct ClothFile {
   std::string name, text;
-  ObjMesh mesh;
-  std::vector<Index> particles;     // of the file's vertices those that a face uses
-  std::vector<Triangle> triangles;  // of these particles
+  SurfaceMesh mesh;
+  bool is_obj = false;
+  std::vector<Index> particle_of;   // [vertex of the file]; -1: no face uses it
+  std::vector<Triangle> triangles;  // of the particles
   Vec3s x;
 };
 
@@ -35,18 +39,24 @@ ClothFile load_cloth_file(const std::string& path) {
   ClothFile cloth;
   cloth.name = printable(path);
   cloth.text = read_file(path);
-  cloth.mesh = parse_obj(cloth.text, cloth.name);
-  std::vector<Index> particle_of(cloth.mesh.positions.size(), -1);
+  cloth.mesh = parse_mesh(cloth.text, path);
+  cloth.is_obj = mesh_format_of(cloth.text, path) == "OBJ";
+  const JoinedSides joined = join_sides(cloth.mesh.positions, cloth.mesh.triangles, cloth.mesh.object);
+  cloth.particle_of.assign(cloth.mesh.positions.size(), -1);
   for (const Triangle& t : cloth.mesh.triangles)
-    for (const Index i : t) particle_of[static_cast<std::size_t>(i)] = 0;
-  for (std::size_t i = 0; i < particle_of.size(); ++i) {
-    if (particle_of[i] < 0) continue;
-    particle_of[i] = static_cast<Index>(cloth.particles.size());
-    cloth.particles.push_back(static_cast<Index>(i));
-    cloth.x.push_back(cloth.mesh.positions[i]);
+    for (const Index i : t) cloth.particle_of[at(i)] = 0;
+  for (std::size_t i = 0; i < cloth.particle_of.size(); ++i) {
+    if (cloth.particle_of[i] < 0) continue;
+    const std::size_t first = at(joined.same_as[i]);
+    if (first < i) {
+      cloth.particle_of[i] = cloth.particle_of[first];
+    } else {
+      cloth.particle_of[i] = static_cast<Index>(cloth.x.size());
+      cloth.x.push_back(cloth.mesh.positions[i]);
+    }
   }
   for (Triangle t : cloth.mesh.triangles) {
-    for (Index& i : t) i = particle_of[static_cast<std::size_t>(i)];
+    for (Index& i : t) i = cloth.particle_of[at(i)];
     cloth.triangles.push_back(t);
   }
   check_triangles(cloth.name, cloth.x, cloth.triangles);
@@ -128,12 +138,17 @@ void add(JsonText& json, std::string_view key, const ClothFile& cloth, const std
   json.end_array();
 }
 
+// In the format of the cloth, unless --out says another; what cannot be written (.gltf) is an OBJ.
 std::string out_path(const CommandLine& line, bool resolved) {
-  std::filesystem::path path = line.out.empty()
-                                   ? std::filesystem::path("out") /
-                                         (std::filesystem::path(line.inputs.front()).stem().string() + "_untangled.obj")
-                                   : std::filesystem::path(line.out);
-  if (!resolved) path.replace_filename(path.stem().string() + "_still_tangled.obj");
+  const std::filesystem::path in(line.inputs.front());
+  std::filesystem::path path(line.out);
+  if (line.out.empty()) {
+    const MeshWriter* const own = mesh_writer_for(line.inputs.front());
+    path = std::filesystem::path("out") /
+           (in.stem().string() + "_untangled" + std::string(own != nullptr ? own->ending : ".obj"));
+  }
+  const std::string ending = path.extension().empty() ? ".obj" : path.extension().string();
+  if (!resolved) path.replace_filename(path.stem().string() + "_still_tangled" + ending);
   return path.string();
 }
 
@@ -146,20 +161,39 @@ void refuse_inputs(const CommandLine& line) {
         throw IoError(printable(input), "is an input, which would be written over: name another file with --out");
 }
 
-// The cloth's file with the cloth as it is now; of the report what passes through what, as somebody will read it.
-std::string text_of(const ClothFile& cloth, const SolidMesh& solid, UntangleReport& report) {
-  Vec3s all = cloth.mesh.positions;
-  for (std::size_t k = 0; k < cloth.particles.size(); ++k)
-    all[static_cast<std::size_t>(cloth.particles[k])] = cloth.x[k];
-  const std::string text = with_positions(cloth.text, all, cloth.name);
-  const ObjMesh written = parse_obj(text, cloth.name);
-  report.cloth_crossings = static_cast<int>(find_cloth_crossings(written.triangles, written.positions).size());
+// Writes the cloth's file with the cloth as it is now; of the report what passes through what, as somebody will read it.  Of an OBJ everything but
+// the positions stays as it was.
+void write(const ClothFile& cloth, const SolidMesh& solid, const CommandLine& line, UntangleReport& report,
+           std::string& out) {
+  SurfaceMesh moved = cloth.mesh;
+  for (std::size_t i = 0; i < moved.positions.size(); ++i)
+    if (cloth.particle_of[i] >= 0) moved.positions[i] = cloth.x[at(cloth.particle_of[i])];
+  std::string text;
+  Vec3s x = cloth.x;  // as it will be read
+  if (cloth.is_obj) {
+    text = with_positions(cloth.text, moved.positions, cloth.name);
+    const SurfaceMesh written = parse_obj(text, cloth.name);
+    for (std::size_t i = 0; i < moved.positions.size(); ++i)
+      if (cloth.particle_of[i] >= 0) x[at(cloth.particle_of[i])] = written.positions[i];
+  } else {
+    for (Vec3& p : x) p = p.cast<float>().cast<double>();
+  }
+  report.cloth_crossings = static_cast<int>(find_cloth_crossings(cloth.triangles, x).size());
   report.body_crossings = 0;
   if (!solid.triangles.empty())
-    report.body_crossings = static_cast<int>(
-        find_body_crossings(written.triangles, written.positions, solid.triangles, solid.positions).size());
+    report.body_crossings =
+        static_cast<int>(find_body_crossings(cloth.triangles, x, solid.triangles, solid.positions).size());
   report.resolved = report.cloth_crossings + report.body_crossings == 0;
-  return text;
+  out = out_path(line, report.resolved);
+  make_directories(std::filesystem::path(out).parent_path().string());
+  const MeshWriter* const writer = mesh_writer_for(out);
+  if (!cloth.is_obj || (writer != nullptr && writer->name != "obj")) {
+    writer->write(out, moved);
+    return;
+  }
+  AtomicFile file(out);
+  file.write(text);
+  file.commit();
 }
 
 }  // namespace
@@ -167,6 +201,9 @@ std::string text_of(const ClothFile& cloth, const SolidMesh& solid, UntangleRepo
 ExitCode untangle_command(const CommandLine& line) {
   refuse_inputs(line);
   ClothFile cloth = load_cloth_file(line.inputs.front());
+  if (!cloth.is_obj && mesh_writer_for(out_path(line, true)) == nullptr)
+    throw Error(ExitCode::usage,
+                "--out: expected a name that ends as " + mesh_writers_in_words() + ", got " + printable(line.out));
   const SolidMesh solid = load_solid(line);
 
   ProgressBar progress(line);
@@ -184,12 +221,8 @@ ExitCode untangle_command(const CommandLine& line) {
       });
   progress.clear();
 
-  const std::string text = text_of(cloth, solid, report);
-  const std::string out = out_path(line, report.resolved);
-  make_directories(std::filesystem::path(out).parent_path().string());
-  AtomicFile file(out);
-  file.write(text);
-  file.commit();
+  std::string out;
+  write(cloth, solid, line, report, out);
 
   const ExitCode code = report.resolved ? ExitCode::ok : stopped ? ExitCode::interrupted : ExitCode::simulation_failed;
   if (line.json) {

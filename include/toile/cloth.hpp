@@ -42,7 +42,8 @@ class TOILE_EXPORT Cloth {
  public:
   // The panels of a sewing pattern (GarmentCode's JSON), which are sewn around the body by Simulation::dress.
   static Cloth from_pattern(const std::string& path, const PatternOptions& options = {});
-  // A garment that is modelled already (OBJ): worn as it lies, not sewn.  Its groups are its panels; vertices at one place are one particle.  What was
+  // A garment that is modelled already (OBJ, PLY, glTF): worn as it lies, not sewn.  Its groups are its panels; vertices that it had to split
+  // along a seam of its drawing are one particle.  What was
   // not taken as it stands is in Simulation::warnings.
   static Cloth from_file(const std::string& path, const MeshFileOptions& options = {});
   // Upright in the plane z = 0, facing +z, its middle at the origin.

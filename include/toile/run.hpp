@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace toile {
 
@@ -41,6 +42,18 @@ struct RunOptions {
 
 // A scene file from beginning to end, into a folder.  A run that is cancelled can be resumed by the program.
 TOILE_EXPORT Verdict run_scene(const std::string& path, const std::string& folder, const RunOptions& options = {});
+
+struct ExportOptions {
+  std::string to = {};       // "obj", "ply" or "gltf"; empty: by the ending of `out`
+  std::string of = "cloth";  // or "body"
+  int frame = -1;            // -1: the last
+  bool all = false;          // every frame, in numbered files of the folder `out`
+};
+
+// Frames of a run's folder as files for other programs, into `out`; what was written.  Panels keep their names, vertices of a seam are split where the
+// format has one uv for each.  Throws InputError for a frame or a body that there is not, IoError for a file of the run that would be written over.
+TOILE_EXPORT std::vector<std::string> export_run(const std::string& folder, const std::string& out,
+                                                 const ExportOptions& options = {});
 
 // preview.png and preview.mp4 of a run's folder.  Throws Error(usage) when the library was built without pictures.
 TOILE_EXPORT void preview(const std::string& folder);

@@ -41,6 +41,11 @@ void bind_runs(nb::module_& module) {
       .def_prop_ro("frames", &RunWriter::frames)
       .def("finish", &RunWriter::finish, nb::call_guard<nb::gil_scoped_release>());
   module.def("run_scene", &whole_scene, "path"_a, "folder"_a, "threads"_a, "time_limit_s"_a, "progress"_a.none());
+  module.def(
+      "export_run",
+      [](const std::string& folder, const std::string& out, const std::string& to, const std::string& of, int frame,
+         bool all) { return export_run(folder, out, {.to = to, .of = of, .frame = frame, .all = all}); },
+      nb::call_guard<nb::gil_scoped_release>(), "folder"_a, "out"_a, "to"_a, "of"_a, "frame"_a, "all"_a);
   module.def("preview", &preview, nb::call_guard<nb::gil_scoped_release>(), "folder"_a);
 }
 

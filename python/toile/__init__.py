@@ -14,7 +14,7 @@ from ._batch import Batch
 from ._body import Body
 from ._cloth import Cloth, fabric
 from ._frame import Frame
-from ._runs import RunWriter, check_pattern, preview, run_scene, verify
+from ._runs import RunWriter, check_pattern, export_run, preview, run_scene, verify
 from ._simulation import Simulation
 from ._toile import CheckReport, Crossings, DressReport, Fabric, Finding, Reason, State, StepReport, Verdict, fabric_names
 from ._toile import version as __version__
@@ -40,6 +40,7 @@ __all__ = [
     "Verdict",
     "__version__",
     "check_pattern",
+    "export_run",
     "fabric",
     "fabric_names",
     "preview",

@@ -43,7 +43,7 @@ class Body(Made):
     def mannequin(cls, who: str, *, motion: str | os.PathLike[str] = "") -> Body:
         """One of the program's own: "woman", "man" or "dancer" (docs/mannequin.md).
 
-        motion: one of motion_names(), a .pc2 file or a folder of OBJ files; empty: it stands.
+        motion: one of motion_names(), a .pc2 file or a folder of OBJ or PLY files; empty: it stands.
         """
         return cls._make("mannequin", who=who, motion=_motion(motion))
 
@@ -62,10 +62,10 @@ class Body(Made):
         fps: float = 30,
         measurements: str | os.PathLike[str] = "",
     ) -> Body:
-        """A closed mesh (OBJ), read when a simulation is made with it, which raises IoError and InputError.
+        """A closed mesh (OBJ, PLY, glTF), read when a simulation is made with it, which raises IoError and InputError.
 
         unit          "automatic" (metres, or an error that says which unit would fit), "m", "dm" or "cm"
-        motion        a .pc2 file, a folder of OBJ files, or the name of a motion for upright meshes; empty: it stands
+        motion        a .pc2 file, a folder of OBJ or PLY files, or the name of a motion for upright meshes; empty: it stands
         fps           frames a second of the motion's files
         measurements  a YAML file (docs/howto/measurements.md); empty: the one beside the mesh, if there is one
         """

@@ -93,9 +93,9 @@ class Cloth(Made):
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str], *, unit: str = "m", rest_shape: str = "automatic") -> Cloth:
-        """A garment that is modelled already (OBJ): worn as it lies, not sewn.
+        """A garment that is modelled already (OBJ, PLY, glTF): worn as it lies, not sewn.
 
-        Its groups are its panels; vertices at one place are one particle.  What was not taken as it stands is in
+        Its groups are its panels; vertices that it had to split along a seam of its drawing are one particle.  What was not taken as it stands is in
         Simulation.warnings.
 
         unit        of its coordinates: "m", "dm" or "cm"

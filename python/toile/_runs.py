@@ -6,7 +6,7 @@ import os
 from types import TracebackType
 
 from . import _toile
-from ._errors import Error
+from ._errors import Error, InputError
 from ._progress import ProgressCall, Shown
 from ._simulation import Simulation
 from ._toile import CheckReport, Verdict
@@ -92,6 +92,21 @@ def verify(folder: Path) -> Verdict:
 def check_pattern(path: Path) -> CheckReport:
     """What is wrong with a sewing pattern, or probably not meant; simulates nothing.  Raises IoError."""
     return _toile.check_pattern(os.fspath(path))
+
+
+def export_run(folder: Path, out: Path, *, to: str = "", of: str = "cloth", frame: int | None = None, all: bool = False) -> list[str]:
+    """Frames of a run's folder as files for other programs; returns what was written.
+
+    to     "obj", "ply" or "gltf"; empty: by the ending of `out`
+    of     "cloth" or "body"
+    frame  which one; None: the last
+    all    every frame, in numbered files of the folder `out`
+
+    Panels keep their names; vertices of a seam are split where the format has one uv for each.
+    """
+    if frame is not None and frame < 0:
+        raise InputError(f"frame: expected a number from 0, got {frame}")
+    return _toile.export_run(os.fspath(folder), os.fspath(out), to, of, -1 if frame is None else frame, all)
 
 
 def preview(folder: Path) -> None:

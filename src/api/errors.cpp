@@ -30,6 +30,8 @@ void throw_translated() {
   } catch (const internal::IoError& error) {
     throw IoError(error.what());
   } catch (const internal::Error& error) {
+    // Also what was given the name of its file on the way, and so another type.
+    if (error.code() == internal::ExitCode::bad_input) throw InputError(error.what());
     throw Error(static_cast<ErrorCode>(error.code()), error.what());
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::resource_limit, "there is not enough memory");

@@ -4,6 +4,7 @@
 #include "api/verdict.hpp"
 #include "core/stopwatch.hpp"
 #include "io/run_folder.hpp"
+#include "sim/export_run.hpp"
 #include "sim/picture_run.hpp"
 #include "sim/recorder.hpp"
 #include "sim/simulate.hpp"
@@ -121,6 +122,18 @@ Verdict run_scene(const std::string& path, const std::string& folder, const RunO
     else
       work();
     return verdict_of(report.audit, report.verdict);
+  });
+}
+
+std::vector<std::string> export_run(const std::string& folder, const std::string& out, const ExportOptions& options) {
+  return translated([&] {
+    internal::ExportOptions wanted;
+    wanted.to = options.to;
+    wanted.out = out;
+    wanted.of = options.of;
+    if (options.frame != -1) wanted.frame = options.frame;
+    wanted.all = options.all;
+    return internal::export_run(folder, wanted).files;
   });
 }
 

@@ -4,6 +4,7 @@
 #include "body/body_samples.hpp"
 #include "body/middle_line.hpp"
 #include "core/error.hpp"
+#include "io/mesh_file.hpp"
 #include "io/pc2.hpp"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ class MovingPerson : public ByName {
 };
 
 // The triangles of the body must be where they were in its file.
-void check_triangles(std::string_view file, std::size_t frame, const ObjMesh& mesh, const CollisionBody& body) {
+void check_triangles(std::string_view file, std::size_t frame, const SurfaceMesh& mesh, const CollisionBody& body) {
   const std::string place = "frame " + std::to_string(frame);
   const bool known = !body.source_triangle.empty();
   const std::size_t count = known ? body.source_triangle_count : body.triangles.size();
@@ -118,7 +119,7 @@ BodyMotion BodyMotion::from_obj_sequence(const std::string& path, const Collisio
   const std::vector<NumberedFile> files = numbered_files(path);
   for (std::size_t frame = 0; frame < files.size(); ++frame) {
     const std::string file = printable(files[frame].path);
-    const ObjMesh mesh = load_obj(files[frame].path);
+    const SurfaceMesh mesh = load_mesh(files[frame].path);
     samples->append(file, mesh.positions);
     check_triangles(file, frame, mesh, body);
   }

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "mesh/check.hpp"
+#include "mesh/join_sides.hpp"
 #include "mesh/surface_parts.hpp"
 
 #include <fmt/printf.h>
@@ -32,7 +33,7 @@ bool is_body_name(std::string_view name) {
 }
 
 // The triangles (by index) whose group or object is called body; empty when nothing is.
-std::vector<Index> named_body(const ObjMesh& mesh) {
+std::vector<Index> named_body(const SurfaceMesh& mesh) {
   const auto belongs = [&](const std::vector<Index>& of, const std::vector<std::string>& names, std::size_t t) {
     return t < of.size() && is_body_name(names[z(of[t])]);
   };
@@ -49,7 +50,7 @@ struct Kept {
 };
 
 // The names of the objects, or where there is but one of the groups, that these triangles are in, in the order of the file.
-std::string names_of(const ObjMesh& mesh, const std::vector<Index>& triangles) {
+std::string names_of(const SurfaceMesh& mesh, const std::vector<Index>& triangles) {
   const bool by_object = mesh.object_names.size() > 1;
   const auto& of = by_object ? mesh.object : mesh.group;
   const auto& names = by_object ? mesh.object_names : mesh.group_names;
@@ -62,7 +63,7 @@ std::string names_of(const ObjMesh& mesh, const std::vector<Index>& triangles) {
   return text.empty() ? "a part without a name" : text;
 }
 
-std::size_t vertices_of(const ObjMesh& mesh, const std::vector<Index>& triangles) {
+std::size_t vertices_of(const SurfaceMesh& mesh, const std::vector<Index>& triangles) {
   std::vector<Index> vertices;
   for (const Index t : triangles)
     for (const Index v : mesh.triangles[z(t)]) vertices.push_back(v);
@@ -71,8 +72,8 @@ std::size_t vertices_of(const ObjMesh& mesh, const std::vector<Index>& triangles
 }
 
 // Names the closed parts that are not taken and have at least this share of the volume of those that are.
-void note_left_out(const ObjMesh& mesh, const SurfaceParts& parts, const std::vector<char>& taken, double least_share,
-                   Kept& kept) {
+void note_left_out(const SurfaceMesh& mesh, const SurfaceParts& parts, const std::vector<char>& taken,
+                   double least_share, Kept& kept) {
   double volume = 0;
   for (std::size_t p = 0; p < taken.size(); ++p)
     if (taken[p] != 0) volume += std::abs(parts.parts[p].volume_m3);
@@ -89,7 +90,7 @@ void note_left_out(const ObjMesh& mesh, const SurfaceParts& parts, const std::ve
 
 // The triangles of the closed parts that are large enough; all triangles when no part is closed, so that the check
 // of the whole can say where it is open.
-Kept closed_parts(const ObjMesh& mesh) {
+Kept closed_parts(const SurfaceMesh& mesh) {
   const SurfaceParts found = surface_parts(mesh.triangles, mesh.positions);
   double largest = 0;
   for (const SurfacePart& part : found.parts)
@@ -105,7 +106,7 @@ Kept closed_parts(const ObjMesh& mesh) {
 }
 
 // What is named body; where that is open, the closed parts that it is in.
-Kept named_parts(const ObjMesh& mesh, std::vector<Index> named) {
+Kept named_parts(const SurfaceMesh& mesh, std::vector<Index> named) {
   Kept kept;
   std::vector<Triangle> triangles;
   for (const Index t : named) triangles.push_back(mesh.triangles[z(t)]);
@@ -153,7 +154,7 @@ std::optional<LengthUnit> unit_that_fits(double height) {
 }
 
 // Before any arithmetic on them: every index in range, every coordinate finite.
-void check_input(const ObjMesh& mesh, std::string_view file) {
+void check_input(const SurfaceMesh& mesh, std::string_view file) {
   if (mesh.triangles.empty()) throw InputError(file, "body", "a closed surface", "no faces");
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     for (Index v : mesh.triangles[i]) {
@@ -180,9 +181,16 @@ double metres_in(LengthUnit unit) {
   return 1.0;
 }
 
-CollisionBody make_collision_body(const ObjMesh& mesh, std::string_view file, LengthUnit unit) {
-  check_input(mesh, file);
+CollisionBody make_collision_body(const SurfaceMesh& read, std::string_view file, LengthUnit unit) {
+  check_input(read, file);
   CollisionBody body;
+  body.notes = read.notes;
+  const JoinedSides joined = join_sides(read.positions, read.triangles, read.object);
+  SurfaceMesh mesh = read;
+  mesh.triangles = joined_triangles(read.triangles, joined);
+  if (joined.joined > 0)
+    body.notes.push_back(std::string(file) + ": " + std::to_string(joined.joined) +
+                         " vertices lie where another one does, along a seam, and are one with it");
   std::vector<Index> named = named_body(mesh);
   Kept taken = named.empty() ? closed_parts(mesh) : named_parts(mesh, std::move(named));
   for (const std::string& note : taken.notes) body.notes.push_back(std::string(file) + ": " + note);

@@ -5,7 +5,7 @@
 // body has is an error that names the unit that would fit.
 #pragma once
 #include "body/mannequin.hpp"
-#include "io/obj.hpp"
+#include "io/surface_mesh.hpp"
 
 #include <string>
 #include <string_view>
@@ -28,6 +28,7 @@ struct CollisionBody {
 enum class LengthUnit { automatic, m, dm, cm };  // automatic: metres, or an error
 double metres_in(LengthUnit unit);
 
+// Vertices that the file had to split along seams of its drawing are one (mesh/join_sides.hpp); the first of them is the source.
 // Keeps the body and drops what is not: the group or object named `body` (in any case) if there is one, otherwise,
 // of the connected parts that are closed, the one that encloses most and those that enclose at least a tenth as
 // much (a separate head stays, eyeballs go). Where what is named so is open, the closed parts that it belongs to are taken (a head in a group
@@ -40,7 +41,7 @@ double metres_in(LengthUnit unit);
 //   the unit is `automatic` and the height lies outside 0.5 .. 2.5 m: asks for --body-unit and says which unit
 //   would fit
 // With a unit given, every height is taken: dolls and giants may be dressed.
-CollisionBody make_collision_body(const ObjMesh& mesh, std::string_view file, LengthUnit unit);
+CollisionBody make_collision_body(const SurfaceMesh& read, std::string_view file, LengthUnit unit);
 
 CollisionBody from_mannequin(const Mannequin& mannequin);
 

@@ -1,10 +1,12 @@
-// body/numbered_files.cpp: which OBJ files are the frames of a sequence.
+// body/numbered_files.cpp: which files are the frames of a sequence.
 #include "body/body_samples.hpp"
 #include "core/error.hpp"
+#include "io/mesh_file.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <system_error>
 
 namespace toile::internal {
@@ -58,13 +60,22 @@ std::optional<Pattern> pattern_of(std::string_view name) {
 
 // Around the last number in the stem of a file's name.
 std::optional<Pattern> around_last_number(std::string_view name) {
-  const std::size_t stem = name.size() - 4;  // without ".obj"
+  const std::size_t stem = name.rfind('.');  // of a name with an ending
   std::size_t end = stem;
   while (end > 0 && !is_digit(name[end - 1])) --end;
   std::size_t begin = end;
   while (begin > 0 && is_digit(name[begin - 1])) --begin;
   if (begin == end || end - begin > digits_at_most) return std::nullopt;
   return Pattern{std::string(name.substr(0, begin)), std::string(name.substr(end))};
+}
+
+// Of the endings of meshes the first one that any file has: a folder of OBJ files may hold other things.
+std::string_view ending_of_frames(std::span<const std::string> names) {
+  for (const MeshReader& reader : mesh_readers())
+    for (const std::string_view ending : reader.endings)
+      if (std::any_of(names.begin(), names.end(), [&](const std::string& name) { return name.ends_with(ending); }))
+        return ending;
+  return mesh_readers().front().endings.front();
 }
 
 std::vector<std::string> names_in(const fs::path& folder) {
@@ -90,10 +101,12 @@ std::vector<NumberedFile> numbered_files(const std::string& path) {
                        "none of these");
   }
   std::vector<NumberedFile> frames;
-  for (const std::string& name : names_in(folder.empty() ? fs::path(".") : folder)) {
+  const std::vector<std::string> names = names_in(folder.empty() ? fs::path(".") : folder);
+  const std::string_view ending = ending_of_frames(names);
+  for (const std::string& name : names) {
     const std::string file = (folder / name).string();
     if (is_folder) {
-      if (!name.ends_with(".obj")) continue;
+      if (!name.ends_with(ending)) continue;
       const auto around = around_last_number(name);
       if (!around) throw InputError(printable(file), "body sequence", "a number in the name of every frame", "none");
       if (!pattern) pattern = around;
@@ -105,7 +118,7 @@ std::vector<NumberedFile> numbered_files(const std::string& path) {
     }
     if (const auto number = pattern->number_in(name)) frames.push_back({*number, file});
   }
-  if (frames.empty()) throw InputError(printable(path), "body sequence", "numbered .obj files", "none");
+  if (frames.empty()) throw InputError(printable(path), "body sequence", "numbered files of meshes", "none");
   std::sort(frames.begin(), frames.end(), [](const NumberedFile& a, const NumberedFile& b) {
     return a.number < b.number || (a.number == b.number && a.path < b.path);
   });

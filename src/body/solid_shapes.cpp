@@ -3,6 +3,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "mesh/join_sides.hpp"
 
 #include <fmt/printf.h>
 #include <Eigen/Geometry>
@@ -194,9 +195,11 @@ SolidMesh revolved(std::span<const Vec2> profile_m, double edge_m) {
   return solid;
 }
 
-SolidMesh whole_of(const ObjMesh& mesh) {
+SolidMesh whole_of(const SurfaceMesh& mesh) {
+  const std::vector<Triangle> triangles =
+      joined_triangles(mesh.triangles, join_sides(mesh.positions, mesh.triangles, mesh.object));
   std::vector<Index> place(mesh.positions.size(), -1);
-  for (const Triangle& t : mesh.triangles)
+  for (const Triangle& t : triangles)
     for (const Index v : t) place[at(v)] = 0;
   SolidMesh solid;
   for (std::size_t i = 0; i < place.size(); ++i) {
@@ -204,7 +207,7 @@ SolidMesh whole_of(const ObjMesh& mesh) {
     place[i] = static_cast<Index>(solid.positions.size());
     solid.positions.push_back(mesh.positions[i]);
   }
-  for (const auto& [a, b, c] : mesh.triangles) solid.triangles.push_back({place[at(a)], place[at(b)], place[at(c)]});
+  for (const auto& [a, b, c] : triangles) solid.triangles.push_back({place[at(a)], place[at(b)], place[at(c)]});
   return solid;
 }
 

@@ -2,7 +2,7 @@
 // Lengths in metres, > 0.
 #pragma once
 #include "core/types.hpp"
-#include "io/obj.hpp"
+#include "io/surface_mesh.hpp"
 
 #include <cstddef>
 #include <span>
@@ -35,8 +35,9 @@ SolidMesh block(const Vec3& size_m);
 // that touches the axis between its ends, or has one end on it.
 SolidMesh revolved(std::span<const Vec2> profile_m, double edge_m);
 
-// Everything in the file, however many parts it has; vertices that no triangle uses go.  Who takes it checks it.
-SolidMesh whole_of(const ObjMesh& mesh);
+// Everything in the file, however many parts it has; vertices that no triangle uses go, and those that were split are one
+// (mesh/join_sides.hpp).  Who takes it checks it.
+SolidMesh whole_of(const SurfaceMesh& mesh);
 
 // A room: the same surface seen from inside.
 void turn_inside_out(SolidMesh& solid);

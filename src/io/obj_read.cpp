@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "io/file.hpp"
+#include "io/mesh_formats.hpp"
 #include "io/obj.hpp"
 
 namespace toile::internal {
@@ -95,7 +96,18 @@ class ObjReader {
  public:
   ObjReader(std::string_view text, std::string_view file) : words_(text), file_(file) {}
 
-  ObjMesh read() {
+  // The first word of the text is one of the format: there is nothing else to know it by.
+  bool begins_well() {
+    std::string_view keyword;
+    while (keyword.empty() && !words_.at_end()) {
+      keyword = words_.next();
+      if (keyword.empty()) words_.next_line();
+    }
+    return keyword == "v" || keyword == "vt" || keyword == "f" || keyword == "g" || keyword == "o" ||
+           is_harmless(keyword);
+  }
+
+  SurfaceMesh read() {
     while (!words_.at_end()) read_line();
     check_forward();
     if (mesh_.positions.empty()) fail(words_.line(), "mesh", "at least one vertex", "none");
@@ -182,8 +194,8 @@ class ObjReader {
   }
 
   void read_vertex() {
-    if (mesh_.positions.size() == obj_vertex_limit) {
-      fail(words_.line(), "vertex", "at most " + std::to_string(obj_vertex_limit) + " vertices", "more");
+    if (mesh_.positions.size() == mesh_vertex_limit) {
+      fail(words_.line(), "vertex", "at most " + std::to_string(mesh_vertex_limit) + " vertices", "more");
     }
     Vec3 position;
     read_numbers("vertex", position.data(), 3, 8);  // x y z [w] [r g b [a]]
@@ -191,8 +203,8 @@ class ObjReader {
   }
 
   void read_texcoord() {
-    if (mesh_.texcoords.size() == 3 * obj_vertex_limit) {
-      fail(words_.line(), "texture coordinate", "at most " + std::to_string(3 * obj_vertex_limit), "more");
+    if (mesh_.texcoords.size() == 3 * mesh_vertex_limit) {
+      fail(words_.line(), "texture coordinate", "at most " + std::to_string(3 * mesh_vertex_limit), "more");
     }
     // u [v [w]]: v is 0 when it is not there.
     const std::string_view first = words_.next();
@@ -253,8 +265,8 @@ class ObjReader {
     if (corners_.size() < 3) {
       fail(words_.line(), "face", "at least 3 corners", std::to_string(corners_.size()));
     }
-    if (mesh_.triangles.size() + corners_.size() - 2 > obj_triangle_limit) {
-      fail(words_.line(), "face", "at most " + std::to_string(obj_triangle_limit) + " triangles", "more");
+    if (mesh_.triangles.size() + corners_.size() - 2 > mesh_triangle_limit) {
+      fail(words_.line(), "face", "at most " + std::to_string(mesh_triangle_limit) + " triangles", "more");
     }
     if (current_group_ < 0) current_group_ = number_of(group_, groups_, mesh_.group_names);
     if (current_object_ < 0) current_object_ = number_of(object_, objects_, mesh_.object_names);
@@ -289,7 +301,7 @@ class ObjReader {
 
   Words words_;
   std::string_view file_;
-  ObjMesh mesh_;
+  SurfaceMesh mesh_;
   bool any_texcoord_ = false;
   std::string_view group_, object_;                 // names in force, numbered at their first face
   Index current_group_ = -1, current_object_ = -1;  // their numbers; -1 until then
@@ -298,13 +310,25 @@ class ObjReader {
   std::vector<Forward> forward_;
 };
 
-}  // namespace
-
-ObjMesh parse_obj(std::string_view text, std::string_view file) {
-  if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);  // UTF-8 byte order mark
-  return ObjReader(text, file).read();
+std::string_view without_byte_order_mark(std::string_view text) {
+  if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);  // of UTF-8
+  return text;
 }
 
-ObjMesh load_obj(const std::string& path) { return parse_obj(read_file(path), path); }
+}  // namespace
+
+SurfaceMesh parse_obj(std::string_view text, std::string_view file) {
+  return ObjReader(without_byte_order_mark(text), file).read();
+}
+
+SurfaceMesh load_obj(const std::string& path) { return parse_obj(read_file(path), path); }
+
+MeshReader obj_reader() {
+  return {"OBJ",
+          {".obj"},
+          [](std::string_view text) { return ObjReader(without_byte_order_mark(text), "").begins_well(); },
+          [](const MeshSource& source) { return parse_obj(source.bytes, source.file); },
+          nullptr};
+}
 
 }  // namespace toile::internal

@@ -1,12 +1,9 @@
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <map>
-#include <tuple>
-
-#include "core/error.hpp"
-#include "io/file.hpp"
 #include "io/obj.hpp"
+
+#include "io/file.hpp"
+#include "io/mesh_formats.hpp"
+
+#include <charconv>
 
 namespace toile::internal {
 namespace {
@@ -25,14 +22,10 @@ class ObjText {
     text_.append(digits, end);
   }
   void index(Index from_zero) { text_ += std::to_string(from_zero + 1); }
-  // A name cannot end its line or go on in the next one.
+  // It cannot go on in the next line either.
   void name(std::string_view text) {
-    const std::size_t begin = text_.size();
-    for (const char c : text) {
-      const auto byte = static_cast<unsigned char>(c);
-      text_ += byte < 0x20 || byte == 0x7f ? '_' : c;
-    }
-    if (text_.size() > begin && text_.back() == '\\') text_.back() = '_';
+    text_ += name_on_one_line(text);
+    if (!text.empty() && text_.back() == '\\') text_.back() = '_';
   }
   void end_line() {
     text_ += '\n';
@@ -48,94 +41,22 @@ class ObjText {
   std::string text_;
 };
 
-class Check {
- public:
-  explicit Check(const std::string& path) : path_(path) {}
-
-  // `finite` as a float: 1e39 is not.
-  void number(std::string_view kind, std::size_t i, double value) const {
-    if (!std::isfinite(static_cast<float>(value))) {
-      char digits[32];
-      throw InputError(printable(path_), std::string(kind) + ' ' + std::to_string(i), "a number that a float can hold",
-                       std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr));
-    }
-  }
-  void count(std::string_view what, std::size_t expected, std::size_t got) const {
-    if (expected != got) {
-      throw InputError(printable(path_), what, std::to_string(expected) + " entries", std::to_string(got));
-    }
-  }
-  void index(std::string_view what, std::size_t t, Index lowest, std::size_t count, Index got) const {
-    if (got < lowest || (got >= 0 && static_cast<std::size_t>(got) >= count)) {
-      throw InputError(printable(path_), "triangle " + std::to_string(t),
-                       std::string(what) + " below " + std::to_string(count), std::to_string(got));
-    }
-  }
-
- private:
-  const std::string& path_;
-};
-
-void check(const std::string& path, const ObjMesh& mesh) {
-  const Check check(path);
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    for (const double x : mesh.positions[i]) check.number("vertex", i, x);
-  }
-  for (std::size_t i = 0; i < mesh.texcoords.size(); ++i) {
-    for (const double x : mesh.texcoords[i]) check.number("texture coordinate", i, x);
-  }
-  const std::size_t count = mesh.triangles.size();
-  if (!mesh.texcoord.empty()) check.count("texcoord", count, mesh.texcoord.size());
-  if (!mesh.group.empty()) check.count("group", count, mesh.group.size());
-  if (!mesh.object.empty()) check.count("object", count, mesh.object.size());
-  for (std::size_t t = 0; t < count; ++t) {
-    for (const Index i : mesh.triangles[t]) check.index("a vertex", t, 0, mesh.positions.size(), i);
-    if (!mesh.texcoord.empty()) {
-      for (const Index i : mesh.texcoord[t]) check.index("a texture coordinate", t, -1, mesh.texcoords.size(), i);
-    }
-    if (!mesh.group.empty()) check.index("a group", t, 0, mesh.group_names.size(), mesh.group[t]);
-    if (!mesh.object.empty()) check.index("an object", t, 0, mesh.object_names.size(), mesh.object[t]);
-  }
-}
-
-// Where a triangle goes: its object and its group within that, each numbered in order of first appearance.
-struct Placed {
-  std::size_t object, group, triangle;
-};
-
-std::vector<Placed> placed_triangles(const ObjMesh& mesh) {
-  std::map<Index, std::size_t> objects;
-  std::map<std::pair<Index, Index>, std::size_t> groups;
-  std::vector<Placed> placed(mesh.triangles.size());
-  for (std::size_t t = 0; t < placed.size(); ++t) {
-    const Index object = mesh.object.empty() ? 0 : mesh.object[t];
-    const Index group = mesh.group.empty() ? 0 : mesh.group[t];
-    placed[t].object = objects.try_emplace(object, objects.size()).first->second;
-    placed[t].group = groups.try_emplace({object, group}, groups.size()).first->second;
-    placed[t].triangle = t;
-  }
-  std::sort(placed.begin(), placed.end(), [](const Placed& l, const Placed& r) {
-    return std::tie(l.object, l.group, l.triangle) < std::tie(r.object, r.group, r.triangle);
-  });
-  return placed;
-}
-
 }  // namespace
 
-void write_obj(const std::string& path, const ObjMesh& mesh) {
-  check(path, mesh);
-  const std::vector<Placed> placed = placed_triangles(mesh);
+void write_obj(const std::string& path, const SurfaceMesh& mesh) {
+  check_writable(path, mesh);
+  const std::vector<MeshPiece> pieces = pieces_of(mesh);
   AtomicFile file(path);
   ObjText text(file);
 
-  const auto write_object = [&](std::size_t t) {
+  const auto write_object = [&](const MeshPiece& piece) {
     text.word("o ");
-    text.name(mesh.object_names[static_cast<std::size_t>(mesh.object[t])]);
+    text.name(mesh.object_names[at(piece.object)]);
     text.end_line();
   };
   // Programs that read one object per `o` expect its vertices behind it.
-  const bool one_object = !placed.empty() && placed.front().object == placed.back().object;
-  if (one_object && !mesh.object.empty()) write_object(0);
+  const bool one_object = !pieces.empty() && pieces.front().object == pieces.back().object;
+  if (one_object && !mesh.object.empty()) write_object(pieces.front());
 
   for (const Vec3& x : mesh.positions) {
     text.word("v");
@@ -153,28 +74,31 @@ void write_obj(const std::string& path, const ObjMesh& mesh) {
     }
     text.end_line();
   }
-  for (std::size_t p = 0; p < placed.size(); ++p) {
-    const std::size_t t = placed[p].triangle;
-    const bool new_object = p == 0 || placed[p].object != placed[p - 1].object;
-    if (new_object && !one_object) write_object(t);
-    if (!mesh.group.empty() && (new_object || placed[p].group != placed[p - 1].group)) {
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const MeshPiece& piece = pieces[p];
+    if (!one_object && (p == 0 || piece.object != pieces[p - 1].object)) write_object(piece);
+    if (!mesh.group.empty()) {
       text.word("g ");
-      text.name(mesh.group_names[static_cast<std::size_t>(mesh.group[t])]);
+      text.name(mesh.group_names[at(piece.group)]);
       text.end_line();
     }
-    text.word("f");
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      text.word(" ");
-      text.index(mesh.triangles[t][corner]);
-      if (!mesh.texcoord.empty() && mesh.texcoord[t][corner] >= 0) {
-        text.word("/");
-        text.index(mesh.texcoord[t][corner]);
+    for (const std::size_t t : piece.triangles) {
+      text.word("f");
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        text.word(" ");
+        text.index(mesh.triangles[t][corner]);
+        if (!mesh.texcoord.empty() && mesh.texcoord[t][corner] >= 0) {
+          text.word("/");
+          text.index(mesh.texcoord[t][corner]);
+        }
       }
+      text.end_line();
     }
-    text.end_line();
   }
   text.flush();
   file.commit();
 }
+
+MeshWriter obj_writer() { return {"obj", ".obj", write_obj}; }
 
 }  // namespace toile::internal

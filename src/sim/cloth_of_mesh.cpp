@@ -1,6 +1,7 @@
 #include "sim/cloth_of_mesh.hpp"
 
 #include "core/error.hpp"
+#include "mesh/join_sides.hpp"
 
 #include <fmt/printf.h>
 
@@ -10,7 +11,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <tuple>
 
 namespace toile::internal {
 namespace {
@@ -33,7 +33,7 @@ bool has_area(const Corners& uv) {
 }
 
 // [triangle] (u, v) as it is drawn; empty when a face has no vt.
-std::vector<Corners> drawing_of(const ObjMesh& mesh) {
+std::vector<Corners> drawing_of(const SurfaceMesh& mesh) {
   std::vector<Corners> uv;
   if (mesh.texcoord.empty()) return uv;
   uv.reserve(mesh.triangles.size());
@@ -49,7 +49,7 @@ std::vector<Corners> drawing_of(const ObjMesh& mesh) {
 }
 
 // Islands that are drawn from their wrong side are turned over.  An island: faces that share two vt.
-void face_up(const ObjMesh& mesh, std::vector<Corners>& uv) {
+void face_up(const SurfaceMesh& mesh, std::vector<Corners>& uv) {
   std::vector<std::size_t> island(uv.size());
   std::iota(island.begin(), island.end(), std::size_t{0});
   const auto root = [&](std::size_t t) {
@@ -84,51 +84,55 @@ Corners as_it_starts(const std::array<Vec3, 3>& x, const Corners& uv) {
   return {Vec2(0, 0), Vec2(ab.dot(warp), ab.dot(weft)), Vec2(ac.dot(warp), ac.dot(weft))};
 }
 
-struct Welded {
-  std::vector<Index> particle;  // [vertex of the file]; -1: no face uses it
+// Vertices that the file had to split are one particle; those that no face uses are left out, the others keep their order.
+struct Particles {
+  std::vector<Index> of;  // [vertex of the file]; -1: no face uses it
   Vec3s x;
-  std::size_t joined = 0, unused = 0;
+  std::size_t joined = 0, unused = 0, sides_left = 0;
 };
 
-Welded weld_vertices(const ObjMesh& mesh, double unit_m) {
+Particles particles_of(const SurfaceMesh& mesh, double unit_m) {
   std::vector<char> used(mesh.positions.size(), 0);
   for (const Triangle& t : mesh.triangles)
     for (const Index i : t) used[at(i)] = 1;
-  Welded welded;
-  welded.particle.assign(mesh.positions.size(), -1);
-  std::map<std::tuple<double, double, double>, Index> first_at;
+  const JoinedSides joined = join_sides(mesh.positions, mesh.triangles, mesh.object);
+  Particles particles;
+  particles.joined = joined.joined;
+  particles.sides_left = joined.left;
+  particles.of.assign(mesh.positions.size(), -1);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (used[i] == 0) {
-      ++welded.unused;
-      continue;
+      ++particles.unused;
+    } else if (at(joined.same_as[i]) < i) {
+      particles.of[i] = particles.of[at(joined.same_as[i])];
+    } else {
+      particles.of[i] = static_cast<Index>(particles.x.size());
+      particles.x.push_back(unit_m * mesh.positions[i]);
     }
-    const Vec3& p = mesh.positions[i];
-    const auto [place, is_new] = first_at.try_emplace({p.x(), p.y(), p.z()}, static_cast<Index>(welded.x.size()));
-    welded.particle[i] = place->second;
-    if (is_new)
-      welded.x.push_back(unit_m * p);
-    else
-      ++welded.joined;
   }
-  return welded;
+  return particles;
 }
 
 }  // namespace
 
-SceneClothArrays arrays_of_mesh(const ObjMesh& mesh, std::string_view file, double unit_m, RestShape rest,
+SceneClothArrays arrays_of_mesh(const SurfaceMesh& mesh, std::string_view file, double unit_m, RestShape rest,
                                 std::vector<std::string>& warnings) {
   const std::string name(file);
   if (mesh.triangles.empty()) throw InputError(file, "mesh", "faces", "none");
-  Welded welded = weld_vertices(mesh, unit_m);
+  Particles particles = particles_of(mesh, unit_m);
   SceneClothArrays arrays;
-  arrays.x = std::move(welded.x);
+  arrays.x = std::move(particles.x);
   for (const Triangle& t : mesh.triangles)
-    arrays.triangles.push_back({welded.particle[at(t[0])], welded.particle[at(t[1])], welded.particle[at(t[2])]});
-  if (welded.joined > 0)
-    warnings.push_back(name + ": " + std::to_string(welded.joined) +
-                       " vertices lie where another one does, and are one with it");
-  if (welded.unused > 0)
-    warnings.push_back(name + ": " + std::to_string(welded.unused) + " vertices that no face uses are left out");
+    arrays.triangles.push_back({particles.of[at(t[0])], particles.of[at(t[1])], particles.of[at(t[2])]});
+  warnings.insert(warnings.end(), mesh.notes.begin(), mesh.notes.end());
+  if (particles.joined > 0)
+    warnings.push_back(name + ": " + std::to_string(particles.joined) +
+                       " vertices lie where another one does, along a seam, and are one with it");
+  if (particles.sides_left > 0)
+    warnings.push_back(name + ": " + std::to_string(particles.sides_left) +
+                       " edges lie exactly on others and are not joined: it cannot be told which belong together");
+  if (particles.unused > 0)
+    warnings.push_back(name + ": " + std::to_string(particles.unused) + " vertices that no face uses are left out");
 
   const bool groups = mesh.group_names.size() > 1 || (mesh.group_names.size() == 1 && !mesh.group_names[0].empty());
   if (groups || mesh.object_names.size() > 1) {

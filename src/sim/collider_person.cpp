@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "io/file.hpp"
-#include "io/obj.hpp"
+#include "io/mesh_file.hpp"
 #include "mesh/check.hpp"
 #include "sim/colliders.hpp"
 
@@ -69,9 +69,12 @@ void load_measurements(const SceneMesh& mesh, std::span<const Vec3> x, Collider&
 
 }  // namespace
 
-CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit) {
+CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, Hash* inputs) {
   const std::string file = printable(path);
-  CollisionBody body = make_collision_body(parse_obj(text, file), file, unit);
+  const SurfaceMesh mesh = parse_mesh(text, path, [&](std::string_view beside) {
+    if (inputs != nullptr) inputs->add_text(beside);
+  });
+  CollisionBody body = make_collision_body(mesh, file, unit);
   check_areas(file, body.positions, body.triangles);
   return body;
 }
@@ -101,8 +104,9 @@ Collider load(const SceneMannequin& mannequin, const SceneCollider& whole, Hash&
 namespace {
 
 // Of what is not worn: all that the file has, closed parts of any number.
-CollisionBody read_whole(const std::string& file, std::string_view text, LengthUnit unit) {
-  SolidMesh read = whole_of(parse_obj(text, file));
+CollisionBody read_whole(const std::string& path, LengthUnit unit, Hash& inputs) {
+  const std::string file = printable(path);
+  SolidMesh read = whole_of(load_mesh(path, [&](std::string_view bytes) { inputs.add_text(bytes); }));
   for (Vec3& x : read.positions) x *= metres_in(unit);
   check_closed(file, read.positions, read.triangles);
   check_areas(file, read.positions, read.triangles);
@@ -116,10 +120,13 @@ CollisionBody read_whole(const std::string& file, std::string_view text, LengthU
 
 Collider load(const SceneMesh& mesh, const SceneCollider& whole, Hash& inputs) {
   Collider collider;
-  const std::string text = read_file(mesh.path), file = printable(mesh.path);
-  inputs.add_text(text);
+  const auto read_person = [&] {
+    const std::string text = read_file(mesh.path);
+    inputs.add_text(text);
+    return read_body(mesh.path, text, mesh.unit, &inputs);
+  };
   const bool is_person = whole.worn || whole.motion;
-  CollisionBody read = is_person ? read_body(mesh.path, text, mesh.unit) : read_whole(file, text, mesh.unit);
+  CollisionBody read = is_person ? read_person() : read_whole(mesh.path, mesh.unit, inputs);
   collider.warnings = std::move(read.notes);
   if (whole.worn) load_measurements(mesh, read.positions, collider, inputs);
   if (whole.motion && whole.motion->name.empty()) {
@@ -127,7 +134,7 @@ Collider load(const SceneMesh& mesh, const SceneCollider& whole, Hash& inputs) {
   } else if (whole.motion) {
     Motion motion = Motion::named(whole.motion->name);
     motion.set_lead_in_s(whole.motion->lead_in_s);
-    collider.movement = movement_of(BodyMotion::of_person(file, read, motion), whole.motion->name, inputs);
+    collider.movement = movement_of(BodyMotion::of_person(printable(mesh.path), read, motion), whole.motion->name, inputs);
   }
   collider.surface = {std::move(read.positions), std::move(read.triangles)};
   return collider;

@@ -43,7 +43,7 @@ struct SceneMesh {
 };
 template <class V>
 void describe_choice(V& v, SceneMesh& mesh, bool worn) {
-  v.path({"mesh", worn ? "a closed OBJ" : "a closed OBJ, with all its parts", "no"}, mesh.path);
+  v.path({"mesh", worn ? "a closed [mesh file](#mesh-files)" : "a closed [mesh file](#mesh-files), with all its parts", "no"}, mesh.path);
 }
 template <class V>
 void describe_beside(V& v, SceneMesh& mesh, bool worn) {
@@ -67,8 +67,8 @@ struct SceneArrays {
   std::shared_ptr<const Frames> frames;
 };
 
-// The body of an OBJ file with this text, checked.  Throws InputError.
-CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit);
+// The body of a mesh file with this text, checked; other files that it is made of are added to `inputs`.  Throws InputError, IoError.
+CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, Hash* inputs = nullptr);
 // The file that measurements are read from: the one that is named, or one beside the mesh; empty: there is none.
 std::string measurements_path(const SceneMesh& mesh);
 

@@ -12,7 +12,7 @@ namespace {
 // Copies triangles with the vertices that they use.
 class Copy {
  public:
-  Copy(ObjMesh& to, std::span<const Vec3> x) : to_(&to), x_(x), vertex_(x.size(), -1) {}
+  Copy(SurfaceMesh& to, std::span<const Vec3> x) : to_(&to), x_(x), vertex_(x.size(), -1) {}
 
   void add(const Triangle& triangle, Index group, Index object) {
     Triangle copied{};
@@ -30,7 +30,7 @@ class Copy {
   }
 
  private:
-  ObjMesh* to_;
+  SurfaceMesh* to_;
   std::span<const Vec3> x_;
   std::vector<Index> vertex_;
 };
@@ -57,9 +57,9 @@ std::string name_triangles(const ClothMesh& mesh, std::span<const Index> triangl
   return words;
 }
 
-ObjMesh offenders_obj(const ClothMesh& mesh, std::span<const Vec3> x, std::span<const Index> triangles,
-                      std::span<const Triangle> body, std::span<const Vec3> body_x, double near_m) {
-  ObjMesh obj;
+SurfaceMesh offenders_obj(const ClothMesh& mesh, std::span<const Vec3> x, std::span<const Index> triangles,
+                          std::span<const Triangle> body, std::span<const Vec3> body_x, double near_m) {
+  SurfaceMesh obj;
   obj.object_names = {"cloth", "body"};
   obj.group_names = mesh.panel_names;
   obj.group_names.emplace_back("body");

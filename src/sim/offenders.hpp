@@ -1,6 +1,6 @@
 // sim/offenders.hpp: what a run ended over, for a person to look at: triangles of the cloth, and the body near them.
 #pragma once
-#include "io/obj.hpp"
+#include "io/surface_mesh.hpp"
 #include "mesh/cloth_mesh.hpp"
 
 #include <span>
@@ -13,7 +13,7 @@ std::string name_triangles(const ClothMesh& mesh, std::span<const Index> triangl
 
 // Object "cloth" with the triangles, grouped by panel, and object "body" with those of its triangles whose boxes come
 // within `near_m` of the cloth's; vertices that nobody uses are left out, and triangles that are not finite.
-ObjMesh offenders_obj(const ClothMesh& mesh, std::span<const Vec3> x, std::span<const Index> triangles,
-                      std::span<const Triangle> body, std::span<const Vec3> body_x, double near_m = 0.02);
+SurfaceMesh offenders_obj(const ClothMesh& mesh, std::span<const Vec3> x, std::span<const Index> triangles,
+                          std::span<const Triangle> body, std::span<const Vec3> body_x, double near_m = 0.02);
 
 }  // namespace toile::internal

@@ -19,7 +19,7 @@ namespace toile::internal {
 namespace {
 
 struct Take {  // one cache and the surface that it moves
-  ObjMesh obj;
+  SurfaceMesh obj;
   // One per object of the file: its triangles and their coordinates.
   struct Piece {
     std::vector<Triangle> triangles;

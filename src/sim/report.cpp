@@ -217,6 +217,19 @@ void add_rest_stretch(JsonText& text, const Report& report) {
   }
 }
 
+void add_fabrics(JsonText& text, const Report& report) {
+  text.key("fabrics");
+  text.begin_array();
+  for (const Report::PanelFabric& panel : report.fabrics) {
+    text.begin_object();
+    text.member("garment", panel.garment);
+    text.member("panel", panel.panel);
+    text.member("fabric", panel.fabric);
+    text.end_object();
+  }
+  text.end_array();
+}
+
 void add_inputs(JsonText& text, const Report& report) {
   text.key("inputs");
   text.begin_array();
@@ -339,6 +352,7 @@ std::string to_json(const Report& report, int indent) {
   add_seconds_per_frame(text, report.drape);
   add_cg(text, report.drape);
   add_rest_stretch(text, report);
+  add_fabrics(text, report);
   add_measurements(text, report);
   text.key("sewing");
   if (report.seams == 0) {

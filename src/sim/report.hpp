@@ -107,6 +107,10 @@ struct Report {
   std::vector<OpenSeam> open_seams;
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, std::array<double, 2>>> rest_stretch;  // panel, b along the two axes of vt
+  struct PanelFabric {
+    std::string garment, panel, fabric;
+  };
+  std::vector<PanelFabric> fabrics;
   VerifyReport audit;
   LayerGap layer_gap;  // last frame
   Verdict verdict;

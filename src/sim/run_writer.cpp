@@ -13,9 +13,9 @@ namespace toile::internal {
 namespace {
 
 // Equal vt of one panel are one vt: a seam has one per panel, everything else one per particle.
-ObjMesh cloth_obj(const ClothMesh& mesh, std::span<const Index> garment_of_panel, std::span<const std::string> garments,
-                  std::span<const Vec3> x) {
-  ObjMesh obj;
+SurfaceMesh cloth_obj(const ClothMesh& mesh, std::span<const Index> garment_of_panel,
+                      std::span<const std::string> garments, std::span<const Vec3> x) {
+  SurfaceMesh obj;
   obj.positions.assign(x.begin(), x.end());
   obj.triangles = mesh.triangles;
   obj.group = mesh.panel;
@@ -38,8 +38,8 @@ ObjMesh cloth_obj(const ClothMesh& mesh, std::span<const Index> garment_of_panel
   return obj;
 }
 
-ObjMesh body_obj(std::span<const Triangle> triangles, std::span<const Vec3> x) {
-  ObjMesh obj;
+SurfaceMesh body_obj(std::span<const Triangle> triangles, std::span<const Vec3> x) {
+  SurfaceMesh obj;
   obj.positions.assign(x.begin(), x.end());
   obj.triangles.assign(triangles.begin(), triangles.end());
   obj.object.assign(triangles.size(), 0);
@@ -107,7 +107,7 @@ void RunWriter::cloth_frame(std::span<const Vec3> x, std::span<const Vec3> body_
   cloth_->append(x);
 }
 
-void RunWriter::offenders(const ObjMesh& mesh) {
+void RunWriter::offenders(const SurfaceMesh& mesh) {
   remove_file(path("offenders.obj"));
   write_obj(path("offenders.obj"), mesh);
 }

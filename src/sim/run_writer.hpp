@@ -12,9 +12,9 @@
 // vt are the panel's own drawing coordinates: vt = (-v, u), because u = y of the drawing is the warp and v = -x the weft
 // (garment/garment_mesh.hpp).  A reader that calls the first vt axis "u" sees the weft there.
 #pragma once
-#include "io/obj.hpp"
 #include "io/pc2.hpp"
 #include "io/run_folder.hpp"
+#include "io/surface_mesh.hpp"
 #include "mesh/cloth_mesh.hpp"
 #include "sim/report.hpp"
 
@@ -50,7 +50,7 @@ class RunWriter {
                    std::span<const std::string> garments, std::span<const Vec3> x, std::span<const Triangle> body,
                    std::span<const Vec3> body_x);
   void cloth_frame(std::span<const Vec3> x, std::span<const Vec3> body_x);
-  void offenders(const ObjMesh& mesh);
+  void offenders(const SurfaceMesh& mesh);
 
   // Goes on behind the frames that a run wrote before; those that came after them are written anew.  Throws IoError, InputError when the caches
   // have fewer.

@@ -2,6 +2,7 @@
 
 #include "body/body_samples.hpp"
 #include "io/file.hpp"
+#include "io/mesh_file.hpp"
 #include "sim/setup.hpp"
 
 #include <filesystem>
@@ -17,7 +18,8 @@ std::vector<std::string> files_among(std::span<const std::string> paths) {
   for (const std::string& path : paths) {
     const fs::path place(path);
     if (fs::is_regular_file(place)) {
-      files.push_back(path);
+      const std::vector<std::string> parts = has_mesh_ending(path) ? files_of_mesh(path) : std::vector{path};
+      files.insert(files.end(), parts.begin(), parts.end());
     } else if (fs::exists(place / "report.json")) {
       for (const char* name : {"report.json", "cloth.obj", "cloth.pc2", "body.obj", "body.pc2"})
         if (fs::is_regular_file(place / name)) files.push_back((place / name).string());

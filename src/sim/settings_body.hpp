@@ -27,7 +27,7 @@ void describe(V& v, SceneMotion& motion) {
                 "([motions.md](motions.md))",
                 "a file"},
                motion_names(), motion.name);
-  v.path({"file", "a .pc2 file, or a folder of OBJ files", "a name"}, motion.path);
+  v.path({"file", "a .pc2 file, or a folder of OBJ or PLY files", "a name"}, motion.path);
   v.number({"fps", "of the file"}, {1, most_fps}, motion.fps);
   v.number({"lead_in_s", "from the pose in which the body stands into the motion"}, {0, 10}, motion.lead_in_s);
 }

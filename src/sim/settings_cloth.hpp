@@ -168,7 +168,8 @@ void describe(V& v, SceneCloth& cloth) {
          cloth.name);
   v.exactly_one({"pattern", "mesh", "grid", "tube", "ribbon"});
   v.path({"pattern", "a sewing pattern ([pattern-format.md](pattern-format.md))", "a shape"}, cloth.pattern);
-  v.path({"mesh", "a garment that is modelled already: an OBJ file ([meshes](#meshes))", "no"}, cloth.mesh);
+  v.path({"mesh", "a garment that is modelled already: a [mesh file](#mesh-files) ([meshes](#meshes))", "no"},
+         cloth.mesh);
   static constexpr std::array<std::pair<std::string_view, LengthUnit>, 3> units = {
       {{"m", LengthUnit::m}, {"dm", LengthUnit::dm}, {"cm", LengthUnit::cm}}};
   v.name({"mesh_unit", "of the mesh's coordinates"}, units, cloth.mesh_unit);

@@ -2,6 +2,7 @@
 #include "sim/setup.hpp"
 
 #include "core/error.hpp"
+#include "io/mesh_file.hpp"
 #include "mesh/check.hpp"
 #include "sim/check_garment.hpp"
 #include "sim/cloth_arrays.hpp"
@@ -58,8 +59,9 @@ GarmentMesh load_shape(const SceneCloth& cloth, const TextSource& read, Hash& in
     const std::string text = read(cloth.mesh), file = printable(cloth.mesh);
     inputs.add_text(text);
     SceneCloth as_arrays = cloth;
+    const SurfaceMesh mesh = parse_mesh(text, cloth.mesh, [&](std::string_view beside) { inputs.add_text(beside); });
     as_arrays.arrays = std::make_shared<const SceneClothArrays>(
-        arrays_of_mesh(parse_obj(text, file), file, metres_in(cloth.mesh_unit), cloth.rest_shape, warnings));
+        arrays_of_mesh(mesh, file, metres_in(cloth.mesh_unit), cloth.rest_shape, warnings));
     return cloth_of_arrays(as_arrays);
   }
   if (cloth.arrays) {

@@ -41,7 +41,7 @@ class Run : public SimulationObserver {
               std::span<const Vec3> body_x) override;
   void frame(std::span<const Vec3> x, std::span<const Vec3> body_x) override { recorder_->frame(x, body_x); }
   void motion_begins() override { set_facts(); }
-  void collapsed(const ObjMesh& offenders) override { writer_->offenders(offenders); }
+  void collapsed(const SurfaceMesh& offenders) override { writer_->offenders(offenders); }
   void between_frames(bool first, const std::function<std::string()>& state) override;
 
   void open_folder();

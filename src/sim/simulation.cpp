@@ -134,7 +134,7 @@ void Simulation::collapse(const std::string& when, const FrameReport& frame, con
                           std::span<const Vec3> x) {
   std::string words = when + ": " + frame.diagnosis;
   if (!frame.offenders.empty()) {
-    const ObjMesh offenders =
+    const SurfaceMesh offenders =
         offenders_obj(mesh, x, frame.offenders, body_triangles_, body_ ? body_->positions() : std::span<const Vec3>{});
     words += "; offenders.obj: " + name_triangles(mesh, frame.offenders);
     const auto of_body = std::count(offenders.object.begin(), offenders.object.end(), 1);

@@ -12,7 +12,7 @@
 #include "core/state_archive.hpp"
 #include "core/stopwatch.hpp"
 #include "garment/placement.hpp"
-#include "io/obj.hpp"
+#include "io/surface_mesh.hpp"
 #include "sim/dressing.hpp"
 #include "sim/dressing_body.hpp"
 #include "sim/falling.hpp"

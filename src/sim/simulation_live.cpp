@@ -63,6 +63,10 @@ void Simulation::show_first() {
     const Vec2& b = rest_stretch[p];
     if (b != Vec2(1, 1)) report_.rest_stretch.push_back({outfit_.mesh.panel_names[p], {b.y(), b.x()}});
   }
+  for (const OutfitPart& part : outfit_.parts)
+    for (Index p = part.first_panel; p < part.first_panel + part.panels; ++p)
+      report_.fabrics.push_back({part.name, outfit_.mesh.panel_names[static_cast<std::size_t>(p)],
+                                 outfit_.fabrics[static_cast<std::size_t>(p)].name});
   report_.vertices = outfit_.mesh.particle_count;
   if (resumes()) say("reading", 0);
   observer_->begins(outfit_, rest_stretch, body_triangles_, body_x_);

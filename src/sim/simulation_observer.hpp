@@ -1,7 +1,7 @@
 // sim/simulation_observer.hpp: who looks on while a scene is simulated: a writer of files, a judge, a picture.
 #pragma once
 #include "core/types.hpp"
-#include "io/obj.hpp"
+#include "io/surface_mesh.hpp"
 #include "mesh/cloth_mesh.hpp"
 #include "sim/outfit.hpp"
 
@@ -26,7 +26,7 @@ class SimulationObserver {
   virtual void frame(std::span<const Vec3> /*x*/, std::span<const Vec3> /*body_x*/) {}
   virtual void motion_begins() {}
   // What the step collapsed over.
-  virtual void collapsed(const ObjMesh& /*offenders*/) {}
+  virtual void collapsed(const SurfaceMesh& /*offenders*/) {}
   // A state could be kept; `state` makes it.  `first`: nothing of the phase is simulated yet.
   virtual void between_frames(bool /*first*/, const std::function<std::string()>& /*state*/) {}
 };

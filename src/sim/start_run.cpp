@@ -30,7 +30,7 @@ Vec3 flat(const Vec2& p) { return {p.x(), p.y(), 0}; }
 // The triangles of one panel of the run, found by a point of the drawing.
 class PanelDrawing {
  public:
-  PanelDrawing(const ObjMesh& run, Index group) : run_(&run) {
+  PanelDrawing(const SurfaceMesh& run, Index group) : run_(&run) {
     for (std::size_t t = 0; t < run.triangles.size(); ++t) {
       if (run.group[t] != group) continue;
       triangles_.push_back(t);
@@ -87,7 +87,7 @@ class PanelDrawing {
     best.distance_m = distance;
   }
 
-  const ObjMesh* run_;
+  const SurfaceMesh* run_;
   std::vector<std::size_t> triangles_;
   Vec2 low_ = Vec2::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
   long columns_ = 1;
@@ -154,7 +154,7 @@ Outfit start_from(const std::string& directory, std::span<const LoadedCloth> clo
   const std::filesystem::path run_directory(directory);
   const std::string obj = (run_directory / "cloth.obj").string(), pc2 = (run_directory / "cloth.pc2").string();
   draped_frame(run_directory, std::numeric_limits<int>::max());  // a finished run, before anything large is read
-  const ObjMesh run = load_obj(obj);
+  const SurfaceMesh run = load_obj(obj);
   if (run.texcoord.empty() || run.group.empty())
     throw InputError(printable(obj), "mesh", "panels as groups, with vt", "none");
   const Vec3s x = draped(run_directory, pc2, run.positions.size());

@@ -40,7 +40,7 @@ std::string join(const std::string& directory, const char* name) {
   return (std::filesystem::path(directory) / name).string();
 }
 
-ClothMesh cloth_of(const ObjMesh& obj, const std::string& path) {
+ClothMesh cloth_of(const SurfaceMesh& obj, const std::string& path) {
   ClothMesh mesh;
   mesh.particle_count = static_cast<Index>(obj.positions.size());
   mesh.triangles = obj.triangles;
@@ -224,7 +224,7 @@ VerifyReport audit_frames(const std::string& directory, const RunRecord& record,
   const std::string cloth_obj = join(directory, "cloth.obj"), cloth_pc2 = join(directory, "cloth.pc2");
   const std::string body_obj = join(directory, "body.obj"), body_pc2 = join(directory, "body.pc2");
   const Pc2End end = record.report ? Pc2End::exact : Pc2End::cut;
-  const ObjMesh cloth = load_obj(cloth_obj);
+  const SurfaceMesh cloth = load_obj(cloth_obj);
   RunDescription run;
   run.mesh = cloth_of(cloth, cloth_obj);
   if (record.rest_stretch) run.b = rest_stretch(*record.rest_stretch, run.mesh);
@@ -235,7 +235,7 @@ VerifyReport audit_frames(const std::string& directory, const RunRecord& record,
   check_points(cloth_pc2, *caches.cloth, "cloth.obj", cloth.positions.size());
   int samples = caches.cloth->samples();
 
-  ObjMesh body;
+  SurfaceMesh body;
   if (record.has_body || std::filesystem::exists(body_obj) || std::filesystem::exists(body_pc2)) {
     body = load_obj(body_obj);
     caches.body.emplace(body_pc2, end);

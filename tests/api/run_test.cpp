@@ -20,6 +20,25 @@ std::string scene_text() {
     "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.3, "top_m": [0, 0, 0]}}, "time": {"fps": 30, "seconds": 1}})";
 }
 
+TEST(ExportRun, WritesFramesOfARunForOtherPrograms) {
+  const Scratch scratch;
+  const test::Arrays cloth = test::level_sheet(10, 0.03, 0.16);
+  Simulation sim(Cloth::from_arrays({.vertices_m = cloth.vertices_m, .faces = cloth.faces}), Body::none());
+  const std::string folder = scratch / "run";
+  RunWriter writer(folder, sim, 30);
+  sim.advance(1.0 / 30);
+  writer.add(sim);
+  writer.finish();
+  for (const char* file : {"last.obj", "last.ply", "last.glb"}) {
+    EXPECT_EQ(export_run(folder, scratch / file), std::vector<std::string>{scratch / file});
+    EXPECT_GT(scratch.get(file).size(), 1000U) << file;
+  }
+  EXPECT_EQ(export_run(folder, scratch / "all", {.to = "ply", .all = true}).size(), 2U);
+  EXPECT_THROW(export_run(folder, scratch / "a.ply", {.frame = 2}), InputError);
+  EXPECT_THROW(export_run(folder, scratch / "a.ply", {.frame = -2}), InputError);
+  EXPECT_THROW(export_run(folder, scratch / "a.usd"), Error);
+}
+
 TEST(RunWriter, WritesWhatTheJudgeReads) {
   const Scratch scratch;
   const test::Arrays cloth = test::level_sheet(10, 0.03, 0.16), block = test::box({0, 0, 0}, 0.15);

@@ -39,8 +39,8 @@ class Folder {
 };
 
 // A box of 1.6 m with the corners in an odd order, and a small box beside it that is not part of the body.
-ObjMesh figure() {
-  ObjMesh mesh;
+SurfaceMesh figure() {
+  SurfaceMesh mesh;
   const auto box = [&](const Vec3& low, const Vec3& high) {
     const Index first = static_cast<Index>(mesh.positions.size());
     for (int c = 0; c < 8; ++c)
@@ -56,7 +56,7 @@ ObjMesh figure() {
 
 CollisionBody figure_body() { return make_collision_body(figure(), "figure.obj", LengthUnit::automatic); }
 
-ObjMesh moved(ObjMesh mesh, const Vec3& by) {
+SurfaceMesh moved(SurfaceMesh mesh, const Vec3& by) {
   for (Vec3& p : mesh.positions) p += by;
   return mesh;
 }
@@ -203,7 +203,7 @@ TEST(BodyMotion, NamesTheFrameThatIsMissingOrThereTwice) {
 TEST(BodyMotion, RefusesAPathThatNamesNoFrames) {
   const Folder folder;
   EXPECT_TRUE(
-      says(complaint([&] { BodyMotion::from_files(folder.path(), figure_body(), {}); }), {"numbered .obj files"}));
+      says(complaint([&] { BodyMotion::from_files(folder.path(), figure_body(), {}); }), {"numbered files of meshes"}));
   EXPECT_TRUE(says(complaint([&] { BodyMotion::from_files(folder / "a.obj", figure_body(), {}); }), {"%04d"}));
   EXPECT_TRUE(says(complaint([&] { BodyMotion::from_files(folder / "a%s.obj", figure_body(), {}); }), {"%04d"}));
   EXPECT_THROW(BodyMotion::from_files(folder / "none.pc2", figure_body(), {}), IoError);
@@ -213,13 +213,13 @@ TEST(BodyMotion, RefusesAPathThatNamesNoFrames) {
 TEST(BodyMotion, RefusesAnotherVertexCountOrOtherTriangles) {
   const Folder folder;
   write_objs(folder, 0, 3, along_z);
-  ObjMesh fewer = figure();
+  SurfaceMesh fewer = figure();
   fewer.positions.pop_back();
   fewer.triangles.resize(12);
   write_obj(folder / "walk_0001.obj", fewer);
   EXPECT_TRUE(says(complaint([&] { BodyMotion::from_files(folder.path(), figure_body(), {}); }),
                    {"walk_0001.obj: frame 1: expected 16 vertices", "or 8 of the body alone, got 15"}));
-  ObjMesh other = figure();
+  SurfaceMesh other = figure();
   std::swap(other.triangles[14][1], other.triangles[14][2]);
   write_obj(folder / "walk_0001.obj", other);
   EXPECT_TRUE(says(complaint([&] { BodyMotion::from_files(folder.path(), figure_body(), {}); }),
@@ -359,7 +359,7 @@ TEST(BodyMotion, IsTheSameOnOneThreadAndOnMany) {
 TEST(BodyMotion, SelectsTheBodyOfMakeHumansBaseMeshFromEachSample) {
   const std::string file = std::string(TOILE_SHARED_DATA) + "/bodies/makehuman/base.obj";
   if (!fs::exists(file)) GTEST_SKIP() << "needs " << file;
-  const ObjMesh mesh = load_obj(file);
+  const SurfaceMesh mesh = load_obj(file);
   const CollisionBody body = make_collision_body(mesh, file, LengthUnit::dm);
   const Folder folder;
   write_pc2(folder / "base.pc2", mesh.positions, 3, [](int f) { return Vec3(0, 0, 0.5 * f); });

@@ -3,6 +3,7 @@
 
 #include "body/mannequins.hpp"
 #include "core/error.hpp"
+#include "io/obj.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@ namespace toile::internal {
 namespace {
 
 // Adds a closed box with corners low and high to a group; `faces` of its 12 triangles.
-void add_box(ObjMesh& mesh, const Vec3& low, const Vec3& high, const std::string& group, std::size_t faces = 12) {
+void add_box(SurfaceMesh& mesh, const Vec3& low, const Vec3& high, const std::string& group, std::size_t faces = 12) {
   const Index first = static_cast<Index>(mesh.positions.size());
   for (int c = 0; c < 8; ++c)
     mesh.positions.emplace_back(c & 1 ? high.x() : low.x(), c & 2 ? high.y() : low.y(), c & 4 ? high.z() : low.z());
@@ -26,13 +27,13 @@ void add_box(ObjMesh& mesh, const Vec3& low, const Vec3& high, const std::string
   }
 }
 
-ObjMesh box_of_height(double height) {
-  ObjMesh mesh;
+SurfaceMesh box_of_height(double height) {
+  SurfaceMesh mesh;
   add_box(mesh, Vec3::Zero(), Vec3(0.2 * height, height, 0.1 * height), "");
   return mesh;
 }
 
-std::string complaint(const ObjMesh& mesh, LengthUnit unit) {
+std::string complaint(const SurfaceMesh& mesh, LengthUnit unit) {
   try {
     make_collision_body(mesh, "models/figure.obj", unit);
   } catch (const InputError& e) {
@@ -70,7 +71,7 @@ TEST(CollisionBody, AsksForTheUnitInsteadOfGuessingIt) {
 }
 
 TEST(CollisionBody, KeepsTheGroupCalledBodyEvenWhenAnotherIsLarger) {
-  ObjMesh mesh;
+  SurfaceMesh mesh;
   add_box(mesh, Vec3(-5, -5, -5), Vec3(5, 5, 5), "helper-skirt");
   add_box(mesh, Vec3::Zero(), Vec3(0.3, 1.7, 0.2), "Body");
   const CollisionBody body = make_collision_body(mesh, "f.obj", LengthUnit::automatic);
@@ -80,7 +81,7 @@ TEST(CollisionBody, KeepsTheGroupCalledBodyEvenWhenAnotherIsLarger) {
 }
 
 TEST(CollisionBody, WithoutSuchANameKeepsTheLargeClosedPartsOnly) {
-  ObjMesh mesh;
+  SurfaceMesh mesh;
   add_box(mesh, Vec3(-3, -3, -3), Vec3(3, 3, 3), "open", 11);
   add_box(mesh, Vec3::Zero(), Vec3(0.4, 1.4, 0.2), "trunk");
   add_box(mesh, Vec3(0.05, 1.45, 0), Vec3(0.25, 1.7, 0.25), "head");
@@ -92,18 +93,18 @@ TEST(CollisionBody, WithoutSuchANameKeepsTheLargeClosedPartsOnly) {
 }
 
 TEST(CollisionBody, RefusesWhatIsNotAClosedBody) {
-  EXPECT_NE(complaint(ObjMesh{}, LengthUnit::automatic).find("expected a closed surface"), std::string::npos);
-  ObjMesh open = box_of_height(1.7);
+  EXPECT_NE(complaint(SurfaceMesh{}, LengthUnit::automatic).find("expected a closed surface"), std::string::npos);
+  SurfaceMesh open = box_of_height(1.7);
   open.triangles.pop_back();
   open.group.pop_back();
   EXPECT_NE(complaint(open, LengthUnit::automatic).find("figure.obj"), std::string::npos);
-  ObjMesh inside_out = box_of_height(1.7);
+  SurfaceMesh inside_out = box_of_height(1.7);
   for (Triangle& t : inside_out.triangles) std::swap(t[1], t[2]);
   EXPECT_NE(complaint(inside_out, LengthUnit::automatic), "");
-  ObjMesh endless = box_of_height(1.7);
+  SurfaceMesh endless = box_of_height(1.7);
   endless.positions[3].x() = 1.0 / 0.0;
   EXPECT_NE(complaint(endless, LengthUnit::automatic).find("vertex 3: expected finite"), std::string::npos);
-  ObjMesh dangling = box_of_height(1.7);
+  SurfaceMesh dangling = box_of_height(1.7);
   dangling.triangles[4][1] = 99;
   EXPECT_NE(complaint(dangling, LengthUnit::automatic).find("triangle 4"), std::string::npos);
 }
@@ -122,7 +123,7 @@ TEST(CollisionBody, IsMadeFromTheMannequinToo) {
 TEST(CollisionBody, ReadsTheBodyOfMakeHumansBaseMesh) {
   const std::string file = std::string(TOILE_SHARED_DATA) + "/bodies/makehuman/base.obj";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
-  const ObjMesh mesh = load_obj(file);
+  const SurfaceMesh mesh = load_obj(file);
   const CollisionBody body = make_collision_body(mesh, file, LengthUnit::dm);
   EXPECT_EQ(body.positions.size(), 13380U);
   EXPECT_EQ(body.triangles.size(), 26756U);

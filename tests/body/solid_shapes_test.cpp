@@ -125,7 +125,7 @@ TEST(SolidShapes, AreAsFineAsAskedOrRefused) {
 }
 
 TEST(SolidShapes, AFileIsTakenWhole) {  // parts that a body would not have too
-  ObjMesh file;
+  SurfaceMesh file;
   const SolidMesh large = block(Vec3(1, 1, 1)), small = block(Vec3(0.01, 0.01, 0.01));
   file.positions.push_back(Vec3(7, 7, 7));  // used by no face
   for (const SolidMesh& part : {large, small}) {

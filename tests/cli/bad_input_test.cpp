@@ -29,7 +29,7 @@ void expect_refused(const Scratch& scratch, const Ended& ended, int exit_code,
 
 std::string put_body(const Scratch& scratch, double scale = 1, std::string_view name = "body.obj") {
   SolidMesh solid = rounded_cylinder(0.2 * scale, 1.0 * scale, Vec3(0, scale, 0));
-  ObjMesh obj;
+  SurfaceMesh obj;
   obj.positions = solid.positions;
   obj.triangles = solid.triangles;
   write_obj(scratch / name, obj);

@@ -16,13 +16,13 @@ using test::Ended;
 using test::run_toile;
 
 void put(const Scratch& scratch, std::string_view name, const Vec3s& x, const std::vector<Triangle>& triangles) {
-  ObjMesh mesh;
+  SurfaceMesh mesh;
   mesh.positions = x;
   mesh.triangles = triangles;
   write_obj(scratch / name, mesh);
 }
 
-ObjMesh get(const Scratch& scratch, std::string_view name) { return load_obj(scratch / name); }
+SurfaceMesh get(const Scratch& scratch, std::string_view name) { return load_obj(scratch / name); }
 
 TEST(UntangleCommand, ACornerThroughASheetIsFreeInTheFile) {
   const Scratch scratch;
@@ -34,7 +34,7 @@ TEST(UntangleCommand, ACornerThroughASheetIsFreeInTheFile) {
   const Json json = Json::parse(ended.out, "stdout");
   EXPECT_TRUE(json.at("resolved").boolean());
   EXPECT_EQ(json.at("out").string(), "out/cloth_untangled.obj");
-  const ObjMesh before = get(scratch, "cloth.obj"), after = get(scratch, "out/cloth_untangled.obj");
+  const SurfaceMesh before = get(scratch, "cloth.obj"), after = get(scratch, "out/cloth_untangled.obj");
   EXPECT_EQ(after.triangles, before.triangles);
   EXPECT_EQ(after.positions.size(), before.positions.size());
   EXPECT_GT(find_cloth_crossings(before.triangles, before.positions).size(), 0u);
@@ -52,7 +52,7 @@ TEST(UntangleCommand, ABodyInAFileAndItsUnit) {
       run_toile(scratch, {"untangle", "sleeve.obj", "--body", "arm.obj", "--body-unit", "cm", "--out", "free.obj"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_NE(ended.out.find("free.obj"), std::string::npos) << ended.out;
-  const ObjMesh after = get(scratch, "free.obj"), arm = get(scratch, "arm.obj");
+  const SurfaceMesh after = get(scratch, "free.obj"), arm = get(scratch, "arm.obj");
   EXPECT_EQ(find_body_crossings(after.triangles, after.positions, arm.triangles, arm.positions).size(), 0u);
   EXPECT_NEAR((after.positions[0] - start.x[0]).norm(), 1, 4) << "centimetres";
 }

@@ -17,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 
-optional_packages = ["embree", "PNG", "CLI11", "GTest", "benchmark"]
+optional_packages = ["embree", "PNG", "TinyGLTF", "CLI11", "GTest", "benchmark"]
 
 
 class Failed(Exception):
@@ -142,7 +142,7 @@ class Others:
         alone = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in optional_packages]
         # -Werror so that the objects are those of the build that runs the tests, and ccache has them.
         told = self.configure(source, work, *alone, "-DBUILD_SHARED_LIBS=ON", "-DTOILE_WERROR=ON", "-DTOILE_CLI=AUTO", "-DTOILE_PYTHON=OFF")
-        for line in ("Toile: the program `toile`: no: needs CLI11", "Toile: pictures: no: needs Embree 3 or 4 and libpng",
+        for line in ("Toile: the program `toile`: no: needs CLI11", "Toile: pictures: no: needs Embree 3 or 4 and libpng", "Toile: glTF files: no: needs tinygltf",
                      "Toile: tests: no: needs GoogleTest"):
             expect(line in told, f"the configuration does not say '{line}':\n{told}")
         self.build(work)

@@ -21,7 +21,7 @@ TEST(ObjReplace, ChangesCoordinatesAndNothingElse) {
 
 TEST(ObjReplace, ReadsBackToTheSameBits) {
   const Vec3s moved = {{0.1, 1e-300, -1e22}, {1.0 / 3, 2.0 / 3, 0}, {5e-324, 1, 1}, {-0.7, 0, 123456.789}};
-  const ObjMesh read = parse_obj(with_positions(cube_corner, moved, "a.obj"), "a.obj");
+  const SurfaceMesh read = parse_obj(with_positions(cube_corner, moved, "a.obj"), "a.obj");
   ASSERT_EQ(read.positions.size(), moved.size());
   for (std::size_t i = 0; i < moved.size(); ++i) EXPECT_EQ(read.positions[i], moved[i]) << i;
   EXPECT_EQ(read.triangles, parse_obj(cube_corner, "a.obj").triangles);

@@ -21,7 +21,7 @@ using namespace std::string_literals;
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-ObjMesh parse(std::string_view text) { return parse_obj(text, "a.obj"); }
+SurfaceMesh parse(std::string_view text) { return parse_obj(text, "a.obj"); }
 
 std::string complaint(std::string_view text) {
   return message_of<InputError>([&] { parse(text); });
@@ -30,7 +30,7 @@ std::string complaint(std::string_view text) {
 using Triangles = std::vector<Triangle>;
 
 TEST(Obj, ReadsPositionsAndFacesInTheirOrder) {
-  const ObjMesh mesh = parse("# a square\n\n" + square + "f 1 2 3\nf 1 3 4\n");
+  const SurfaceMesh mesh = parse("# a square\n\n" + square + "f 1 2 3\nf 1 3 4\n");
   ASSERT_EQ(mesh.positions.size(), 4u);
   EXPECT_EQ(mesh.positions[2], Vec3(1, 1, 0));
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
@@ -49,12 +49,12 @@ TEST(Obj, ReadsEveryFormOfACorner) {
   EXPECT_TRUE(parse(vertices + "f 1//1 2//1 3//1\n").texcoord.empty());
   for (const char* face :
        {"f 1/3 2/2 3/1\n", "f 1/3/1 2/2/1 3/1/1\n", "f -4/-1 -3/-2/-1 -2/-3/-1\n", "f 1/3/ 2/2/ 3/1/\n"}) {
-    const ObjMesh mesh = parse(vertices + face);
+    const SurfaceMesh mesh = parse(vertices + face);
     EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}})) << face;
     ASSERT_EQ(mesh.texcoord.size(), 1u) << face;
     EXPECT_EQ(mesh.texcoord[0], (std::array<Index, 3>{2, 1, 0})) << face;
   }
-  const ObjMesh mixed = parse(vertices + "f 1 2 3\nf 1/1 3 4/\n");
+  const SurfaceMesh mixed = parse(vertices + "f 1 2 3\nf 1/1 3 4/\n");
   ASSERT_EQ(mixed.texcoord.size(), 2u);
   EXPECT_EQ(mixed.texcoord[0], (std::array<Index, 3>{-1, -1, -1}));
   EXPECT_EQ(mixed.texcoord[1], (std::array<Index, 3>{0, -1, -1}));
@@ -85,7 +85,7 @@ TEST(Obj, ReadsLineEndsOfAllSystems) {
 
 TEST(Obj, JoinsLinesAtABackslash) {
   const std::string text = "v 0 \\\n 0 0\nv 1 0\\\r\n 0\nv 1 1 0\nf 1 \\\n \\\n2 3\n";
-  const ObjMesh mesh = parse(text);
+  const SurfaceMesh mesh = parse(text);
   EXPECT_EQ(mesh.positions.size(), 3u);
   EXPECT_EQ(mesh.positions[1], Vec3(1, 0, 0));
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
@@ -99,14 +99,15 @@ TEST(Obj, EndsACommentWithItsLine) {
 }
 
 TEST(Obj, ReadsNumbersInAllSpellings) {
-  const ObjMesh mesh = parse("v +1.5 -.25 2.\nv 1e-3 1E+2 -0\nv 1e-400 5e-324 0.1\nf 1 2 3\n");
+  const SurfaceMesh mesh = parse("v +1.5 -.25 2.\nv 1e-3 1E+2 -0\nv 1e-400 5e-324 0.1\nf 1 2 3\n");
   EXPECT_EQ(mesh.positions[0], Vec3(1.5, -0.25, 2));
   EXPECT_EQ(mesh.positions[1], Vec3(0.001, 100, 0));
   EXPECT_EQ(mesh.positions[2], Vec3(0, 5e-324, 0.1));
 }
 
 TEST(Obj, TakesColoursAndWeightsForGranted) {
-  const ObjMesh mesh = parse("v 1 2 3 1\nv 4 5 6 0.5 0.5 0.5\nv 7 8 9 1 1 1 1\nvt 0.5\nvt 0.5 0.25 0\nf 1/1 2/2 3/2\n");
+  const SurfaceMesh mesh =
+      parse("v 1 2 3 1\nv 4 5 6 0.5 0.5 0.5\nv 7 8 9 1 1 1 1\nvt 0.5\nvt 0.5 0.25 0\nf 1/1 2/2 3/2\n");
   EXPECT_EQ(mesh.positions[1], Vec3(4, 5, 6));
   EXPECT_EQ(mesh.texcoords[0], Vec2(0.5, 0));
   EXPECT_EQ(mesh.texcoords[1], Vec2(0.5, 0.25));
@@ -130,20 +131,20 @@ TEST(Obj, RefusesWhatOtherFormatsSay) {
 }
 
 TEST(Obj, NumbersGroupsAndObjectsInOrderOfTheirFaces) {
-  const ObjMesh mesh = parse(square +
-                             "f 1 2 3\n"
-                             "o shirt \n"
-                             "g unused\n"
-                             "g front left\r\n"
-                             "f 1 2 3\n"
-                             "g back\n"
-                             "f 1 2 3\n"
-                             "o skirt\n"
-                             "f 1 2 3\n"
-                             "g  front left\n"
-                             "f 1 2 3 4\n"
-                             "g\n"
-                             "f 1 2 3\n");
+  const SurfaceMesh mesh = parse(square +
+                                 "f 1 2 3\n"
+                                 "o shirt \n"
+                                 "g unused\n"
+                                 "g front left\r\n"
+                                 "f 1 2 3\n"
+                                 "g back\n"
+                                 "f 1 2 3\n"
+                                 "o skirt\n"
+                                 "f 1 2 3\n"
+                                 "g  front left\n"
+                                 "f 1 2 3 4\n"
+                                 "g\n"
+                                 "f 1 2 3\n");
   EXPECT_EQ(mesh.group_names, (std::vector<std::string>{"", "front left", "back"}));
   EXPECT_EQ(mesh.object_names, (std::vector<std::string>{"", "shirt", "skirt"}));
   EXPECT_EQ(mesh.group, (std::vector<Index>{0, 1, 2, 2, 1, 1, 0}));
@@ -217,7 +218,7 @@ TEST(Obj, SurvivesAnyFlippedByte) {
       std::string broken = text;
       broken[at] = static_cast<char>(byte);
       try {
-        const ObjMesh mesh = parse(broken);
+        const SurfaceMesh mesh = parse(broken);
         for (const Vec3& x : mesh.positions) ASSERT_TRUE(x.allFinite());
         for (const Triangle& triangle : mesh.triangles) {
           for (const Index i : triangle) ASSERT_TRUE(i >= 0 && static_cast<std::size_t>(i) < mesh.positions.size());
@@ -236,8 +237,8 @@ TEST(Obj, ReadsAPolygonOfManyCorners) {
 }
 
 // A mesh in which everything occurs: several objects and groups, corners without texture coordinate.
-ObjMesh rich_mesh() {
-  ObjMesh mesh;
+SurfaceMesh rich_mesh() {
+  SurfaceMesh mesh;
   std::mt19937_64 random(7);
   for (int i = 0; i < 50; ++i) {
     Vec3 x;
@@ -258,9 +259,9 @@ ObjMesh rich_mesh() {
 
 TEST(WriteObj, IsReadBackTheSame) {
   const Scratch scratch;
-  const ObjMesh mesh = rich_mesh();
+  const SurfaceMesh mesh = rich_mesh();
   write_obj(scratch / "a.obj", mesh);
-  const ObjMesh back = load_obj(scratch / "a.obj");
+  const SurfaceMesh back = load_obj(scratch / "a.obj");
   ASSERT_EQ(back.positions.size(), mesh.positions.size());
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     EXPECT_EQ(back.positions[i].cast<float>(), mesh.positions[i].cast<float>());
@@ -279,7 +280,7 @@ TEST(WriteObj, IsReadBackTheSame) {
 
 TEST(WriteObj, ReadsBackEveryFloat) {
   const Scratch scratch;
-  ObjMesh mesh;
+  SurfaceMesh mesh;
   std::mt19937_64 random(8);
   while (mesh.positions.size() < 30'000) {
     Vec3 x;
@@ -295,7 +296,7 @@ TEST(WriteObj, ReadsBackEveryFloat) {
   }
   mesh.triangles = {{0, 1, 2}};
   write_obj(scratch / "a.obj", mesh);
-  const ObjMesh back = load_obj(scratch / "a.obj");
+  const SurfaceMesh back = load_obj(scratch / "a.obj");
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     ASSERT_EQ(back.positions[i].cast<float>(), mesh.positions[i].cast<float>()) << i;
   }
@@ -304,7 +305,7 @@ TEST(WriteObj, ReadsBackEveryFloat) {
 TEST(WriteObj, AgreesWithTheFloatsOfACache) {
   // 1 + 2^-24 is half way between two floats; nine digits of the double would be read as the wrong one.
   const Scratch scratch;
-  ObjMesh mesh;
+  SurfaceMesh mesh;
   mesh.positions = {Vec3(1 + 0x1p-24 + 0x1p-50, 1 + 0x3p-24 - 0x1p-50, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   mesh.triangles = {{0, 1, 2}};
   write_obj(scratch / "a.obj", mesh);
@@ -313,7 +314,7 @@ TEST(WriteObj, AgreesWithTheFloatsOfACache) {
 
 TEST(WriteObj, LooksAsDocumented) {
   const Scratch scratch;
-  ObjMesh mesh;
+  SurfaceMesh mesh;
   mesh.positions = {Vec3(0.1, -2, 1e-7), Vec3(1, 0, 0), Vec3(0, 1e10, 0)};
   mesh.texcoords = {Vec2(0, 0.5)};
   mesh.triangles = {{0, 1, 2}, {2, 1, 0}};
@@ -332,7 +333,7 @@ TEST(WriteObj, WritesTheSameBytesInTheLocaleOfADecimalComma) {
   const Scratch scratch;
   write_obj(scratch / "a.obj", rich_mesh());
   std::string expected;
-  ObjMesh back;
+  SurfaceMesh back;
   {
     const CommaLocale comma;
     write_obj(scratch / "b.obj", rich_mesh());
@@ -344,7 +345,7 @@ TEST(WriteObj, WritesTheSameBytesInTheLocaleOfADecimalComma) {
 
 TEST(WriteObj, WritesEachObjectAndEachGroupInItOnce) {
   const Scratch scratch;
-  ObjMesh mesh;
+  SurfaceMesh mesh;
   mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   mesh.triangles = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}};
   mesh.object = {1, 0, 1, 1, 0};
@@ -359,14 +360,14 @@ TEST(WriteObj, WritesEachObjectAndEachGroupInItOnce) {
 
 TEST(WriteObj, LetsNoNameBreakOutOfItsLine) {
   const Scratch scratch;
-  ObjMesh mesh;
+  SurfaceMesh mesh;
   mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   mesh.triangles = {{0, 1, 2}};
   mesh.object = mesh.group = {0};
   mesh.object_names = {"a\nv 9 9 9\r"};
   mesh.group_names = {"b\\"};
   write_obj(scratch / "a.obj", mesh);
-  const ObjMesh back = load_obj(scratch / "a.obj");
+  const SurfaceMesh back = load_obj(scratch / "a.obj");
   EXPECT_EQ(back.positions.size(), 3u);
   EXPECT_EQ(back.object_names[0], "a_v 9 9 9_");
   EXPECT_EQ(back.group_names[0], "b_");
@@ -374,10 +375,10 @@ TEST(WriteObj, LetsNoNameBreakOutOfItsLine) {
 
 TEST(WriteObj, RefusesWhatCannotBeWritten) {
   const Scratch scratch;
-  const auto message = [&](const ObjMesh& mesh) {
+  const auto message = [&](const SurfaceMesh& mesh) {
     return message_of<InputError>([&] { write_obj(scratch / "a.obj", mesh); }).substr((scratch / "a.obj").size());
   };
-  ObjMesh mesh = rich_mesh();
+  SurfaceMesh mesh = rich_mesh();
   mesh.positions[3].y() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(message(mesh), ": vertex 3: expected a number that a float can hold, got nan");
   mesh = rich_mesh();
@@ -409,7 +410,7 @@ std::string shared(const char* file) { return std::string(TOILE_SHARED_DATA) + "
 TEST(ObjOfOthers, TheMeanBodyIsClosed) {
   const std::string path = shared("garmentcode/mean_all.obj");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  const ObjMesh body = load_obj(path);
+  const SurfaceMesh body = load_obj(path);
   EXPECT_EQ(body.positions.size(), 23752u);
   EXPECT_EQ(body.triangles.size(), 47500u);
   check_closed(path, body.positions, body.triangles);
@@ -418,7 +419,7 @@ TEST(ObjOfOthers, TheMeanBodyIsClosed) {
 TEST(ObjOfOthers, TheMeanBodyInTPoseHasTheSameTriangles) {
   const std::string path = shared("garmentcode/mean_all_tpose.obj");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  const ObjMesh body = load_obj(path);
+  const SurfaceMesh body = load_obj(path);
   EXPECT_EQ(body.positions.size(), 23752u);
   EXPECT_EQ(body.triangles.size(), 47500u);
   EXPECT_EQ(body.object_names.size(), 1u);
@@ -427,7 +428,7 @@ TEST(ObjOfOthers, TheMeanBodyInTPoseHasTheSameTriangles) {
 TEST(ObjOfOthers, TheMakehumanBaseKeepsGroupsAndTextureCoordinates) {
   const std::string path = shared("makehuman/base.obj");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  const ObjMesh body = load_obj(path);
+  const SurfaceMesh body = load_obj(path);
   EXPECT_EQ(body.positions.size(), 19158u);
   EXPECT_EQ(body.texcoords.size(), 21334u);
   EXPECT_EQ(body.triangles.size(), 2u * 18486u);  // all quads

@@ -2,6 +2,7 @@
 #include "sim/cloth_of_mesh.hpp"
 
 #include "core/error.hpp"
+#include "io/obj.hpp"
 #include "io/pc2.hpp"
 #include "io/scratch.hpp"
 #include "sim/cloth_arrays.hpp"

@@ -74,7 +74,7 @@ TEST(MovingBody, OfAMotionThatStandsStillChangesNothing) {
 TEST(MovingBody, APersonGivenAsAMeshSwaysByName) {
   const Scratch scratch;
   const Mannequin woman = make_mannequin(MannequinKind::woman);
-  ObjMesh obj;
+  SurfaceMesh obj;
   obj.positions = woman.positions;
   obj.triangles = woman.triangles;
   obj.group.assign(obj.triangles.size(), 0);
@@ -140,7 +140,7 @@ TEST(StartRun, CarriesADrapeOverToAFinerMesh) {
   EXPECT_LT(report.audit.stretch.p99, 0.02);
   EXPECT_EQ(report.audit.cloth_body_edges.last, 0);
   // The fine cloth starts on the coarse one: no particle is farther from its triangles than float32 rounds.
-  const ObjMesh coarse = load_obj(scratch / "coarse/cloth.obj");
+  const SurfaceMesh coarse = load_obj(scratch / "coarse/cloth.obj");
   Vec3 low = Vec3::Constant(1e9), high = -low;
   for (const Vec3& p : sample(scratch / "coarse/cloth.pc2", 14)) {
     low = low.cwiseMin(p);
@@ -200,7 +200,7 @@ TEST(SeveralCloths, LieOnEachOtherAndAreObjectsOfOneFile) {
   EXPECT_EQ(report.panels, 2);
   EXPECT_EQ(report.audit.cloth_cloth_edges.max, 0);
   EXPECT_EQ(report.audit.cloth_body_edges.last, 0);
-  const ObjMesh mesh = load_obj(scratch / "out/cloth.obj");
+  const SurfaceMesh mesh = load_obj(scratch / "out/cloth.obj");
   ASSERT_EQ(mesh.object_names, (std::vector<std::string>{"lower", "upper"}));
   // Over the middle of the cylinder the upper one is on top, by about a fabric's thickness.
   const std::vector<Vec3> end = sample(scratch / "out/cloth.pc2", -1);

@@ -1,6 +1,7 @@
 // What is left of a run whose step collapsed: names, and a file to look at.
 #include "sim/offenders.hpp"
 
+#include "io/obj.hpp"
 #include "io/scratch.hpp"
 #include "sim/simulate.hpp"
 
@@ -43,7 +44,7 @@ TEST(Offenders, AreDrawnWithTheBodyNearThem) {
   const Vec3s body_x = {{0, 0, 0.01}, {0.1, 0, 0.01}, {0, 0.1, 0.01}, {0, 0, 1}, {0.1, 0, 1}, {0, 0.1, 1}};
   const std::vector<Triangle> body = {{0, 1, 2}, {3, 4, 5}};
   const std::vector<Index> some = {0, 13};
-  const ObjMesh obj = offenders_obj(mesh, x, some, body, body_x);
+  const SurfaceMesh obj = offenders_obj(mesh, x, some, body, body_x);
   ASSERT_EQ(obj.triangles.size(), 3u) << "one of the body is a metre away";
   EXPECT_EQ(obj.positions.size(), 9u) << "no vertices that nobody uses";
   EXPECT_EQ(obj.group, (std::vector<Index>{0, 1, 2}));
@@ -74,7 +75,7 @@ TEST(Offenders, OfAStepThatCollapsedAreInAFile) {
   const std::string& detail = report.verdict.reasons.front().detail;
   EXPECT_EQ(detail.rfind("in frame 4: the step collapsed", 0), 0u) << detail;
   EXPECT_NE(detail.find("of flag ("), std::string::npos) << detail;
-  const ObjMesh offenders = load_obj(scratch / "out/offenders.obj");
+  const SurfaceMesh offenders = load_obj(scratch / "out/offenders.obj");
   EXPECT_FALSE(offenders.triangles.empty());
   EXPECT_EQ(offenders.object_names, std::vector<std::string>{"cloth"});
   EXPECT_EQ(offenders.group_names, std::vector<std::string>{"flag"});

@@ -34,7 +34,7 @@ TEST(Pinch, ASleeveComesOutOfAnElbowAsItWentIn) {
     EXPECT_EQ(report.state_hash, state_hash);
   }
   Pc2Reader reader(options.directory + "/cloth.pc2");
-  const ObjMesh mesh = load_obj(options.directory + "/cloth.obj");
+  const SurfaceMesh mesh = load_obj(options.directory + "/cloth.obj");
   std::vector<Vec3> before, now;
   double fastest = 0;
   for (int frame = 0; frame < reader.samples(); ++frame) {

@@ -103,7 +103,7 @@ TEST(Run, LeavesFilesThatTheJudgeReadsAsTheReportSays) {
   EXPECT_NEAR(audit.stretch.max, report.audit.stretch.max, 1e-4);
   EXPECT_EQ(audit.gap.nearest_vertex, report.audit.gap.nearest_vertex);
   EXPECT_NEAR(audit.still_mm_per_s_p99, report.audit.still_mm_per_s_p99, 1e-6) << "the audit saw what was written";
-  const ObjMesh cloth = load_obj(scratch / "out/cloth.obj");
+  const SurfaceMesh cloth = load_obj(scratch / "out/cloth.obj");
   EXPECT_EQ(cloth.object_names, std::vector<std::string>{"cloth"});
   EXPECT_EQ(cloth.group_names, std::vector<std::string>{"cloth"});
   Vec2 low(1, 1), high(-1, -1);
@@ -247,7 +247,7 @@ TEST(Run, SewsATubeAndKeepsVtPerPanelAtTheSeams) {
   EXPECT_EQ(report.seams, 2);
   EXPECT_GT(report.sewing.steps, 0);
   ASSERT_GT(report.frames, 2);
-  const ObjMesh panels = load_obj(scratch / "out/sewing.obj"), cloth = load_obj(scratch / "out/cloth.obj");
+  const SurfaceMesh panels = load_obj(scratch / "out/sewing.obj"), cloth = load_obj(scratch / "out/cloth.obj");
   EXPECT_GT(panels.positions.size(), cloth.positions.size()) << "seams are welded in cloth.obj only";
   EXPECT_EQ(panels.triangles.size(), cloth.triangles.size());
   EXPECT_EQ(cloth.group_names, (std::vector<std::string>{"front", "back"}));
@@ -393,7 +393,7 @@ TEST(Run, ASeamThatCannotCloseIsReportedByNameAndLeavesAMesh) {
   EXPECT_TRUE(std::filesystem::exists(scratch / "out/sewing.pc2"));
   ASSERT_FALSE(report.open_seams.empty());
   EXPECT_GT(report.open_seams.front().gap_m, 0.01);
-  const ObjMesh cloth = load_obj(scratch / "out/cloth.obj");
+  const SurfaceMesh cloth = load_obj(scratch / "out/cloth.obj");
   for (const OpenSeam& seam : report.open_seams)
     for (const auto& [a, b] : seam.vertices) {
       EXPECT_NE(a, b);

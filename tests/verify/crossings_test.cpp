@@ -348,7 +348,7 @@ TEST(Crossings, RefuseWhatIsNoSurface) {
 TEST(Crossings, OfARealBodyWithItselfAreConfirmedByExactArithmetic) {
   const std::string path = std::string(TOILE_SHARED_DATA) + "/bodies/garmentcode/mean_all.obj";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
-  const ObjMesh body = load_obj(path);
+  const SurfaceMesh body = load_obj(path);
   const auto crossings = find_cloth_crossings(body.triangles, body.positions);
   int proper = 0, touching = 0;
   for (const Crossing& c : crossings) {

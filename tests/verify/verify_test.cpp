@@ -27,7 +27,7 @@ Index particle(int column, int row) { return row * (columns + 1) + column; }
 
 // A sheet of two panels ("front" left of the middle, "back" right of it) that comes to rest 10 mm above a box.
 struct RunFiles {
-  ObjMesh cloth, body;
+  SurfaceMesh cloth, body;
   std::vector<Vec3s> cloth_frames, body_frames;
   std::string report = R"({"fps": 30, "frames": 41, "body": {"vertices": 8, "triangles": 12}})";
 };

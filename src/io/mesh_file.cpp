@@ -1,0 +1,126 @@
+#include "io/mesh_file.hpp"
+
+#include "core/error.hpp"
+#include "io/file.hpp"
+#include "io/mesh_formats.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+namespace toile::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The largest file that a mesh may be made of, bytes.
+constexpr std::size_t file_limit = std::size_t{1} << 31;
+
+// ".ply" of "shirt.PLY"; only these 26 letters, whatever the locale.
+std::string ending_of(std::string_view path) {
+  std::string ending = fs::path(path).extension().string();
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return ending;
+}
+
+const MeshReader* by_ending(const std::string& ending) {
+  for (const MeshReader& reader : mesh_readers())
+    if (std::find(reader.endings.begin(), reader.endings.end(), ending) != reader.endings.end()) return &reader;
+  return nullptr;
+}
+
+// The content decides; where it says nothing, the ending does.
+const MeshReader& reader_of(std::string_view bytes, const std::string& path, std::vector<std::string>& notes) {
+  const std::string ending = ending_of(path), file = printable(path);
+  const MeshReader* const named = by_ending(ending);
+  for (const MeshReader& reader : mesh_readers()) {
+    if (!reader.is_it(bytes)) continue;
+    if (named != nullptr && named != &reader)
+      notes.push_back(file + ": is " + std::string(reader.name) + " by its content, not " + std::string(named->name) +
+                      ", and is read as such");
+    return reader;
+  }
+  if (named != nullptr) return *named;  // whose reader says what is wrong
+  const std::string_view line = bytes.substr(0, std::min(bytes.find_first_of("\r\n"), std::size_t{40}));
+  throw InputError(file, "format", mesh_formats_in_words(),
+                   line.empty() ? "an empty line" : '"' + printable(line) + '"');
+}
+
+// A file in the folder of `path`, or below it, whatever links there are.
+std::string inside_folder_of(const std::string& path, std::string_view name) {
+  const fs::path wanted(name), folder = fs::path(path).parent_path();
+  const auto refuse = [&](std::string_view got) {
+    throw InputError(printable(path), "file " + printable(name), "one in the folder of this file, or below it", got);
+  };
+  if (name.empty()) refuse("no name");
+  if (name.find('\0') != std::string_view::npos) refuse("a name with a NUL byte");
+  if (name.find(':') != std::string_view::npos) refuse("an address");
+  if (name.find('\\') != std::string_view::npos) refuse("a backslash");
+  if (wanted.is_absolute()) refuse("an absolute path");
+  if (std::find(wanted.begin(), wanted.end(), fs::path("..")) != wanted.end()) refuse("a path that leaves it");
+  std::error_code error;
+  const fs::path base = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
+  if (error) throw IoError(path, "cannot find its folder: " + error.message());
+  const fs::path real = fs::canonical(base / wanted, error);
+  if (error) throw IoError(printable((folder / wanted).string()), "cannot open: " + error.message());
+  const fs::path way = real.lexically_relative(base);
+  if (way.empty() || *way.begin() == "..") refuse("a link that leaves it");
+  return real.string();
+}
+
+}  // namespace
+
+const std::vector<MeshReader>& mesh_readers() {
+  static const std::vector<MeshReader> readers = all_mesh_readers();
+  return readers;
+}
+
+std::string mesh_formats_in_words() {
+  std::string words;
+  const auto& readers = mesh_readers();
+  for (std::size_t k = 0; k < readers.size(); ++k)
+    words += (k == 0 ? "" : k + 1 == readers.size() ? " or " : ", ") + std::string(readers[k].name);
+  return words;
+}
+
+std::string_view mesh_format_of(std::string_view bytes, const std::string& path) {
+  std::vector<std::string> notes;
+  return reader_of(bytes, path, notes).name;
+}
+
+bool has_mesh_ending(std::string_view path) { return by_ending(ending_of(path)) != nullptr; }
+
+SurfaceMesh parse_mesh(std::string_view bytes, const std::string& path, const BytesSeen& beside) {
+  std::vector<std::string> notes;
+  const MeshReader& reader = reader_of(bytes, path, notes);
+  SurfaceMesh mesh = reader.read({bytes, printable(path), [&](std::string_view name) {
+                                    std::string other = read_file(inside_folder_of(path, name), file_limit);
+                                    if (beside) beside(other);
+                                    return other;
+                                  }});
+  mesh.notes.insert(mesh.notes.begin(), notes.begin(), notes.end());
+  return mesh;
+}
+
+SurfaceMesh load_mesh(const std::string& path, const BytesSeen& seen) {
+  const std::string bytes = read_file(path, file_limit);
+  if (seen) seen(bytes);
+  return parse_mesh(bytes, path, seen);
+}
+
+std::vector<std::string> files_of_mesh(const std::string& path) {
+  std::vector<std::string> files{path};
+  try {
+    const std::string bytes = read_file(path, file_limit);
+    std::vector<std::string> notes;
+    const MeshReader& reader = reader_of(bytes, path, notes);
+    if (reader.names_beside == nullptr) return files;
+    for (const std::string& name : reader.names_beside(bytes)) files.push_back(inside_folder_of(path, name));
+  } catch (const Error&) {  // who reads it says what is wrong
+    files.resize(1);
+  }
+  return files;
+}
+
+}  // namespace toile::internal

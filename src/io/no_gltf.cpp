@@ -1,0 +1,20 @@
+// io/no_gltf.cpp: in place of gltf_*.cpp where tinygltf is missing: knows the format and cannot read it.
+#include "core/error.hpp"
+#include "io/mesh_formats.hpp"
+
+namespace toile::internal {
+
+MeshReader gltf_reader() {
+  return {"glTF",
+          {".glb", ".gltf"},
+          [](std::string_view bytes) {
+            return bytes.substr(0, 4) == "glTF" ||
+                   bytes.substr(0, bytes.find_first_not_of(" \t\r\n") + 1).ends_with('{');
+          },
+          [](const MeshSource& source) -> SurfaceMesh {
+            throw InputError(source.file, "format", "OBJ or PLY, as this Toile is built without tinygltf", "glTF");
+          },
+          nullptr};
+}
+
+}  // namespace toile::internal

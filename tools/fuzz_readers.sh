@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Feeds the reader of a mesh format with broken files until something breaks, by libFuzzer with address and undefined-behaviour sanitizers.
+#
+# Usage: fuzz_readers.sh FORMAT [SECONDS [FOLDER]]      FORMAT: obj, ply or gltf; 60 seconds; FOLDER keeps what was found (build/fuzz/FORMAT)
+#
+# Needs clang (Debian: clang, libclang-rt-14-dev).  Ends with the fuzzer's code: 0 when nothing was found.
+set -euo pipefail
+format=${1:?usage: fuzz_readers.sh FORMAT [SECONDS [FOLDER]]}
+seconds=${2:-60}
+root=$(cd "$(dirname "$0")/.." && pwd)
+folder=${3:-$root/build/fuzz/$format}
+case $format in
+  obj | ply) file=fuzz.$format ;;
+  gltf) file=fuzz.glb ;;
+  *)
+    echo "fuzz_readers.sh: expected obj, ply or gltf, got $format" >&2
+    exit 2
+    ;;
+esac
+mkdir -p "$folder/corpus"
+
+sources=("$root"/tests/fuzz/mesh_reader_fuzz.cpp "$root"/src/core/error.cpp "$root"/src/io/file.cpp "$root"/src/io/mesh_file.cpp
+  "$root"/src/io/mesh_writer.cpp "$root"/src/io/obj_*.cpp "$root"/src/io/ply_*.cpp "$root"/src/io/gltf_*.cpp)
+objects=()
+for source in "${sources[@]}"; do
+  case $source in */obj_replace.cpp) continue ;; esac
+  object=$folder/$(basename "$source" .cpp).o
+  clang++ -std=c++20 -g -O1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -DTOILE_FUZZ_FILE="\"$file\"" \
+    -I "$root/src" -isystem /usr/include/eigen3 -c "$source" -o "$object"
+  objects+=("$object")
+done
+clang++ -fsanitize=fuzzer,address,undefined "${objects[@]}" -lfmt -o "$folder/fuzz"
+
+# What it starts from: one small file of the format, whole.
+seed=$folder/corpus/seed
+case $format in
+  obj) printf 'o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\ng b\nf 1/1 2/2 3/3\n' >"$seed" ;;
+  ply)
+    printf 'ply\nformat ascii 1.0\ncomment panel 0 a\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n' >"$seed"
+    printf 'property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\nproperty int panel\n' >>"$seed"
+    printf 'end_header\n0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n3 0 1 2 0\n' >>"$seed"
+    ;;
+  gltf) # three corners, their texture coordinates and indices
+    printf '{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"scale":[1,2,3]}],"materials":[{"name":"a"}],' >"$seed"
+    printf '"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2,"material":0}]}],' >>"$seed"
+    printf '"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},{"bufferView":0,"componentType":5126,"count":3,' >>"$seed"
+    printf '"type":"VEC2","sparse":{"count":1,"indices":{"bufferView":1,"componentType":5121},"values":{"bufferView":0}}},' >>"$seed"
+    printf '{"bufferView":1,"componentType":5121,"count":3,"type":"SCALAR"}],' >>"$seed"
+    printf '"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":3}],"buffers":[{"byteLength":39,' >>"$seed"
+    printf '"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAgD8AAAAAAAEC"}]}' >>"$seed"
+    ;;
+esac
+exec "$folder/fuzz" -max_total_time="$seconds" -timeout=25 -rss_limit_mb=2560 -max_len=65536 -artifact_prefix="$folder/" -print_final_stats=1 "$folder/corpus"
