@@ -18,8 +18,6 @@
 namespace toile::internal {
 namespace {
 
-using test::at;
-
 const Mannequin& mannequin() { return test::mannequin_of(MannequinKind::woman); }
 
 TEST(Mannequin, IsOneClosedSurfaceWithoutHandlesWoundOutwards) {

@@ -18,8 +18,6 @@
 namespace toile::internal {
 namespace {
 
-using test::at;
-
 CollisionBody woman() { return from_mannequin(test::mannequin_of(MannequinKind::woman)); }
 
 Motion motion_named(std::string_view name) {

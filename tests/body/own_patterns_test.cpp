@@ -19,8 +19,6 @@
 namespace toile::internal {
 namespace {
 
-using test::at;
-
 struct Side {
   std::string panel;
   std::size_t edge;

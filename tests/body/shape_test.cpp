@@ -11,8 +11,6 @@
 namespace toile::internal {
 namespace {
 
-using test::at;
-
 // The whole surface inside the cube of half-width `reach`; marched on cells of `cell`, remeshed to `edge` when
 // sweeps > 0.
 HalfSurface meshed(const ScalarField& field, double reach, double cell, double edge, int sweeps) {

@@ -18,8 +18,6 @@
 namespace toile::internal {
 namespace {
 
-using test::at;
-
 // A ring of `degrees` about `centre`, open above if `turned` is 0.  Counter-clockwise: edges 0 outside, 1 side at +x, 2 inside, 3 side at -x.
 Panel ring(double degrees, double inner_m, double outer_m, const Vec3& centre, double turned = 0) {
   const double half = 0.5 * degrees / 180 * std::numbers::pi;

@@ -14,8 +14,6 @@
 namespace toile::internal {
 namespace {
 
-using test::at;
-
 constexpr double pi = 3.14159265358979323846;
 
 // A rectangle that faces +z, with a corner in the middle of its left and right sides and a fold between the two.

@@ -16,8 +16,6 @@
 namespace toile::internal {
 namespace {
 
-using test::at;
-
 // What mesh_garment complains about.
 std::string complaint(const Pattern& pattern) {
   try {

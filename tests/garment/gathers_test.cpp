@@ -16,8 +16,6 @@
 namespace toile::internal {
 namespace {
 
-using test::at;
-
 constexpr double band_m = 0.2, drop_m = 0.16;
 
 // A band above a sheet that is `ratio` times as wide; seam 0 joins them.

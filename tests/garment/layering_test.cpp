@@ -11,8 +11,6 @@
 namespace toile::internal {
 namespace {
 
-using test::at;
-
 // Where along z the panel lies; it is flat.
 double z_of(const GarmentMesh& garment, Index panel) {
   const std::vector<Index> panel_of = garment.panel_of_particle();

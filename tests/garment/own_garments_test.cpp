@@ -14,8 +14,6 @@
 namespace toile::internal {
 namespace {
 
-using test::at;
-
 struct OwnGarment {
   const char* name;
   int particles, triangles;

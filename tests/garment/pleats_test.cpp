@@ -15,8 +15,6 @@
 namespace toile::internal {
 namespace {
 
-using test::at;
-
 constexpr double layer_m = 0.09;
 
 // A band of one layer's width above a sheet of three: a, b, c from the left are edges 5, 4, 3 of the sheet.
