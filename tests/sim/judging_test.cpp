@@ -180,7 +180,7 @@ TEST(Untangle, LeavesWhatIsHeldWhereItIsToTheBit) {
     const UntangleReport report = untangle(start.triangles, x, start.body.triangles, start.body.positions, options);
     EXPECT_GT(report.iterations, 0);
     EXPECT_GT(report.largest_move, 0) << "the others may move";
-    for (const Index i : options.held) ASSERT_EQ(x[test::at(i)], start.x[test::at(i)]) << i;
+    for (const Index i : options.held) ASSERT_EQ(x[at(i)], start.x[at(i)]) << i;
   }
 }
 
@@ -194,16 +194,16 @@ TEST(Untangle, MovesTheOtherSheetOffOneThatIsHeld) {
   for (bool more = true; more;) {
     more = false;
     for (const Edge& e : topology.edges) {
-      const Index low = std::min(sheet[test::at(e.a)], sheet[test::at(e.b)]);
-      more |= sheet[test::at(e.a)] != low || sheet[test::at(e.b)] != low;
-      sheet[test::at(e.a)] = sheet[test::at(e.b)] = low;
+      const Index low = std::min(sheet[at(e.a)], sheet[at(e.b)]);
+      more |= sheet[at(e.a)] != low || sheet[at(e.b)] != low;
+      sheet[at(e.a)] = sheet[at(e.b)] = low;
     }
   }
   for (std::size_t i = 0; i < x.size(); ++i)
     if (sheet[i] == 0) options.held.push_back(static_cast<Index>(i));
   ASSERT_LT(options.held.size(), x.size());
   EXPECT_TRUE(untangle(start.triangles, x, {}, {}, options).resolved);
-  for (const Index i : options.held) ASSERT_EQ(x[test::at(i)], start.x[test::at(i)]);
+  for (const Index i : options.held) ASSERT_EQ(x[at(i)], start.x[at(i)]);
 }
 
 // A sheet that stands by `deep` in one that is pinned at its rim.
@@ -233,7 +233,7 @@ TEST(Judging, UntanglingMovesNoPinnedParticle) {
   const LoadedCloth lying = load_cloth(scene, scene.cloth.front(), read_text_file, inputs);
   ASSERT_GT(lying.pins.size(), 100u);
   for (const TimedPin& pin : lying.pins) {
-    const auto i = test::at(pin.pin.particle);
+    const auto i = at(pin.pin.particle);
     for (Eigen::Index k = 0; k < 3; ++k)
       ASSERT_EQ(first[i][k], static_cast<double>(static_cast<float>(lying.garment.x[i][k]))) << i;
   }
@@ -281,8 +281,8 @@ TEST(Weld, PutsWhatIsWornBeforeWhatIsNew) {
   const std::vector<Vec2> rest_stretch(2, Vec2(1, 1));
   GarmentMesh worn = mesh_garment(pattern, 0.03);
   const WeldedMesh welded = weld(worn);
-  Vec3s x(test::at(welded.mesh.particle_count));
-  for (std::size_t i = 0; i < worn.x.size(); ++i) x[test::at(welded.particle_of[i])] = worn.x[i];
+  Vec3s x(at(welded.mesh.particle_count));
+  for (std::size_t i = 0; i < worn.x.size(); ++i) x[at(welded.particle_of[i])] = worn.x[i];
   worn.mesh = welded.mesh;
   worn.x = x;
   worn.pairs.clear();
@@ -291,7 +291,7 @@ TEST(Weld, PutsWhatIsWornBeforeWhatIsNew) {
   const WeldedMesh together = weld(both);
   const Index held = outfit.mesh.particle_count;
   ASSERT_GT(together.mesh.particle_count, held);
-  for (Index i = 0; i < held; ++i) ASSERT_LT(together.particle_of[test::at(i)], held) << i;
+  for (Index i = 0; i < held; ++i) ASSERT_LT(together.particle_of[at(i)], held) << i;
 }
 
 TEST(Judging, AGarmentWithAWaistThatLiesBelowTheHipsIsNotWorn) {
@@ -299,7 +299,7 @@ TEST(Judging, AGarmentWithAWaistThatLiesBelowTheHipsIsNotWorn) {
   const std::vector<OutfitPart> parts{{"shirt", 0, 1, 2}, {"skirt", 1, 1, 2}};
   const auto found = [&](double skirt_top_m, std::vector<Belonging> belongings) {
     const Vec3s cloth{{0, 1.4, 0}, {0, 0.3, 0}, {0, skirt_top_m, 0}, {0, 0.2, 0}};
-    return slid_down(parts, belongings, cloth, woman.positions, woman.triangles);
+    return slid_down(parts, belongings, cloth, trunk_levels(woman.positions, woman.triangles));
   };
   const double hips_m = hips(woman.positions, woman.triangles).height_m;
   ASSERT_GT(hips_m, 0.7);
@@ -320,13 +320,36 @@ TEST(Judging, AGarmentWithAWaistThatLiesBelowTheHipsIsNotWorn) {
   }
 }
 
+// It would lie on the floor until its folds rest, for four seconds.
+TEST(Judging, ASkirtThatHasComePastTheHipsEndsEarlyAndBothGirthsAreSaid) {
+  const Scratch scratch;
+  std::ofstream(scratch / "skirt.json") << R"({"pattern": {"panels": {
+    "front": {"translation": [0, 90, 25], "rotation": [0, 0, 0], "vertices": [[-30,0],[30,0],[30,20],[-30,20]],
+      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3], "label": "lower_interface"}, {"endpoints": [3,0]}]},
+    "back": {"translation": [0, 90, -25], "rotation": [0, 0, 0], "vertices": [[-30,0],[-30,20],[30,20],[30,0]],
+      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2], "label": "lower_interface"}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
+    "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
+    "properties": {"units_in_meter": 100}})";
+  const Report report =
+      run(scratch, parse_scene(R"({"cloth": [{"pattern": ")" + (scratch / "skirt.json") + R"(", "resolution_cm": 5}],
+          "body": {"mannequin": "woman"}, "time": {"seconds": 10},
+          "solids": [{"box": {"size_m": [2, 0.1, 2]}, "placement": {"translation_m": [0, -0.1, 0]}}]})",
+                               "s.json"));
+  ASSERT_EQ(report.verdict.reasons.size(), 1u);
+  EXPECT_EQ(report.ended, "fell_off");
+  EXPECT_EQ(report.verdict.reasons.front().code, "fell_off");
+  EXPECT_NE(report.verdict.reasons.front().detail.find("its waist is 120.0 cm round"), std::string::npos)
+      << report.verdict.reasons.front().detail;
+  EXPECT_LT(report.frames, 50);
+}
+
 TEST(Judging, WhereAGarmentBelongsIsReadFromItsLabels) {
   GarmentMesh garment = mesh_garment(test::tube_pattern(0.5, 0.4, 0.6), 0.05);
   EXPECT_EQ(belonging_of(garment).waist_girth_m, 0);
   EXPECT_FALSE(belonging_of(garment).bodice);
   LabelledEdge edge{"lower_interface", {}};
   for (Index i = 0; i < 3; ++i) {
-    garment.x[test::at(i)] = Vec3(0.1 * i, 1, 0);
+    garment.x[at(i)] = Vec3(0.1 * i, 1, 0);
     edge.particles.push_back(i);
   }
   garment.labels.push_back(edge);
