@@ -7,6 +7,9 @@ namespace toile::internal {
 namespace {
 
 constexpr double pull_N_per_m = 20, give_m = 0.02, damping_s = 0.02;
+// What is kept as it is placed may sink so far: seams that close move most bodices by less, and they find their place better alone.  A dress with two
+// tiers of rings, kept from the first millimetre on, ends with a p99 of stretch of 8.3 % instead of 7.1.
+constexpr double may_sink_m = 0.05;
 
 }  // namespace
 
@@ -14,15 +17,30 @@ LabelSprings::LabelSprings(const GarmentMesh& garment, std::span<const LabelHeig
   for (const LabelledEdge& edge : garment.labels) {
     const auto wanted = std::find_if(heights.begin(), heights.end(),
                                      [&](const LabelHeight& height) { return height.label == edge.label; });
-    if (wanted == heights.end()) continue;
-    for (std::size_t k = 0; k < edge.particles.size(); ++k) {
-      // Panels are placed flat and unstretched: distances there are lengths of the edge.
-      double share = 0;
-      if (k > 0) share += 0.5 * (garment.x[at(edge.particles[k])] - garment.x[at(edge.particles[k - 1])]).norm();
-      if (k + 1 < edge.particles.size())
-        share += 0.5 * (garment.x[at(edge.particles[k + 1])] - garment.x[at(edge.particles[k])]).norm();
-      held_.push_back({edge.particles[k], wanted->height_m, share});
-    }
+    if (wanted != heights.end()) hold(garment, edge, wanted->height_m);
+  }
+}
+
+LabelSprings LabelSprings::as_placed(const GarmentMesh& garment, std::string_view label) {
+  std::vector<char> sewn(garment.x.size(), 0);
+  for (const SeamPair& pair : garment.pairs) sewn[at(pair.a)] = sewn[at(pair.b)] = 1;
+  LabelSprings springs;
+  for (const LabelledEdge& edge : garment.labels) {
+    const bool draws =
+        std::all_of(edge.particles.begin(), edge.particles.end(), [&](Index i) { return sewn[at(i)] != 0; });
+    if (edge.label == label && draws) springs.hold(garment, edge, std::nullopt);
+  }
+  return springs;
+}
+
+void LabelSprings::hold(const GarmentMesh& garment, const LabelledEdge& edge, std::optional<double> height_m) {
+  for (std::size_t k = 0; k < edge.particles.size(); ++k) {
+    // Panels are placed flat and unstretched: distances there are lengths of the edge.
+    const Vec3& x = garment.x[at(edge.particles[k])];
+    double share = 0;
+    if (k > 0) share += 0.5 * (x - garment.x[at(edge.particles[k - 1])]).norm();
+    if (k + 1 < edge.particles.size()) share += 0.5 * (garment.x[at(edge.particles[k + 1])] - x).norm();
+    held_.push_back({edge.particles[k], height_m.value_or(x.y() - may_sink_m), share});
   }
 }
 

@@ -7,8 +7,10 @@
 #include "garment/garment_mesh.hpp"
 #include "step/implicit_euler.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace toile::internal {
@@ -24,6 +26,9 @@ class LabelSprings {
   // Labels that no edge carries do nothing.
   LabelSprings(const GarmentMesh& garment, std::span<const LabelHeight> heights);
 
+  // Edges with this label to which something is sewn, each particle at 5 cm below where its panel is now.
+  static LabelSprings as_placed(const GarmentMesh& garment, std::string_view label);
+
   bool empty() const { return held_.empty(); }
   // Appends one row per particle; `strength` 0 ... 1 scales the force.
   void append(const ClothState& state, double strength, std::vector<LinearSpring>& springs) const;
@@ -31,6 +36,8 @@ class LabelSprings {
   LabelSprings welded(std::span<const Index> particle_of) const;
 
  private:
+  void hold(const GarmentMesh& garment, const LabelledEdge& edge, std::optional<double> height_m);
+
   struct Held {
     Index particle;
     double height_m, share_m;  // of the edge's length

@@ -55,6 +55,7 @@ void soften_gathered_panels(ClothModel& model, std::span<const Fabric> fabrics, 
 Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, BodySurface* body, const StepOptions& step,
                const SewingOptions& options)
     : garment_(&garment), options_(options), labels_(garment, options.label_heights) {
+  if (!options.kept_label.empty()) kept_ = LabelSprings::as_placed(garment, options.kept_label);
   ModelOptions weightless;
   weightless.gravity_m_per_s2.setZero();
   weightless.drag_per_s = options.drag_per_s;
@@ -107,6 +108,13 @@ void Sewing::start_stepper() {
 void Sewing::append_springs(const ClothState& state, double end_s, std::vector<LinearSpring>& springs) const {
   const double open = std::max(0.0, 1 - options_.closing_speed_m_per_s * end_s / longest_m_);
   if (open == 0 || options_.labels_hold_panels) labels_.append(state, 1, springs);
+  if (open > 0 && !kept_.empty()) {  // from below only: they may rise
+    const auto first = static_cast<std::ptrdiff_t>(springs.size());
+    kept_.append(state, 1, springs);
+    springs.erase(std::remove_if(springs.begin() + first, springs.end(),
+                                 [](const LinearSpring& spring) { return spring.force_N <= 0; }),
+                  springs.end());
+  }
   for (std::size_t k = 0; k < garment_->pairs.size(); ++k) {
     const SeamPair& pair = garment_->pairs[k];
     const double wanted = open * start_distance_m_[k];

@@ -51,7 +51,9 @@ struct SewingOptions {
   Index held_particles = 0;                // the first so many stand still: what is worn already under the garment
   std::vector<LabelHeight> label_heights;  // where labelled edges belong; held once the seams are closed
   bool labels_hold_panels = false;         // from the start: heavy panels would pull a waist down to where they hang
-  std::function<bool()> stop;              // asked before every step
+  // Edges that sink no farther than 5 cm until every l is 0: wide tiers would pull a bodice off the shoulders.
+  std::string kept_label;
+  std::function<bool()> stop;  // asked before every step
 };
 
 struct SeamGap {
@@ -121,7 +123,7 @@ class Sewing {
   StepOptions step_;
   ClothState state_;
   std::optional<AdaptiveStep> stepper_;
-  LabelSprings labels_;
+  LabelSprings labels_, kept_;
   std::vector<double> start_distance_m_;  // [pair]
   double longest_m_ = 0, mean_edge_m_ = 0, pull_factor_ = 1, time_s_ = 0;
   double best_gap_m_ = 0, best_time_s_ = 0;

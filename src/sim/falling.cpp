@@ -134,27 +134,28 @@ Belonging belonging_of(const GarmentMesh& garment) {
   return belonging;
 }
 
+TrunkLevels trunk_levels(std::span<const Vec3> person, std::span<const Triangle> triangles) {
+  return {hips(person, triangles), waist_height_m(person, triangles)};
+}
+
 std::optional<LostGarment> slid_down(std::span<const OutfitPart> parts, std::span<const Belonging> belongings,
-                                     std::span<const Vec3> cloth, std::span<const Vec3> person,
-                                     std::span<const Triangle> triangles) {
-  const Level widest = hips(person, triangles);
-  const double waist_m = waist_height_m(person, triangles);
+                                     std::span<const Vec3> cloth, const TrunkLevels& trunk, double share) {
   std::optional<LostGarment> lost;
   for_parts(parts, [&](std::size_t p, std::size_t first) {
     if (lost || p >= belongings.size()) return;
     const Belonging& belonging = belongings[p];
     double top_m = -std::numeric_limits<double>::infinity();
     for (const Vec3& x : cloth.subspan(first, at(parts[p].particles))) top_m = std::max(top_m, x.y());
-    if (belonging.bodice && waist_m > 0 && top_m < waist_m) {
-      lost = LostGarment{static_cast<Index>(p),
-                         fmt::sprintf("slid down: all of it, its bodice too, is below %.2f m, the waist is %.2f m high",
-                                      top_m, waist_m)};
-    } else if (belonging.waist_girth_m > 0 && widest.girth_m > 0 && top_m < widest.height_m) {
+    if (belonging.bodice && trunk.waist_m > 0 && top_m < share * trunk.waist_m) {
       lost = LostGarment{
           static_cast<Index>(p),
-          fmt::sprintf("slid off the hips: all of it is below %.2f m, the hips are %.2f m high and %.1f cm round; its "
-                       "waist is %.1f cm round as cut",
-                       top_m, widest.height_m, 100 * widest.girth_m, 100 * belonging.waist_girth_m)};
+          fmt::sprintf("all of it, its bodice too, is below %.2f m, the waist is %.2f m high", top_m, trunk.waist_m)};
+    } else if (belonging.waist_girth_m > 0 && trunk.hips.girth_m > 0 && top_m < share * trunk.hips.height_m) {
+      lost = LostGarment{
+          static_cast<Index>(p),
+          fmt::sprintf("all of it is below %.2f m, the hips are %.2f m high and %.1f cm round; its waist is %.1f cm "
+                       "round as cut",
+                       top_m, trunk.hips.height_m, 100 * trunk.hips.girth_m, 100 * belonging.waist_girth_m)};
     }
   });
   return lost;

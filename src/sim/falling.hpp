@@ -13,6 +13,7 @@
 // Easily got wrong: this is about still air, in which cloth gains no height.  In wind, without gravity, or while a hand drags the cloth,
 // nothing follows for what is to come; the caller must not ask.
 #pragma once
+#include "body/measure.hpp"
 #include "garment/garment_mesh.hpp"
 #include "sim/outfit.hpp"
 #include "sim/outfit_run.hpp"
@@ -81,10 +82,15 @@ struct Belonging {
 };
 Belonging belonging_of(const GarmentMesh& garment);
 
+struct TrunkLevels {
+  Level hips;
+  double waist_m = 0;  // 0: there is none
+};
+TrunkLevels trunk_levels(std::span<const Vec3> person, std::span<const Triangle> triangles);
+
 // The first garment that is not worn though the person is within it: with a bodice and yet all of it below her waist, or with a waist and yet all
-// of it below her hips.  `belongings`: [part].
+// of it below her hips; or below `share` of these heights.  `belongings`: [part].
 std::optional<LostGarment> slid_down(std::span<const OutfitPart> parts, std::span<const Belonging> belongings,
-                                     std::span<const Vec3> cloth, std::span<const Vec3> person,
-                                     std::span<const Triangle> triangles);
+                                     std::span<const Vec3> cloth, const TrunkLevels& trunk, double share = 1);
 
 }  // namespace toile::internal

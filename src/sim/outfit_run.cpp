@@ -17,6 +17,10 @@ constexpr double sewn_step_max_s = 1.0 / 60;
 // While rest is awaited: it takes as many steps, however long they are, so each is solved better; what turns slowly is not to be braked,
 // and what a solve leaves undone lets folds drift.
 constexpr double awaited_step_max_s = 1.0 / 30, awaited_slow_motion = 0.01, awaited_tolerance = 0.002;
+// What moves faster than this is not about to rest, and solved no better than elsewhere.  A dress of five gathered tiers takes half the
+// iterations while it falls; at 0.01, 0.05 and 0.2 m/s four garments take 89, 95 and 89 % of what they took until they rest.
+constexpr double awaited_slow_m_per_s = 0.05;
+constexpr double awaited_share = 0.99;  // of the particles that are slower: as rest is judged
 
 // What is taken goes where its moves lead it.
 void lead(TimedPin& timed) {
@@ -134,8 +138,19 @@ void OutfitRun::choose_steps() {
                                                           : sewn_step_max_s;
   stepper_->options().step_max_s = scene_->step_max_s.value_or(longest);
   stepper_->integrator().set_slow_motion(awaited ? awaited_slow_motion : step_.slow_motion);
+}
+
+// Of the coming frame.
+void OutfitRun::choose_tolerance() {
   const double tolerance = step_.pcg.tolerance;
-  stepper_->integrator().set_tolerance(awaited ? std::min(tolerance, awaited_tolerance) : tolerance);
+  const bool awaited = settling_.to_rest && !motion_;
+  stepper_->integrator().set_tolerance(awaited && is_slow() ? std::min(tolerance, awaited_tolerance) : tolerance);
+}
+
+bool OutfitRun::is_slow() const {
+  const Vec3s& v = outfit_->state.v;
+  const auto slow = std::count_if(v.begin(), v.end(), [](const Vec3& u) { return u.norm() <= awaited_slow_m_per_s; });
+  return static_cast<double>(slow) >= awaited_share * static_cast<double>(v.size());
 }
 
 void OutfitRun::start_motion(BodyAt body_at) {
@@ -215,6 +230,7 @@ FrameReport OutfitRun::frame(double length_s) {
   if (tangles_->any() || let_through) tangles_->find(outfit_->state.x);
   tangles_->switch_off(thickness);  // also where sewing had left it so
   stepper_->integrator().contact_rows().set_thickness_scale(thickness);
+  choose_tolerance();
   const FrameReport report = stepper_->advance(outfit_->state, time_s(), frame_s_);
   if (!report.interrupted && report.ok) ++frames_;
   return report;

@@ -4,7 +4,7 @@
 //                  A single garment slips on the body for 1 s before friction holds it; labels let go between 0.5 and 1 s.
 //   then           as the scene says.  start_motion() lets the body move from the next frame on.
 //
-// Where rest is awaited, steps are twice as long until then, and slow motion is solved for more exactly.
+// Where rest is awaited, steps are twice as long until then, and slow motion is solved for more exactly; once nearly all is slow, every step is.
 #pragma once
 #include "garment/label_heights.hpp"
 #include "sim/outfit.hpp"
@@ -110,6 +110,8 @@ class OutfitRun {
   void take_up(std::span<const Vec2> panel_rest_stretch);
   void settle();
   void choose_steps();
+  void choose_tolerance();
+  bool is_slow() const;
   void set_rest_stretch(double share);
   void happen();
   void change_in_time(double end_s);

@@ -81,7 +81,7 @@ void Simulation::limit_dressing(double longest_s, double time_limit_s) {
 
 void Simulation::judge_worn() {
   if (report_.ended == "time" && failure_.empty()) judge_end();
-  if (failure_.empty()) find_slid_down();
+  if (failure_.empty()) slid_down(1);
 }
 
 // Where it was left.

@@ -189,7 +189,7 @@ class Simulation {
   bool lost();
   bool goes_on();
   void judge_end();
-  void find_slid_down();
+  bool slid_down(double share);
 
   Scene scene_;
   SimulationOptions options_;
@@ -215,6 +215,7 @@ class Simulation {
   StepOptions step_;
   TouchMemory touches_;
   std::optional<FallWatch> fall_watch_;
+  std::optional<TrunkLevels> trunk_;  // of a person as she stands, once asked for
 
   DressingBody::Pose pose_;    // of dressing_body_, while the first garment is sewn
   bool on_shoulders_ = false;  // it hangs from there, not from its waist

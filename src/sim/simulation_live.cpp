@@ -11,6 +11,9 @@ namespace toile::internal {
 namespace {
 
 constexpr double rest_s = 0.5;  // after a garment has settled, before it may be said to be still
+// Of the height of the hips, or of a bodice's of the waist: what is wholly below has come past the widest place, and nothing that stands
+// still lifts it up again.  The run ends, instead of waiting for folds about the feet to rest.
+constexpr double beyond_return = 0.75;
 
 }  // namespace
 
@@ -184,7 +187,10 @@ bool Simulation::lost() {
   return true;
 }
 
-bool Simulation::goes_on() { return !fall_watch_ || !run_->settled() || in_wind() || !lost(); }
+bool Simulation::goes_on() {
+  if (!fall_watch_ || !run_->settled() || in_wind()) return true;
+  return !lost() && !(place_.phase == RunPhase::drape && slid_down(beyond_return));
+}
 
 // Of a run whose time is over.
 void Simulation::judge_end() {
@@ -197,14 +203,21 @@ void Simulation::judge_end() {
 }
 
 // A skirt that lies about the feet is not worn, nor is a dress that hangs at the hips.
-void Simulation::find_slid_down() {
-  if (!body_) return;
+bool Simulation::slid_down(double share) {
+  if (!body_) return false;
   const std::span person = std::span<const Triangle>(body_triangles_).first(person_triangles_);
-  if (!find_arms(std::span(standing_x_).first(person_vertices_), person)) return;  // a torso has no hips to be found
+  if (!trunk_) {
+    const bool torso = !find_arms(std::span(standing_x_).first(person_vertices_), person);  // has no hips to be found
+    trunk_ = torso ? TrunkLevels{} : trunk_levels(std::span(standing_x_).first(person_vertices_), person);
+  }
   const std::optional<LostGarment> lost =
-      slid_down(outfit_.parts, belongings_, outfit_.state.x, std::span(body_x_).first(person_vertices_), person);
-  if (lost)
-    end(reason::fell_off, printable(outfit_.parts[static_cast<std::size_t>(lost->part)].name) + ' ' + lost->where);
+      internal::slid_down(outfit_.parts, belongings_, outfit_.state.x, *trunk_, share);
+  if (!lost) return false;
+  const auto p = static_cast<std::size_t>(lost->part);
+  const bool never_touched = fall_watch_ && touches_.touched[p] == 0;
+  end(never_touched ? reason::never_touched : reason::fell_off,
+      printable(outfit_.parts[p].name) + (never_touched ? " fell past the body: " : " slid down: ") + lost->where);
+  return true;
 }
 
 void Simulation::close() {

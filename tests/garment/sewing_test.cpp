@@ -126,6 +126,47 @@ TEST(Sewing, ABandThatIsHeldDrawsHeavierPanelsUpToItself) {
   EXPECT_LT(fallen_m[1], 0.02);
 }
 
+// A bodice of 30 cm above wide tiers: its lower end is not drawn down to them, and goes nowhere of itself where nothing is sewn to it.
+TEST(Sewing, WhatIsKeptAtItsHeightDrawsWidePanelsUpToItself) {
+  Pattern pattern = test::tube_pattern(0.2, 0.3, 0.1, Vec3(0, 0.2, 0));
+  const Pattern below = test::tube_pattern(0.2, 0.5, 0.1, Vec3(0, -0.4, 0));
+  pattern.panels.insert(pattern.panels.end(), below.panels.begin(), below.panels.end());
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) pattern.panels[p].name += std::to_string(p);
+  pattern.stitches.insert(pattern.stitches.end(), {test::stitch(2, 1, 3, 3), test::stitch(2, 3, 3, 1),
+                                                   test::stitch(0, 0, 2, 2), test::stitch(1, 0, 3, 2)});
+  for (const std::size_t panel : {0, 1}) pattern.panels[panel].edges[0].label = "lower_interface";
+  for (const std::size_t panel : {2, 3}) pattern.panels[panel].edges[0].label = "hem";
+  std::array<double, 2> fallen_m{};
+  for (const std::string kept : {"", "lower_interface"}) {
+    SewingOptions options;
+    options.kept_label = kept;
+    SewingRun run(pattern, 0.02, nullptr, options);
+    const std::size_t k = kept.empty() ? 0 : 1;
+    options.kept_label = "hem";
+    SewingRun hem(pattern, 0.02, nullptr, options);
+    run.run(20);
+    hem.run(20);
+    const Vec3s hem_kept = hem.sewing->state().x;
+    ASSERT_EQ(run.sewing->status(), SewingStatus::sewing);
+    double count = 0;
+    for (const LabelledEdge& edge : run.garment.labels) {
+      if (edge.label != "lower_interface") continue;
+      for (const Index i : edge.particles) {
+        fallen_m[k] += run.garment.x[at(i)].y() - run.sewing->state().x[at(i)].y();
+        ++count;
+      }
+    }
+    fallen_m[k] /= count;
+    if (k == 0) {
+      EXPECT_EQ(hem_kept, run.sewing->state().x) << "nothing is sewn to a hem";
+    }
+    run.run(300);
+    expect_closed_without_crossings(run);
+  }
+  EXPECT_GT(fallen_m[0], 0.09);
+  EXPECT_LT(fallen_m[1], 0.06) << "it may sink by 5 cm";
+}
+
 TEST(Sewing, ATubeAroundACapsuleCloses) {
   BodySurface body = capsule(0.025, 0.1);
   ASSERT_NO_THROW(check_closed("capsule", body.positions(), body.triangles()));

@@ -299,7 +299,7 @@ TEST(Judging, AGarmentWithAWaistThatLiesBelowTheHipsIsNotWorn) {
   const std::vector<OutfitPart> parts{{"shirt", 0, 1, 2}, {"skirt", 1, 1, 2}};
   const auto found = [&](double skirt_top_m, std::vector<Belonging> belongings) {
     const Vec3s cloth{{0, 1.4, 0}, {0, 0.3, 0}, {0, skirt_top_m, 0}, {0, 0.2, 0}};
-    return slid_down(parts, belongings, cloth, woman.positions, woman.triangles);
+    return slid_down(parts, belongings, cloth, trunk_levels(woman.positions, woman.triangles));
   };
   const double hips_m = hips(woman.positions, woman.triangles).height_m;
   ASSERT_GT(hips_m, 0.7);
@@ -318,6 +318,29 @@ TEST(Judging, AGarmentWithAWaistThatLiesBelowTheHipsIsNotWorn) {
     EXPECT_NE(found(waist_m - 0.01, {nowhere, bodice})->where.find("its bodice too"), std::string::npos);
     EXPECT_FALSE(found(waist_m + 0.01, {nowhere, bodice}));
   }
+}
+
+// It would lie on the floor until its folds rest, for four seconds.
+TEST(Judging, ASkirtThatHasComePastTheHipsEndsEarlyAndBothGirthsAreSaid) {
+  const Scratch scratch;
+  std::ofstream(scratch / "skirt.json") << R"({"pattern": {"panels": {
+    "front": {"translation": [0, 90, 25], "rotation": [0, 0, 0], "vertices": [[-30,0],[30,0],[30,20],[-30,20]],
+      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3], "label": "lower_interface"}, {"endpoints": [3,0]}]},
+    "back": {"translation": [0, 90, -25], "rotation": [0, 0, 0], "vertices": [[-30,0],[-30,20],[30,20],[30,0]],
+      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2], "label": "lower_interface"}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
+    "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
+    "properties": {"units_in_meter": 100}})";
+  const Report report =
+      run(scratch, parse_scene(R"({"cloth": [{"pattern": ")" + (scratch / "skirt.json") + R"(", "resolution_cm": 5}],
+          "body": {"mannequin": "woman"}, "time": {"seconds": 10},
+          "solids": [{"box": {"size_m": [2, 0.1, 2]}, "placement": {"translation_m": [0, -0.1, 0]}}]})",
+                               "s.json"));
+  ASSERT_EQ(report.verdict.reasons.size(), 1u);
+  EXPECT_EQ(report.ended, "fell_off");
+  EXPECT_EQ(report.verdict.reasons.front().code, "fell_off");
+  EXPECT_NE(report.verdict.reasons.front().detail.find("its waist is 120.0 cm round"), std::string::npos)
+      << report.verdict.reasons.front().detail;
+  EXPECT_LT(report.frames, 50);
 }
 
 TEST(Judging, WhereAGarmentBelongsIsReadFromItsLabels) {

@@ -86,6 +86,18 @@ TEST(OutfitRun, StepsAreSolvedBetterWhileRestIsAwaited) {
   EXPECT_EQ(iterations(true, "0.0005"), iterations(false, "0.0005"));
 }
 
+// As long as it moves: cloth that falls is not about to rest.
+TEST(OutfitRun, FastStepsAreSolvedNoBetterWhileRestIsAwaited) {
+  const auto iterations = [](bool to_rest, const char* tolerance, double speed_m_per_s) {
+    Hanging hanging(to_rest, R"({"fps": 60})", tolerance);
+    for (Vec3& v : hanging.outfit.state.v) v = Vec3(0, speed_m_per_s, 0);
+    return hanging.run->frame().cg_iterations;
+  };
+  EXPECT_EQ(iterations(true, "0.01", 0.2), iterations(false, "0.01", 0.2));
+  EXPECT_NE(iterations(true, "0.01", 0.02), iterations(false, "0.01", 0.02));
+  EXPECT_EQ(iterations(true, "0.01", 0.02), iterations(false, "0.002", 0.02));
+}
+
 TEST(OutfitRun, StepsAreNoLongerThanTheSceneSaysAlsoWhileRestIsAwaited) {
   EXPECT_DOUBLE_EQ(Hanging(true, R"({"step_max_ms": 5})").longest_step_s(), 1.0 / 30 / 7);
   EXPECT_DOUBLE_EQ(Hanging(true, R"({"fps": 60})").longest_step_s(), 1.0 / 60);
