@@ -134,7 +134,8 @@ Collider load(const SceneMesh& mesh, const SceneCollider& whole, Hash& inputs) {
   } else if (whole.motion) {
     Motion motion = Motion::named(whole.motion->name);
     motion.set_lead_in_s(whole.motion->lead_in_s);
-    collider.movement = movement_of(BodyMotion::of_person(printable(mesh.path), read, motion), whole.motion->name, inputs);
+    collider.movement =
+        movement_of(BodyMotion::of_person(printable(mesh.path), read, motion), whole.motion->name, inputs);
   }
   collider.surface = {std::move(read.positions), std::move(read.triangles)};
   return collider;

@@ -43,7 +43,9 @@ struct SceneMesh {
 };
 template <class V>
 void describe_choice(V& v, SceneMesh& mesh, bool worn) {
-  v.path({"mesh", worn ? "a closed [mesh file](#mesh-files)" : "a closed [mesh file](#mesh-files), with all its parts", "no"}, mesh.path);
+  v.path({"mesh", worn ? "a closed [mesh file](#mesh-files)" : "a closed [mesh file](#mesh-files), with all its parts",
+          "no"},
+         mesh.path);
 }
 template <class V>
 void describe_beside(V& v, SceneMesh& mesh, bool worn) {
