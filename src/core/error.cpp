@@ -45,6 +45,13 @@ std::string printable(std::string_view name) {
   return out;
 }
 
+std::string alternatives(std::span<const std::string> names) {
+  std::string text;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    text += (k == 0 ? "" : k + 1 == names.size() ? " or " : ", ") + names[k];
+  return text;
+}
+
 std::string_view nearest_name(std::string_view name, const std::string_view* first, std::size_t count) {
   std::string_view best;
   std::size_t best_distance = static_cast<std::size_t>(-1);

@@ -6,6 +6,7 @@
 //   3. a bug of ours                     TOILE_ASSERT, on unless NDEBUG
 #pragma once
 #include <cassert>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -50,6 +51,9 @@ class IoError : public Error {
 
 // `name` with control characters and bytes that are not UTF-8 replaced, and cut to a length fit for one line of a log.
 std::string printable(std::string_view name);
+
+// "a, b or c": what may stand somewhere.
+std::string alternatives(std::span<const std::string> names);
 
 // The candidate nearest to `name` by edit distance, for "did you mean"; empty when there is none.
 std::string_view nearest_name(std::string_view name, const std::string_view* first, std::size_t count);

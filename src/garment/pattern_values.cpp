@@ -10,12 +10,9 @@ namespace {
 constexpr double largest_fold_deg = 170;  // at 180 a hinge cannot tell one side from the other
 
 std::string list_text(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if (k > 0) text += k + 1 == names.size() ? " or " : ", ";
-    text += "\"" + names[k] + "\"";
-  }
-  return text;
+  std::vector<std::string> quoted;
+  for (const std::string& name : names) quoted.push_back('"' + name + '"');
+  return alternatives(quoted);
 }
 
 }  // namespace

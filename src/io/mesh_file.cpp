@@ -77,11 +77,9 @@ const std::vector<MeshReader>& mesh_readers() {
 }
 
 std::string mesh_formats_in_words() {
-  std::string words;
-  const auto& readers = mesh_readers();
-  for (std::size_t k = 0; k < readers.size(); ++k)
-    words += (k == 0 ? "" : k + 1 == readers.size() ? " or " : ", ") + std::string(readers[k].name);
-  return words;
+  std::vector<std::string> names;
+  for (const MeshReader& reader : mesh_readers()) names.emplace_back(reader.name);
+  return alternatives(names);
 }
 
 std::string_view mesh_format_of(std::string_view bytes, const std::string& path) {

@@ -135,11 +135,9 @@ const MeshWriter* mesh_writer_for(std::string_view path) {
 }
 
 std::string mesh_writers_in_words() {
-  std::string words;
-  const auto& writers = mesh_writers();
-  for (std::size_t k = 0; k < writers.size(); ++k)
-    words += (k == 0 ? "" : k + 1 == writers.size() ? " or " : ", ") + std::string(writers[k].name);
-  return words;
+  std::vector<std::string> names;
+  for (const MeshWriter& writer : mesh_writers()) names.emplace_back(writer.name);
+  return alternatives(names);
 }
 
 }  // namespace toile::internal
