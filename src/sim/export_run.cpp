@@ -28,9 +28,8 @@ const MeshWriter& writer_of(const ExportOptions& options) {
                 options.to.empty() ? "export: expected a format, " + mesh_writers_in_words() +
                                          ", or a file whose name ends as one of them"
                                    : "export: expected " + mesh_writers_in_words() + ", got " + printable(options.to));
-  const bool named_otherwise = !options.all && !options.out.empty() && mesh_writer_for(options.out) != nullptr &&
-                               mesh_writer_for(options.out) != writer;
-  if (named_otherwise)
+  // Programs go by the ending: a .glb that is called .gltf opens in few of them.
+  if (!options.all && !options.out.empty() && !options.out.ends_with(writer->ending))
     throw Error(ExitCode::usage, "export: expected a file that ends in " + std::string(writer->ending) + ", got " +
                                      printable(options.out));
   return *writer;

@@ -11,8 +11,9 @@
 namespace toile::internal {
 
 struct ExportOptions {
-  std::string to;            // a writer's name (io/mesh_writer.hpp); empty: by the ending of `out`
-  std::string out;           // a file, or a folder for all frames; empty: out/NAME.<ending>, out/NAME_<format>
+  std::string to;  // a writer's name (io/mesh_writer.hpp); empty: by the ending of `out`
+  std::string
+      out;  // a file with the format's ending, or a folder for all frames; empty: out/NAME.<ending>, out/NAME_<format>
   std::string of = "cloth";  // or "body"
   std::optional<int> frame;  // none: the last
   bool all = false;          // every frame, in files cloth_0000.<ending> ...

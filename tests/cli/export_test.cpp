@@ -47,6 +47,8 @@ TEST(ExportCommand, WritesWhatItNamesAndSaysWhatItCannot) {
   refused({"--to", "ply", "--all", "--frame", "1"}, 2, "--all");
   refused({"--to", "ply", "--frame", "9"}, 3, "frame: expected 0 to 2, got 9");
   refused({"--to", "ply", "--of", "body"}, 6, "body.obj");
+  refused({"--to", "gltf", "--out", "a.gltf"}, 2, "expected a file that ends in .glb, got a.gltf");
+  refused({"--to", "ply", "--out", "a"}, 2, "expected a file that ends in .ply, got a");
   refused({"--out", "runs/sheet/cloth.obj"}, 6, "is a file of the run");
 }
 
