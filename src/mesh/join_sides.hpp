@@ -15,8 +15,8 @@ namespace toile::internal {
 struct JoinedSides {
   std::vector<Index> same_as;  // [vertex] the first of those that it is one with; itself where it is alone
   std::size_t joined = 0;      // vertices that are one with an earlier one
-  std::size_t left =
-      0;  // sides without neighbour that lie exactly on others and are not joined: which belong together cannot be told
+  // Sides without neighbour that lie exactly on others and are not joined: which belong together cannot be told.
+  std::size_t left = 0;
 };
 
 // Where several sides could be joined at a place, those of one part come first: `part` is a number per triangle, or empty.

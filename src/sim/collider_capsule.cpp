@@ -2,13 +2,13 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
-#include "mesh/check.hpp"
 #include "sim/colliders.hpp"
 #include "step/tangents.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace toile::internal {
@@ -38,14 +38,11 @@ std::vector<Vec2> outline(const SceneCapsule& capsule, double edge_m) {
 Collider load(const SceneCapsule& capsule, const SceneCollider& whole, Hash&) {
   const Vec3 way = capsule.to_m - capsule.from_m;
   if (way.norm() < shortest_m) throw InputError("", "to_m", "another place than from_m", "the same: that is a sphere");
-  Collider collider;
-  collider.surface = revolved(outline(capsule, whole.edge_m), whole.edge_m);
+  SolidMesh surface = revolved(outline(capsule, whole.edge_m), whole.edge_m);
   const Vec3 along = way.normalized(), middle = 0.5 * (capsule.from_m + capsule.to_m);
   const auto [across, beside] = tangents(along);
-  for (Vec3& p : collider.surface.positions) p = middle + p.x() * across + p.y() * along - p.z() * beside;
-  check_closed("", collider.surface.positions, collider.surface.triangles);
-  check_areas("", collider.surface.positions, collider.surface.triangles);
-  return collider;
+  for (Vec3& p : surface.positions) p = middle + p.x() * across + p.y() * along - p.z() * beside;
+  return standing(std::move(surface));
 }
 
 ColliderCost cost(const SceneCapsule& capsule, const SceneCollider& whole) {

@@ -10,14 +10,6 @@
 namespace toile::internal {
 namespace {
 
-Collider standing(SolidMesh surface) {
-  check_closed("", surface.positions, surface.triangles);
-  check_areas("", surface.positions, surface.triangles);
-  Collider collider;
-  collider.surface = std::move(surface);
-  return collider;
-}
-
 // Halved until no edge is too long: the longest are in the middle of the octahedron's faces.
 double ball_triangles(double radius_m, double edge_m) {
   double triangles = 8;
@@ -33,6 +25,14 @@ double ball_triangles(double radius_m, double edge_m) {
 }
 
 }  // namespace
+
+Collider standing(SolidMesh surface) {
+  check_closed("", surface.positions, surface.triangles);
+  check_areas("", surface.positions, surface.triangles);
+  Collider collider;
+  collider.surface = std::move(surface);
+  return collider;
+}
 
 double revolved_triangles(std::span<const Vec2> profile_m, double edge_m) {
   double along = 0, widest_m = 0;

@@ -81,6 +81,8 @@ ColliderCost cost(const SceneBox& box, const SceneCollider& whole);
 ColliderCost cost(const SceneRevolved& shape, const SceneCollider& whole);
 ColliderCost cost(const SceneCylinder& cylinder, const SceneCollider& whole);
 
+// Of a surface that is checked here: closed, without triangles on a line.  Throws InputError("", ...).
+Collider standing(SolidMesh surface);
 // Of what `revolved` makes of an outline, about.
 double revolved_triangles(std::span<const Vec2> profile_m, double edge_m);
 

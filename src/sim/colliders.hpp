@@ -36,9 +36,8 @@ struct SceneCollider {
   bool inside_out = false;            // a room
   Vec3 translation_m{0, 0, 0};
   Vec3 rotation_deg{0, 0, 0};
-  RigidPath moves;  // about its translation_m, with what moves by itself
-  ColliderContact
-      contact;  // of the body: also of solids that have none of their own; absent: the cloth's, sim/setup.hpp
+  RigidPath moves;                         // about its translation_m, with what moves by itself
+  ColliderContact contact;                 // of the body: also of solids that have none of their own (sim/setup.hpp)
   std::vector<FrictionKey> friction_path;  // in the place of its constant; of the body likewise
   std::string where, pointer;
 
