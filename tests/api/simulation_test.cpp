@@ -2,6 +2,7 @@
 #include "toile/simulation.hpp"
 
 #include "arrays.hpp"
+#include "message_of.hpp"
 #include "toile/version.hpp"
 
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@ namespace toile {
 namespace {
 
 using test::Arrays;
+using test::message_of;
 
 Cloth sheet(double height_m, int cells = 12, double edge_m = 0.03) {
   const Arrays arrays = test::level_sheet(cells, edge_m, height_m);
@@ -26,17 +28,6 @@ Cloth sheet(double height_m, int cells = 12, double edge_m = 0.03) {
 Body block(double half_m = 0.15) {
   const Arrays arrays = test::box({0, 0, 0}, half_m);
   return Body::from_arrays(arrays.vertices_m, arrays.faces);
-}
-
-template <class E, class Work>
-std::string message_of(const Work& work) {
-  try {
-    work();
-  } catch (const E& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing of this kind was thrown";
-  return "";
 }
 
 TEST(Simulation, FallsAsFreelyAsAStone) {

@@ -1,5 +1,6 @@
 // Several colliders: friction, offset and motion of each; which of them the caller leads.
 #include "arrays.hpp"
+#include "message_of.hpp"
 #include "toile/simulation.hpp"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@ namespace toile {
 namespace {
 
 using test::Arrays;
+using test::message_of;
 
 constexpr double gravity = 9.81, radians = std::numbers::pi / 180;
 
@@ -32,17 +34,6 @@ Point mean(const std::vector<Point>& x) {
   for (const Point& p : x)
     for (std::size_t c = 0; c < 3; ++c) sum[c] += p[c] / static_cast<double>(x.size());
   return sum;
-}
-
-template <class E, class Work>
-std::string message_of(const Work& work) {
-  try {
-    work();
-  } catch (const E& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing of this kind was thrown";
-  return "";
 }
 
 // Two slopes of 20 degrees (tan = 0.36) side by side: what sticks on one slides on the other, as Coulomb says.

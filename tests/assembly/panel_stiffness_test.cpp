@@ -15,12 +15,7 @@ using test::Sheet;
 // The left half is one panel, the right half another.
 Sheet two_panels() {
   Sheet sheet = test::equilateral_sheet(0.2, 0.1, 0.02);
-  sheet.mesh.panel_names = {"left", "right"};
-  for (std::size_t t = 0; t < sheet.mesh.triangles.size(); ++t) {
-    double u = 0;
-    for (const Vec2& corner : sheet.mesh.uv[t]) u += corner.x() / 3;
-    sheet.mesh.panel[t] = u < 0.1 ? 0 : 1;
-  }
+  test::add_panel(sheet, "right", [](const Vec2& uv) { return uv.x() >= 0.1; });
   return sheet;
 }
 

@@ -4,6 +4,7 @@
 #include "core/parallel.hpp"
 #include "garments.hpp"
 #include "mesh/check.hpp"
+#include "sewing_run.hpp"
 #include "support/bare_step.hpp"
 #include "support/bodies.hpp"
 #include "support/crossings.hpp"
@@ -18,6 +19,10 @@
 
 namespace toile::internal {
 namespace {
+
+using test::expect_closed_without_crossings;
+using test::SewingRun;
+using test::widest;
 
 // An upright capsule: a straight post of 24 sides with round ends.
 BodySurface capsule(double radius, double half_length) {
@@ -51,38 +56,6 @@ BodySurface capsule(double radius, double half_length) {
   return BodySurface(std::move(x), triangles);
 }
 
-struct SewingRun {
-  SewingRun(const Pattern& pattern, double resolution, BodySurface* body = nullptr, const SewingOptions& options = {})
-      : garment(mesh_garment(pattern, resolution)) {
-    sewing.emplace(garment, std::span<const Fabric>(&fabric, 1), body, test::bare_step(), options);
-  }
-  void run(int most_frames) {
-    for (int f = 0; f < most_frames && sewing->status() == SewingStatus::sewing; ++f) {
-      const FrameReport report = sewing->frame();
-      EXPECT_TRUE(report.ok) << report.diagnosis;
-    }
-  }
-  Fabric fabric;
-  GarmentMesh garment;
-  std::optional<Sewing> sewing;
-};
-
-double widest(const GarmentMesh& garment, const Vec3s& x) {
-  double gap = 0;
-  for (const SeamPair& pair : garment.pairs) gap = std::max(gap, (x[at(pair.a)] - x[at(pair.b)]).norm());
-  return gap;
-}
-
-void expect_closed_without_crossings(const SewingRun& run) {
-  const Sewing& sewing = *run.sewing;
-  ASSERT_EQ(sewing.status(), SewingStatus::closed);
-  EXPECT_LT(widest(run.garment, sewing.state().x), 1e-12) << "every class has been moved to where it will be welded";
-  EXPECT_NEAR(sewing.widest_gap_m(), widest(run.garment, sewing.state().x), 1e-15);
-  const WeldedMesh welded = weld(run.garment);
-  const ClothState joined = weld_state(run.garment, welded, sewing.model(), sewing.state());
-  EXPECT_EQ(test::crossings_of(joined.x, welded.mesh.triangles), 0);
-}
-
 TEST(Sewing, ATubeInTheAirCloses) {
   SewingRun run(test::tube_pattern(0.12, 0.12, 0.1), 0.02);
   run.run(200);
@@ -92,79 +65,6 @@ TEST(Sewing, ATubeInTheAirCloses) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : run.sewing->state().x) mean += p / static_cast<double>(run.garment.x.size());
   EXPECT_LT(mean.norm(), 2e-3) << "no gravity, no outer force";
-}
-
-// A narrow band above wide panels: sewn together they meet where the middle of their mass is, unless the band is held.
-TEST(Sewing, ABandThatIsHeldDrawsHeavierPanelsUpToItself) {
-  Pattern pattern = test::tube_pattern(0.2, 0.04, 0.1, Vec3(0, 0.2, 0));
-  const Pattern below = test::tube_pattern(0.2, 0.3, 0.1, Vec3(0, -0.1, 0));
-  pattern.panels.insert(pattern.panels.end(), below.panels.begin(), below.panels.end());
-  for (std::size_t p = 0; p < pattern.panels.size(); ++p) pattern.panels[p].name += std::to_string(p);
-  pattern.stitches.insert(pattern.stitches.end(), {test::stitch(2, 1, 3, 3), test::stitch(2, 3, 3, 1),
-                                                   test::stitch(0, 0, 2, 2), test::stitch(1, 0, 3, 2)});
-  for (const std::size_t panel : {0, 1}) pattern.panels[panel].edges[0].label = "lower_interface";
-  const double waist_m = 0.18;
-  std::array<double, 2> fallen_m{};
-  for (const bool held : {false, true}) {
-    SewingOptions options;
-    options.label_heights = {{"lower_interface", waist_m}};
-    options.labels_hold_panels = held;
-    SewingRun run(pattern, 0.02, nullptr, options);
-    run.run(12);
-    ASSERT_EQ(run.sewing->status(), SewingStatus::sewing);
-    double height_m = 0, count = 0;
-    for (const LabelledEdge& edge : run.garment.labels)
-      for (const Index i : edge.particles) {
-        height_m += run.sewing->state().x[at(i)].y();
-        ++count;
-      }
-    fallen_m[held ? 1 : 0] = waist_m - height_m / count;
-    run.run(200);
-    expect_closed_without_crossings(run);
-  }
-  EXPECT_GT(fallen_m[0], 0.05);
-  EXPECT_LT(fallen_m[1], 0.02);
-}
-
-// A bodice of 30 cm above wide tiers: its lower end is not drawn down to them, and goes nowhere of itself where nothing is sewn to it.
-TEST(Sewing, WhatIsKeptAtItsHeightDrawsWidePanelsUpToItself) {
-  Pattern pattern = test::tube_pattern(0.2, 0.3, 0.1, Vec3(0, 0.2, 0));
-  const Pattern below = test::tube_pattern(0.2, 0.5, 0.1, Vec3(0, -0.4, 0));
-  pattern.panels.insert(pattern.panels.end(), below.panels.begin(), below.panels.end());
-  for (std::size_t p = 0; p < pattern.panels.size(); ++p) pattern.panels[p].name += std::to_string(p);
-  pattern.stitches.insert(pattern.stitches.end(), {test::stitch(2, 1, 3, 3), test::stitch(2, 3, 3, 1),
-                                                   test::stitch(0, 0, 2, 2), test::stitch(1, 0, 3, 2)});
-  for (const std::size_t panel : {0, 1}) pattern.panels[panel].edges[0].label = "lower_interface";
-  for (const std::size_t panel : {2, 3}) pattern.panels[panel].edges[0].label = "hem";
-  std::array<double, 2> fallen_m{};
-  for (const std::string kept : {"", "lower_interface"}) {
-    SewingOptions options;
-    options.kept_label = kept;
-    SewingRun run(pattern, 0.02, nullptr, options);
-    const std::size_t k = kept.empty() ? 0 : 1;
-    options.kept_label = "hem";
-    SewingRun hem(pattern, 0.02, nullptr, options);
-    run.run(20);
-    hem.run(20);
-    const Vec3s hem_kept = hem.sewing->state().x;
-    ASSERT_EQ(run.sewing->status(), SewingStatus::sewing);
-    double count = 0;
-    for (const LabelledEdge& edge : run.garment.labels) {
-      if (edge.label != "lower_interface") continue;
-      for (const Index i : edge.particles) {
-        fallen_m[k] += run.garment.x[at(i)].y() - run.sewing->state().x[at(i)].y();
-        ++count;
-      }
-    }
-    fallen_m[k] /= count;
-    if (k == 0) {
-      EXPECT_EQ(hem_kept, run.sewing->state().x) << "nothing is sewn to a hem";
-    }
-    run.run(300);
-    expect_closed_without_crossings(run);
-  }
-  EXPECT_GT(fallen_m[0], 0.09);
-  EXPECT_LT(fallen_m[1], 0.06) << "it may sink by 5 cm";
 }
 
 TEST(Sewing, ATubeAroundACapsuleCloses) {
@@ -279,48 +179,6 @@ TEST(Sewing, AStepThatCollapsesOverTautClothIsBlockedAndNotAFault) {
   }
 }
 
-TEST(Sewing, ALabelledEdgeIsDrawnToItsHeightOnceTheSeamsAreClosed) {
-  Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
-  for (Panel& panel : pattern.panels) panel.edges[0].label = "lower_interface";
-  SewingOptions options;
-  const GarmentMesh garment = mesh_garment(pattern, 0.02);
-  ASSERT_EQ(garment.labels.size(), 2U);
-  const auto height = [&](const Vec3s& x) {
-    double sum = 0, count = 0;
-    for (const LabelledEdge& edge : garment.labels) {
-      for (const Index i : edge.particles) {
-        sum += x[at(i)].y();
-        ++count;
-      }
-    }
-    return sum / count;
-  };
-  const double wanted = height(garment.x) + 0.03;
-  options.label_heights = {{"lower_interface", wanted}, {"unknown", 7}};
-  SewingRun held(pattern, 0.02, nullptr, options), free(pattern, 0.02);
-  held.run(200);
-  free.run(200);
-  ASSERT_EQ(held.sewing->status(), SewingStatus::closed);
-  EXPECT_NEAR(height(free.sewing->state().x), height(garment.x), 2e-3);
-  EXPECT_GT(height(held.sewing->state().x), height(garment.x) + 1e-3) << "on its way";
-
-  // Springs of their own weight: at the height they rest, above it they push down, never harder than their limit.
-  const LabelSprings springs(garment, options.label_heights);
-  ClothState state{garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
-  for (const double above : {-0.5, -0.01, 0.0, 0.01, 0.5}) {
-    for (Vec3& p : state.x) p.y() = wanted + above;
-    std::vector<LinearSpring> rows;
-    springs.append(state, 0.5, rows);
-    double force = 0;
-    for (const LinearSpring& row : rows) {
-      force += row.force_N * row.direction.y();
-      EXPECT_LE(row.stiffness_N_per_m * std::fabs(above), std::fabs(row.force_N) + 1e-12) << "a step cannot overshoot";
-    }
-    const double limit = 0.5 * 20 * 0.24;  // two edges of 12 cm
-    EXPECT_NEAR(force, std::clamp(-above / 0.02, -1.0, 1.0) * limit, 1e-9) << above;
-  }
-}
-
 TEST(Sewing, ClothIsAsStiffAsLeatherUntilTheWeldAndNeverSofterThanItsFabric) {
   const Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
   const GarmentMesh garment = mesh_garment(pattern, 0.02);
@@ -410,34 +268,6 @@ TEST(Sewing, AWideGapIsNotWeldedBeforeItHasStoppedClosing) {
   run.run(200);
   ASSERT_EQ(run.sewing->status(), SewingStatus::closed);
   EXPECT_GE(run.sewing->time_s(), 0.1 / options.closing_speed_m_per_s);
-}
-
-TEST(Sewing, LabelledEdgesAreFreeUntilTheSeamsAreClosed) {
-  Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
-  for (Panel& panel : pattern.panels) panel.edges[0].label = "hem";
-  SewingOptions options;
-  options.label_heights = {{"hem", 1.0}};
-  SewingRun held(pattern, 0.02, nullptr, options), free(pattern, 0.02);
-  for (SewingRun* run : {&held, &free}) run->run(10);  // of 12 frames
-  ASSERT_EQ(held.sewing->status(), SewingStatus::sewing);
-  const Vec3s &x = held.sewing->state().x, &y = free.sewing->state().x;
-  EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(Vec3)), 0);
-}
-
-TEST(Sewing, LabelSpringsFollowTheirParticlesIntoTheWeld) {
-  Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
-  pattern.panels[1].edges[0].label = "hem";
-  const GarmentMesh garment = mesh_garment(pattern, 0.02);
-  const WeldedMesh welded = weld(garment);
-  const std::vector<LabelHeight> heights{{"hem", 1.0}};
-  const LabelSprings panels(garment, heights), whole = panels.welded(welded.particle_of);
-  std::vector<LinearSpring> before, after;
-  panels.append({garment.x, Vec3s(garment.x.size(), Vec3::Zero())}, 1, before);
-  whole.append({Vec3s(at(welded.mesh.particle_count), Vec3::Zero()), {}}, 1, after);
-  ASSERT_EQ(before.size(), garment.labels.at(0).particles.size());
-  ASSERT_EQ(before.size(), after.size());
-  for (std::size_t k = 0; k < before.size(); ++k)
-    EXPECT_EQ(after[k].particle[0], welded.particle_of[at(before[k].particle[0])]);
 }
 
 TEST(Sewing, ASheetBetweenTheSeamsStopsTheWeldAndIsNotPassed) {

@@ -40,12 +40,7 @@ TEST(RestStretch, AFreePanelTakesItsNewWidthInTheMidstOfARun) {
 // A band across a sheet, the band its own panel.
 Sheet banded() {
   Sheet sheet = test::equilateral_sheet(0.3, 0.2, 0.0125);
-  sheet.mesh.panel_names = {"cloth", "band"};
-  for (std::size_t t = 0; t < sheet.mesh.triangles.size(); ++t) {
-    double v = 0;
-    for (const Vec2& corner : sheet.mesh.uv[t]) v += corner.y() / 3;
-    sheet.mesh.panel[t] = std::abs(v - 0.1) < 0.02 ? 1 : 0;
-  }
+  test::add_panel(sheet, "band", [](const Vec2& uv) { return std::abs(uv.y() - 0.1) < 0.02; });
   return sheet;
 }
 

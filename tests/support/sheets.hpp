@@ -16,6 +16,17 @@ struct Sheet {
   Vec3s x;  // flat in the plane y = 0, u along x, v along -z, so that the right side faces up
 };
 
+// The triangles whose middle, in the drawing, is_second says are a second panel of this name.
+template <class IsSecond>
+void add_panel(Sheet& sheet, const std::string& name, const IsSecond& is_second) {
+  const auto second = static_cast<Index>(sheet.mesh.panel_names.size());
+  sheet.mesh.panel_names.push_back(name);
+  for (std::size_t t = 0; t < sheet.mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = sheet.mesh.uv[t];
+    if (is_second(Vec2((a + b + c) / 3))) sheet.mesh.panel[t] = second;
+  }
+}
+
 // Rows of equilateral triangles; odd rows are shifted by half an edge and close with a half triangle at both ends.
 inline Sheet equilateral_sheet(double width_m, double height_m, double edge_m) {
   const int columns = std::max(1, static_cast<int>(std::lround(width_m / edge_m)));

@@ -1,0 +1,21 @@
+// What an error of the library says.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace toile::test {
+
+// Of the E that `work` throws; a failure if it throws none.
+template <class E, class Work>
+std::string message_of(const Work& work) {
+  try {
+    work();
+  } catch (const E& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing of this kind was thrown";
+  return "";
+}
+
+}  // namespace toile::test
