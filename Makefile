@@ -34,7 +34,7 @@ test-clang: packages
 	ctest --preset clang -LE long -j $(JOBS)
 
 # With little optimisation too: by g++ for addresses and undefined behaviour, by clang for threads.
-all_modules := core mesh io material constraint contact assembly solver step garment body verify preview sim golden
+all_modules := core mesh io material constraint contact assembly solver step garment body dress verify preview sim golden
 threaded_modules := core contact assembly solver step golden
 test-sanitizers: packages
 	@cmake --preset dev >/dev/null

@@ -32,8 +32,8 @@ Drape::Drape(const Scene& scene) : scene_(scene) {
                   std::move(joined.vertex_collider));
   outfit_ = outfit_of_shapes(shapes);
   step_ = step_options(scene_, edge_m);
-  run_.emplace(scene_, outfit_, body(), step_, Settling{}, nullptr);
-  run_->set_events(events_of(outfit_, shapes));
+  run_.emplace(run_options(scene_, step_), outfit_, body());
+  run_->set_events(events_of(scene_, outfit_, shapes));
 }
 
 bool Drape::advance(int frames) {

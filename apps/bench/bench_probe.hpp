@@ -4,7 +4,7 @@
 //
 // So that two fabrics or two solvers can be compared on one and the same problem: state, contacts and constraints are the drape's.
 #pragma once
-#include "sim/outfit_run.hpp"
+#include "dress/outfit_run.hpp"
 #include "sim/scene.hpp"
 #include "step/implicit_euler.hpp"
 

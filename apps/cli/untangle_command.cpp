@@ -10,7 +10,7 @@
 #include "mesh/check.hpp"
 #include "mesh/join_sides.hpp"
 #include "sim/setup.hpp"
-#include "sim/untangle.hpp"
+#include "dress/untangle.hpp"
 #include "terminal.hpp"
 #include "verify/crossings.hpp"
 

@@ -5,10 +5,10 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "garment/pattern_check.hpp"
-#include "garment/sewing.hpp"
+#include "dress/sewing.hpp"
 #include "io/pc2.hpp"
-#include "sim/dressing_body.hpp"
-#include "sim/outfit_run.hpp"
+#include "dress/dressing_body.hpp"
+#include "dress/outfit_run.hpp"
 
 #include <fmt/printf.h>
 

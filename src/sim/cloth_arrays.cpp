@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "mesh/check.hpp"
-#include "sim/rigid_path.hpp"
+#include "dress/rigid_path.hpp"
 #include "sim/setup.hpp"
 
 #include <numeric>

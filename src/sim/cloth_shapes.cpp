@@ -4,7 +4,7 @@
 #include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "garment/triangulate.hpp"
-#include "sim/rigid_path.hpp"
+#include "dress/rigid_path.hpp"
 
 #include <fmt/printf.h>
 #include <Eigen/Geometry>

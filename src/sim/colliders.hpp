@@ -7,7 +7,8 @@
 #include "sim/collider_capsule.hpp"
 #include "sim/collider_person.hpp"
 #include "sim/collider_solid.hpp"
-#include "sim/rigid_path.hpp"
+#include "dress/keyed.hpp"
+#include "dress/rigid_path.hpp"
 
 #include <optional>
 #include <span>
@@ -21,12 +22,6 @@ namespace toile::internal {
 using ColliderShape = std::variant<std::monostate,  // nothing
                                    SceneMannequin, SceneMesh, SceneArrays, SceneSphere, SceneBox, SceneRevolved,
                                    SceneCylinder, SceneCapsule>;
-
-// The friction of a collider, in time.
-struct FrictionKey {
-  double t_s = 0;
-  double friction = 0;
-};
 
 struct SceneCollider {
   ColliderShape shape;

@@ -15,8 +15,8 @@
 #pragma once
 #include "body/measure.hpp"
 #include "garment/garment_mesh.hpp"
-#include "sim/outfit.hpp"
-#include "sim/outfit_run.hpp"
+#include "dress/outfit.hpp"
+#include "dress/outfit_run.hpp"
 
 #include <optional>
 #include <span>

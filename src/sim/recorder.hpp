@@ -1,6 +1,6 @@
 // sim/recorder.hpp: frames of the outfit, from memory to the files and to the judge, who sees what is written.
 #pragma once
-#include "sim/outfit.hpp"
+#include "dress/outfit.hpp"
 #include "sim/run_writer.hpp"
 #include "verify/verify.hpp"
 

@@ -1,7 +1,5 @@
 #include "sim/rest_watch.hpp"
 
-#include "sim/report.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,7 +7,7 @@
 namespace toile::internal {
 namespace {
 
-constexpr double at_rest_mm_per_s = 2, rest_s = 0.5;  // when a drape may stop
+constexpr double rest_s = 0.5;
 
 }  // namespace
 
@@ -24,7 +22,8 @@ Vec3s as_written(std::span<const Vec3> x) {
   return rounded;
 }
 
-void RestWatch::begin(std::span<const Vec3> x, double fps) {
+void RestWatch::begin(std::span<const Vec3> x, double fps, const RestLimits& limits) {
+  limits_ = limits;
   before_ = as_written(x);
   fps_ = fps;
 }
@@ -38,10 +37,9 @@ void RestWatch::frame(std::span<const Vec3> x) {
 bool RestWatch::at_rest() const {
   const auto recent = static_cast<std::size_t>(std::max(1.0, std::ceil(rest_s * fps_)));
   if (speeds_.size() < recent) return false;
-  const double limit = Limits{}.still_mm_per_s;
-  return std::all_of(speeds_.begin(), speeds_.end(), [&](double v) { return v <= limit; }) &&
-         std::all_of(speeds_.end() - static_cast<std::ptrdiff_t>(recent), speeds_.end(),
-                     [](double v) { return v <= at_rest_mm_per_s; });
+  const auto within = [](double limit) { return [limit](double v) { return v <= limit; }; };
+  return std::all_of(speeds_.begin(), speeds_.end(), within(limits_.a_second)) &&
+         std::all_of(speeds_.end() - static_cast<std::ptrdiff_t>(recent), speeds_.end(), within(limits_.half_a_second));
 }
 
 }  // namespace toile::internal

@@ -10,12 +10,13 @@
 // that runs has been obeyed in every word.
 #pragma once
 #include "assembly/air.hpp"
-#include "garment/label_heights.hpp"
+#include "dress/label_springs.hpp"
 #include "io/json.hpp"
 #include "material/fabric.hpp"
 #include "material/membrane.hpp"
 #include "sim/colliders.hpp"
-#include "sim/rigid_path.hpp"
+#include "dress/keyed.hpp"
+#include "dress/rigid_path.hpp"
 #include "solver/modified_pcg.hpp"
 #include "step/drag.hpp"
 #include "step/implicit_euler.hpp"
@@ -30,18 +31,6 @@
 #include <vector>
 
 namespace toile::internal {
-
-// The panel's (b_u, b_v) in time, ascending; straight in between: a cloth that shrinks while it is simulated.
-struct RestStretchKey {
-  double t_s = 0;
-  Vec2 b{1, 1};
-};
-
-// Shares of the stretch, shear and bend of the panel's fabric, likewise.
-struct StiffnessKey {
-  double t_s = 0;
-  Vec3 share{1, 1, 1};
-};
 
 struct ScenePanel {  // what one panel has of its own
   std::string name;
@@ -58,11 +47,7 @@ struct ScenePin {
   std::optional<std::array<Vec3, 2>> in_box_m;  // instead: all between two corners of a box at the start
   enum class Hold { fixed, path, moves, body };
   Hold hold = Hold::fixed;
-  struct Key {
-    double t_s = 0;
-    Vec3 x_m{0, 0, 0};
-  };
-  std::vector<Key> path;  // ascending times; straight in between, at rest before and after
+  std::vector<VectorKey> path;  // ascending times; straight in between, at rest before and after
   RigidPath moves;        // instead: all that is held moves as one, from where it is when it is taken; times from there
   double from_s = 0, to_s = std::numeric_limits<double>::infinity();  // it is held in this time
   std::string where, pointer;
@@ -71,7 +56,7 @@ struct ScenePin {
 // A hand that pulls the nearest particle by a damped spring to a place that may move.
 struct SceneDrag {
   Vec3 near_m{0, 0, 0};
-  std::vector<ScenePin::Key> path;  // of the hand
+  std::vector<VectorKey> path;  // of the hand
   double stiffness_N_per_m = Drag{}.stiffness_N_per_m, damping_N_s_per_m = Drag{}.damping_N_s_per_m,
          max_force_N = Drag{}.max_force_N;
   double from_s = 0, to_s = 0;  // it holds the cloth in this time
@@ -149,7 +134,7 @@ struct Scene {
   Vec3 gravity_m_per_s2 = ModelOptions{}.gravity_m_per_s2;
   AirOptions air;
   // In time, ascending and straight in between; they take the place of the constants above.
-  std::vector<ScenePin::Key> gravity_path, wind_path;
+  std::vector<VectorKey> gravity_path, wind_path;
 
   // Of a garment that is dressed without a scene: most are still after three or four, a long skirt at 2.1 cm after 11.
   static constexpr double longest_dress_s = 20;

@@ -14,9 +14,9 @@
 namespace toile::internal {
 namespace {
 
-void check_speed_along(const Json& path, const std::vector<ScenePin::Key>& keys) {
+void check_speed_along(const Json& path, const std::vector<VectorKey>& keys) {
   for (std::size_t k = 1; k < keys.size(); ++k) {
-    const double m_per_s = (keys[k].x_m - keys[k - 1].x_m).norm() / (keys[k].t_s - keys[k - 1].t_s);
+    const double m_per_s = (keys[k].x - keys[k - 1].x).norm() / (keys[k].t_s - keys[k - 1].t_s);
     if (m_per_s > most_led_m_per_s)
       path.array()[k].fail(fmt::sprintf("at most %g m/s from the key before", most_led_m_per_s),
                            fmt::sprintf("%.4g m/s", m_per_s));

@@ -17,7 +17,7 @@ void describe_times_and_place(V& row, double& t_s, Vec3& x_m) {
   row.column("y", anywhere, x_m.y());
   row.column("z", anywhere, x_m.z());
 }
-inline constexpr auto path_row = [](auto& row, ScenePin::Key& key) { describe_times_and_place(row, key.t_s, key.x_m); };
+inline constexpr auto path_row = [](auto& row, VectorKey& key) { describe_times_and_place(row, key.t_s, key.x); };
 inline constexpr auto point_row = [](auto& row, Vec3& p) {
   row.column("x", anywhere, p.x());
   row.column("y", anywhere, p.y());

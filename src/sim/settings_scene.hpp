@@ -13,11 +13,11 @@ void describe(V& v, PairFriction& pair) {  // a row
 
 // Rows [t_s, x, y, z] of a vector that changes.
 inline auto in_time(double most) {
-  return [most](auto& row, ScenePin::Key& key) {
+  return [most](auto& row, VectorKey& key) {
     row.column("t_s", within_a_run, key.t_s);
-    row.column("x", Range{-most, most}, key.x_m.x());
-    row.column("y", Range{-most, most}, key.x_m.y());
-    row.column("z", Range{-most, most}, key.x_m.z());
+    row.column("x", Range{-most, most}, key.x.x());
+    row.column("y", Range{-most, most}, key.x.y());
+    row.column("z", Range{-most, most}, key.x.z());
   };
 }
 

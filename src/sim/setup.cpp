@@ -163,7 +163,7 @@ TimedPin timed_pin(const ScenePin& given, Index particle) {
   timed.on_body = given.hold == ScenePin::Hold::body;
   timed.pin.particle = particle;
   if (given.hold == ScenePin::Hold::path)
-    timed.pin.path = [path = given.path](double t_s) { return along(path, &ScenePin::Key::x_m, t_s); };
+    timed.pin.path = [path = given.path](double t_s) { return along(path, &VectorKey::x, t_s); };
   return timed;
 }
 
@@ -190,7 +190,7 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
     drag.near_m = given.near_m;
     drag.from_s = given.from_s;
     drag.to_s = given.to_s;
-    drag.drag.target = [path = given.path](double t_s) { return along(path, &ScenePin::Key::x_m, t_s); };
+    drag.drag.target = [path = given.path](double t_s) { return along(path, &VectorKey::x, t_s); };
     drag.drag.stiffness_N_per_m = given.stiffness_N_per_m;
     drag.drag.damping_N_s_per_m = given.damping_N_s_per_m;
     drag.drag.max_force_N = given.max_force_N;
@@ -215,8 +215,16 @@ Outfit outfit_of_shapes(std::span<const LoadedCloth> cloth) {
   return outfit;
 }
 
-Events events_of(const Outfit& outfit, std::span<const LoadedCloth> cloth) {
+Events events_of(const Scene& scene, const Outfit& outfit, std::span<const LoadedCloth> cloth) {
   Events events;
+  events.gravity = scene.gravity_path;
+  events.wind = scene.wind_path;
+  const auto friction = [&](const SceneCollider& collider, std::optional<Index> number) {
+    if (!collider.friction_path.empty()) events.friction.push_back({number, collider.friction_path});
+  };
+  friction(scene.body, {});
+  const Index first_solid = scene.body.exists() ? 1 : 0;
+  for (std::size_t k = 0; k < scene.solids.size(); ++k) friction(scene.solids[k], first_solid + static_cast<Index>(k));
   Index first = 0;
   for (std::size_t k = 0; k < cloth.size(); ++k) {
     const OutfitPart& part = outfit.parts[k];
@@ -263,6 +271,22 @@ std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const Garment
 }
 
 double default_offset_m(double edge_m) { return std::clamp(0.2 * edge_m, 1.5e-3, 2.5e-3); }
+
+OutfitRunOptions run_options(const Scene& scene, const StepOptions& step, std::function<bool()> stop) {
+  OutfitRunOptions options;
+  options.model.gravity_m_per_s2 =
+      scene.gravity_path.empty() ? scene.gravity_m_per_s2 : scene.gravity_path.front().x;
+  options.model.paper_scaling = scene.paper_scaling;
+  options.model.damping_jacobian = scene.damping_jacobian;
+  options.model.pair_friction = scene.friction_between;
+  options.air = scene.air;
+  if (!scene.wind_path.empty()) options.air.wind_m_per_s = scene.wind_path.front().x;
+  options.step = step;
+  options.fps = scene.fps;
+  options.step_max_s = scene.step_max_s;
+  options.stop = std::move(stop);
+  return options;
+}
 
 StepOptions step_options(const Scene& scene, double edge_m) {
   StepOptions step;

@@ -5,9 +5,9 @@
 #include "garment/garment_mesh.hpp"
 #include "garment/pattern_figures.hpp"
 #include "sim/colliders.hpp"
-#include "sim/keyed.hpp"
-#include "sim/outfit.hpp"
-#include "sim/outfit_run.hpp"
+#include "dress/keyed.hpp"
+#include "dress/outfit.hpp"
+#include "dress/outfit_run.hpp"
 #include "sim/scene.hpp"
 #include "step/implicit_euler.hpp"
 
@@ -57,7 +57,7 @@ TimedPin timed_pin(const ScenePin& pin, Index particle);
 // Sheets, tubes and ribbons that hang where they are drawn.
 Outfit outfit_of_shapes(std::span<const LoadedCloth> cloth);
 // What happens to the cloth in time, on the particles and panels of `outfit`, whose parts are the cloths in their order.
-Events events_of(const Outfit& outfit, std::span<const LoadedCloth> cloth);
+Events events_of(const Scene& scene, const Outfit& outfit, std::span<const LoadedCloth> cloth);
 // Where labelled edges are held: as the cloth says; if it says nothing, the waist ("lower_interface") at the body's, unless the garment
 // hangs from the shoulders: its waist is as low as it is cut, and held higher it would bunch.  The other labels of GarmentCode are held only where
 // the cloth says (docs/theory/sewing.md#collars-and-strapless-tops); those that nobody knows are named in a warning.  Throws InputError for a height of a label that no edge carries.
@@ -66,6 +66,8 @@ std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const Garment
 // How far above the body cloth of this edge length rests when nobody says: edges cut corners of the body, by e^2 / 8R.
 double default_offset_m(double edge_m);
 StepOptions step_options(const Scene& scene, double edge_m);
+// Of what changes in time, as it begins.
+OutfitRunOptions run_options(const Scene& scene, const StepOptions& step, std::function<bool()> stop = {});
 
 // Every number of the scene that changes the result; not its name, output or number of threads.
 void add_to_hash(const Scene& scene, Hash& hash);

@@ -1,28 +1,29 @@
 // sim/simulation.hpp: a scene in memory, from flat panels to cloth that follows a body.  Reads and writes no file.
 //
 //   simulation.cpp           what it owns, how it ends, how it is taken up again
+//   simulation_phases.cpp    its phases as data, and the loop over the frames of any of them but sewing
 //   simulation_placing.cpp   where the panels go, around whom
 //   simulation_put_on.cpp    sewing, growth, the drape of what is worn below
 //   simulation_start.cpp     crossings before the first frame
-//   simulation_live.cpp      frame by frame: the drape, then the motion
+//   simulation_live.cpp      what is shown: the drape, then the motion
 //
-// It can be left between any two frames and taken up again: `place_` says where it is, and each phase is a loop over frames that begins
-// where place_.frame says.  Files, verdict and pictures are made by who observes it.
+// It can be left between any two frames and taken up again: `place_` says where it is, and each phase begins where place_.frame says.  Files, verdict and pictures are made by who observes it.
 #pragma once
 #include "core/state_archive.hpp"
 #include "core/stopwatch.hpp"
 #include "garment/placement.hpp"
 #include "io/surface_mesh.hpp"
-#include "sim/dressing.hpp"
-#include "sim/dressing_body.hpp"
+#include "dress/dressing.hpp"
+#include "dress/dressing_body.hpp"
 #include "sim/falling.hpp"
-#include "sim/outfit_run.hpp"
+#include "dress/outfit_run.hpp"
 #include "sim/phase_report.hpp"
 #include "sim/progress.hpp"
 #include "sim/rest_watch.hpp"
 #include "sim/setup.hpp"
 #include "sim/simulation_observer.hpp"
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -42,6 +43,19 @@ struct RunPlace {
   void remember(Archive& archive) {
     archive(phase, cloth, frame);
   }
+};
+
+// A phase that is a loop over frames of the outfit's run.
+struct PhasePlan {
+  RunPhase which = RunPhase::drape;
+  Phase cloth;
+  std::string_view doing;            // for the progress
+  std::string meanwhile;             // for a message: "while ..."
+  std::int64_t frames = 0;           // at most
+  std::optional<RestLimits> awaits;  // it ends earlier, at rest
+  double rest_from_s = 0;            // not before
+  bool shown = false;                // its frames are the result
+  std::array<PhaseReport*, 2> reports{nullptr, nullptr};
 };
 
 struct SimulationOptions {
@@ -67,7 +81,7 @@ class Simulation {
   // Once, after put_on(): the first frame of what hangs.  `prepare` is called before a state is read back that it was taken up from: what happens
   // to the cloth, and how the body moves, has to be known by then.
   void begin(const std::function<void(OutfitRun&)>& prepare = {});
-  bool has_begun() const { return run_.has_value(); }
+  bool has_begun() const { return begun_; }
   // Of dressing, from now on: how long the drape may be, in simulated and in wall time (0: any).
   void limit_dressing(double longest_s, double time_limit_s);
   // Of a drape that is over: is it worn, as far as that can be told without measuring?
@@ -141,7 +155,7 @@ class Simulation {
   void remember(Archive& archive) {
     if constexpr (!Archive::reads) report_.seconds_total = seconds();
     archive(place_, frames_shown_, report_, failure_, qualifications_, pose_, on_shoulders_, open_pairs_,
-            stopped_short_, pinned_, before_inner_, slow_inner_, seconds_before_motion_, touches_, rest_);
+            stopped_short_, pinned_, seconds_before_motion_, touches_, rest_);
   }
   // Until restore() has been called.
   bool resumes() const { return taken_up_ != nullptr; }
@@ -151,6 +165,19 @@ class Simulation {
   // After a frame of the phase, or before its first.
   template <class Phase>
   void between_frames(Phase& phase, bool first = false);
+
+  // simulation_phases.cpp
+  OutfitRun& outfit_run();
+  Pace pace() const;
+  PhasePlan growth_plan();
+  PhasePlan inner_drape_plan(std::size_t cloth);
+  PhasePlan drape_plan();
+  PhasePlan motion_plan();
+  Phase drape_phase() const;
+  void enter(const PhasePlan& plan, std::size_t cloth, const BodyAt& moves = {});
+  bool go_through(const PhasePlan& plan);
+  bool frame(const PhasePlan& plan);
+  bool at_rest(const PhasePlan& plan) const;
 
   // simulation_start.cpp
   void bad_start(const std::string& name, const std::string& what);
@@ -181,7 +208,6 @@ class Simulation {
   Events events();
   void show_first();
   void animate();
-  bool frame(PhaseReport& phase, std::string_view what, std::int64_t k, PhaseReport* also = nullptr);
   void close();
   int frames_in_motion() const;
   void watch_falling();
@@ -201,7 +227,7 @@ class Simulation {
   std::vector<LoadedCloth> cloth_;  // until it begins
   std::optional<Outfit> start_;     // likewise
   Outfit outfit_;
-  Settling settling_;
+  std::optional<NewGarment> new_garment_;  // of a weld
   Vec3s body_x_;      // at the last frame
   Vec3s standing_x_;  // how the body stands when it is dressed
   std::vector<Triangle> body_triangles_;
@@ -230,12 +256,11 @@ class Simulation {
 
   RunPlace place_;
   int frames_shown_ = 0;
-  Vec3s before_inner_;  // x of the frame before, while a garment that others go over is draped
-  int slow_inner_ = 0;  // its slow frames in a row
   PhaseSeconds seconds_before_motion_;
   RestWatch rest_;
   StateReader* taken_up_ = nullptr;  // until the phase that it is about has taken it
-  std::optional<OutfitRun> run_;     // once it has begun
+  std::optional<OutfitRun> run_;     // from the weld of each garment on
+  bool begun_ = false;
 };
 
 template <class Phase>

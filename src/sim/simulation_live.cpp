@@ -10,7 +10,6 @@
 namespace toile::internal {
 namespace {
 
-constexpr double rest_s = 0.5;  // after a garment has settled, before it may be said to be still
 // Of the height of the hips, or of a bodice's of the waist: what is wholly below has come past the widest place, and nothing that stands
 // still lifts it up again.  The run ends, instead of waiting for folds about the feet to rest.
 constexpr double beyond_return = 0.75;
@@ -19,10 +18,12 @@ constexpr double beyond_return = 0.75;
 
 void Simulation::begin(const std::function<void(OutfitRun&)>& prepare) {
   const bool resumed = resumes();
-  run_.emplace(scene_, outfit_, body(), step_, settling_, stop());
+  outfit_run().begin(drape_phase());
   run_->set_events(events());
   if (prepare) prepare(*run_);
+  if (!resumed) rest_ = {};
   rest_.begin(outfit_.state.x, scene_.fps);
+  begun_ = true;
   show_first();
   watch_falling();
   // What hangs now is the run's: a second and a third copy of a fine mesh are large.
@@ -42,7 +43,7 @@ void Simulation::begin(const std::function<void(OutfitRun&)>& prepare) {
 
 // The pins of a garment hold what is at their places once everything is on.
 Events Simulation::events() {
-  Events events = events_of(outfit_, cloth_);
+  Events events = events_of(scene_, outfit_, cloth_);
   if (!sewn()) return events;
   Index first = 0;
   for (std::size_t k = 0; k < cloth_.size(); ++k) {
@@ -77,30 +78,15 @@ void Simulation::show_first() {
 }
 
 bool Simulation::drape() {
-  const bool moving = motion_.has_value();
-  const int frames =
-      moving ? (scene_.drape_seconds > 0 ? frames_in(scene_.drape_seconds) : 1) : frames_in(scene_.seconds);
-  const std::int64_t first = place_.frame;
-  const Stopwatch watch;
-  const auto at_rest = [&] {
-    return place_.frame > 0 && awaits_rest() && run_->settled() &&
-           run_->time_s() - frame_s() > (settling_.sewn ? OutfitRun::settling_s : -rest_s) + rest_s && rest_.at_rest();
-  };
-  if (place_.frame > 0 && !goes_on()) return false;
-  bool rests = at_rest();
-  while (!rests && place_.frame + 1 < frames) {
-    if (!frame(report_.drape, "draping", place_.frame + 1)) return false;
-    rests = at_rest();
-    const auto done = static_cast<double>(place_.frame - first);
-    say("draping", static_cast<double>(place_.frame) / frames,
-        watch.seconds() * static_cast<double>(frames - 1 - place_.frame) / done);
-  }
-  if (rests && !moving) report_.ended = "still";
+  const PhasePlan plan = drape_plan();
+  if (!go_through(plan)) return false;
+  if (at_rest(plan) && !motion_) report_.ended = "still";
   return true;
 }
 
 void Simulation::animate() {
   run_->start_motion(motion_->at);
+  report_.motion_name = motion_->name;
   if (resumes()) {
     restore(*run_);
     motion_->at(static_cast<double>(place_.frame) * frame_s(), body_x_, body_x_);
@@ -112,49 +98,10 @@ void Simulation::animate() {
     observer_->motion_begins();
     between_frames(*run_, true);
   }
+  go_through(motion_plan());
   PhaseReport& phase = report_.motion;
-  report_.motion_name = motion_->name;
-  const int frames = frames_in_motion();
-  const std::int64_t first = place_.frame;
-  const Stopwatch watch;
-  bool good = place_.frame == 0 || goes_on();
-  while (good && place_.frame < frames) {
-    motion_->at(static_cast<double>(place_.frame + 1) * frame_s(), body_x_, body_x_);
-    const double drape_seconds = report_.drape.seconds;
-    good = frame(report_.drape, "moving", place_.frame + 1, &phase);
-    phase.seconds += report_.drape.seconds - drape_seconds;
-    if (!good) break;
-    say("moving", static_cast<double>(place_.frame) / frames,
-        watch.seconds() * static_cast<double>(frames - place_.frame) / static_cast<double>(place_.frame - first));
-  }
   phase.simulated_s = phase.frames * frame_s();
   set_seconds(phase, run_->seconds(), seconds_before_motion_);
-}
-
-// One frame, simulated and shown; false when it is the last for a bad reason.
-bool Simulation::frame(PhaseReport& phase, std::string_view what, std::int64_t k, PhaseReport* also) {
-  FrameReport frame;
-  {
-    const Timed timed(phase.seconds);
-    frame = run_->frame();
-  }
-  if (frame.interrupted) {
-    cut_off("while " + std::string(what) + ", after frame " + std::to_string(k - 1));
-    return false;
-  }
-  add_frame(phase, frame);
-  if (also != nullptr) add_frame(*also, frame);
-  if (!frame.ok) {
-    collapse("in frame " + std::to_string(k), frame, run_->model().mesh, outfit_.state.x);
-    return false;
-  }
-  observer_->frame(outfit_.state.x, body_x_);
-  rest_.frame(outfit_.state.x);
-  ++frames_shown_;
-  ++place_.frame;
-  if (fall_watch_) note_touches(outfit_.parts, *run_, touches_);
-  between_frames(*run_);
-  return goes_on();
 }
 
 int Simulation::frames_in_motion() const {
@@ -197,7 +144,7 @@ void Simulation::judge_end() {
   if (!run_->settled())
     failure_.push_back({std::string(reason::not_settled),
                         fmt::sprintf("it ended %.3g s after the weld; gravity and elastic are full after %.3g s",
-                                     run_->time_s(), OutfitRun::settling_s)});
+                                     run_->time_s(), settling_s)});
   else if (fall_watch_ && in_wind())
     lost();
 }

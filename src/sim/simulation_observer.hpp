@@ -3,7 +3,7 @@
 #include "core/types.hpp"
 #include "io/surface_mesh.hpp"
 #include "mesh/cloth_mesh.hpp"
-#include "sim/outfit.hpp"
+#include "dress/outfit.hpp"
 
 #include <functional>
 #include <span>

@@ -2,8 +2,6 @@
 #include "core/error.hpp"
 #include "sim/simulation.hpp"
 
-#include <fmt/printf.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,8 +10,6 @@ namespace toile::internal {
 namespace {
 
 constexpr double sewing_film_fps = 30;
-constexpr double inner_rest_mm_per_s = 10;  // of a garment that others go over,
-constexpr double inner_rest_s = 0.5;        // for so long
 
 }  // namespace
 
@@ -21,7 +17,6 @@ constexpr double inner_rest_s = 0.5;        // for so long
 void Simulation::hang_as_drawn() {
   outfit_ = start_ ? std::move(*start_) : outfit_of_shapes(cloth_);
   start_.reset();
-  settling_.to_rest = sewn() && awaits_rest();
 }
 
 bool Simulation::put_on() {
@@ -56,8 +51,8 @@ void Simulation::wear_again() {
     LoadedCloth& cloth = cloth_[j];
     const Index before = outfit_.mesh.particle_count;
     if (j < open_pairs_.size()) cloth_[j].garment.leave_open(open_pairs_[j]);
-    LabelSprings labels = wear(outfit_, cloth.garment, cloth.fabrics, cloth.rest_stretch, heights_of(j, told_before));
-    settling_ = {true, before, std::move(labels), awaits_rest()};
+    new_garment_ = {before,
+                    wear(outfit_, cloth.garment, cloth.fabrics, cloth.rest_stretch, heights_of(j, told_before))};
   }
 }
 
@@ -65,6 +60,7 @@ void Simulation::wear_again() {
 bool Simulation::sew(std::size_t k) {
   const bool resumed = resumes();
   if (!resumed) place_ = {RunPhase::sewing, k, 0};
+  run_.reset();  // the mesh of the outfit becomes another
   LoadedCloth& cloth = cloth_[k];
   GarmentMesh& garment = cloth.garment;
   place(garment, !resumed);
@@ -116,7 +112,7 @@ bool Simulation::sew(std::size_t k) {
   }
   open_pairs_.resize(k + 1);
   if (sewing.status() != SewingStatus::closed) leave_open(k, dressing);
-  settling_ = {true, outfit_.mesh.particle_count, dressing.labels(), awaits_rest()};
+  new_garment_ = {outfit_.mesh.particle_count, dressing.labels()};
   outfit_ = dressing.worn();
   return stopped_short_ || free_start(true);
 }
@@ -172,34 +168,12 @@ void Simulation::leave_open(std::size_t k, Dressing& dressing) {
   }
 }
 
-// The body becomes what it is, within the garment.  Nothing of it is written.
+// Nothing of it is written.
 bool Simulation::grow(std::size_t k) {
   if (!dressing_body_) return true;
-  Settling waiting = settling_;
-  waiting.waits = true;
-  waiting.weightless = pose_.falls_s == 0;
-  waiting.to_rest = false;
-  OutfitRun run(scene_, outfit_, body(), step_, waiting, stop());
-  run.start_motion([&](double t_s, std::span<Vec3> x) { dressing_body_->at(t_s, x); });
-  if (resumes()) {
-    restore(run);
-  } else {
-    place_ = {RunPhase::growth, k, 0};
-    between_frames(run, true);
-  }
-  const int frames = frames_in(dressing_body_->growth_s());
-  while (place_.frame < frames) {
-    const FrameReport frame = run.frame();
-    if (frame.interrupted && !cut_off("while the body grew into the garment")) return false;
-    if (!frame.interrupted && !frame.ok) {
-      collapse("while the body grew into the garment", frame, outfit_.mesh, outfit_.state.x);
-      stopped_short_ = true;
-    }
-    if (stopped_short_) break;
-    ++place_.frame;
-    between_frames(run);
-    say("fitting", static_cast<double>(place_.frame) / frames);
-  }
+  const PhasePlan plan = growth_plan();
+  enter(plan, k, [&](double t_s, std::span<Vec3> x) { dressing_body_->at(t_s, x); });
+  if (!go_through(plan) && !stopped_short_) return false;
   outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
   body_x_ = standing_x_;
   if (stopped_short_) body_x_.assign(body_->next_positions().begin(), body_->next_positions().end());
@@ -208,38 +182,11 @@ bool Simulation::grow(std::size_t k) {
   return true;
 }
 
-// A garment that another one goes over comes to rest first; nothing of it is written.
+// Likewise.
 bool Simulation::drape_inner(std::size_t k) {
-  OutfitRun run(scene_, outfit_, body(), step_, settling_, stop());
-  if (resumes()) {
-    restore(run);
-  } else {
-    place_ = {RunPhase::inner_drape, k, 0};
-    before_inner_ = outfit_.state.x;
-    slow_inner_ = 0;
-    between_frames(run, true);
-  }
-  const int frames = frames_in(scene_.drape_seconds);
-  while (place_.frame + 1 < frames && slow_inner_ < inner_rest_s * scene_.fps) {
-    const FrameReport frame = run.frame();
-    if (frame.interrupted || !frame.ok) {
-      const std::string when = "while " + printable(cloth_[k].garment.name) + " was draped";
-      if (frame.interrupted) {
-        cut_off(when);
-      } else {
-        collapse(when, frame, outfit_.mesh, outfit_.state.x);
-        stopped_short_ = true;
-      }
-      return false;
-    }
-    ++place_.frame;
-    const bool slow =
-        run.settled() && speed_p99_mm_per_s(before_inner_, outfit_.state.x, scene_.fps) < inner_rest_mm_per_s;
-    slow_inner_ = slow ? slow_inner_ + 1 : 0;
-    before_inner_ = outfit_.state.x;
-    between_frames(run);
-    say("draping", static_cast<double>(place_.frame) / frames);
-  }
+  const PhasePlan plan = inner_drape_plan(k);
+  enter(plan, k);
+  if (!go_through(plan)) return false;
   outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
   return true;
 }

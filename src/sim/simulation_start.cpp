@@ -1,7 +1,7 @@
 // sim/simulation_start.cpp: what is wrong with cloth before its first frame, and how it is taken apart.
 #include "core/error.hpp"
 #include "sim/simulation.hpp"
-#include "sim/start_state.hpp"
+#include "dress/start_state.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -19,7 +19,7 @@ void Simulation::bad_start(const std::string& name, const std::string& what) {
   report_.warnings.push_back("bad start: " + what);
 }
 
-// Cloth that passes through itself or the body is taken apart before the first frame, as far as it can be (sim/start_state.hpp).
+// Cloth that passes through itself or the body is taken apart before the first frame, as far as it can be (dress/start_state.hpp).
 // `sewn_now`: what sewing left, not what the user gave; --strict-start is about the latter.
 bool Simulation::free_start(bool sewn_now) {
   const Timed timed(startup(&StartupReport::crossings));
@@ -54,8 +54,8 @@ bool Simulation::free_start(bool sewn_now) {
 
 // What untangling must leave where it is: what was worn before, or what pins hold from the first moment.
 std::vector<Index> Simulation::held_now(bool sewn_now) const {
-  if (!sewn_now) return held_from_the_start(events_of(outfit_, cloth_));
-  std::vector<Index> worn(static_cast<std::size_t>(settling_.held_particles));
+  if (!sewn_now) return held_from_the_start(events_of(scene_, outfit_, cloth_));
+  std::vector<Index> worn(static_cast<std::size_t>(new_garment_->worn_before));
   std::iota(worn.begin(), worn.end(), 0);
   return worn;
 }
@@ -63,14 +63,11 @@ std::vector<Index> Simulation::held_now(bool sewn_now) const {
 // What trials from rest leave of a weld may come apart as the garment moves, with threads that want to be as long as they were cut, before
 // it has weight.  Nothing of it is written.  Returns the number of frames.
 int Simulation::come_apart() {
-  Settling waiting = settling_;
-  waiting.waits = waiting.weightless = true;
-  std::optional<OutfitRun> run;
   const int most = frames_in(most_waiting_s);
   int frames = 0;
   while (frames < most && start_crossings(outfit_, {}, {}).all() > 0) {
-    if (!run) run.emplace(scene_, outfit_, body(), step_, waiting, stop());
-    const FrameReport frame = run->frame();
+    if (frames == 0) outfit_run().begin(coming_apart(pace()));
+    const FrameReport frame = run_->frame();
     if (frame.interrupted || !frame.ok) break;  // as the drape will say
     ++frames;
   }

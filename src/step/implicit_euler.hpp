@@ -118,6 +118,11 @@ class ImplicitEuler {
     body_.set_friction(collider, friction);
     rows_.set_body_friction(collider, friction);
   }
+  // The time of the next step is another, and the body stands where its owner has put it.
+  void restart_clock() {
+    body_start_.clear();
+    body_end_.clear();
+  }
   void set_slow_motion(double share) { options_.slow_motion = share; }
   void set_tolerance(double tolerance) { options_.pcg.tolerance = tolerance; }
   const ClothModel& model() const { return *model_; }

@@ -2,7 +2,7 @@
 // beside them, where they stand.
 #include "body/mannequin.hpp"
 #include "garment/placement.hpp"
-#include "sim/outfit.hpp"
+#include "dress/outfit.hpp"
 #include "sim/setup.hpp"
 
 #include <gtest/gtest.h>

@@ -69,7 +69,7 @@ TEST(Scene, ReadsEveryKeyInItsUnit) {
   EXPECT_EQ(cloth.translation_m, Vec3(0, 1, 2));
   EXPECT_EQ(cloth.rotation_deg, Vec3(90, 0, 0));
   EXPECT_EQ(cloth.pins.at(0).hold, ScenePin::Hold::fixed);
-  EXPECT_EQ(cloth.pins.at(1).path.at(1).x_m, Vec3(1, 1.5, 0));
+  EXPECT_EQ(cloth.pins.at(1).path.at(1).x, Vec3(1, 1.5, 0));
   EXPECT_EQ(std::get<SceneCylinder>(scene.body.shape).radius_m, 0.3);
   EXPECT_EQ(scene.body.contact.friction.value(), 0.1);
   EXPECT_DOUBLE_EQ(scene.body.contact.offset_m.value(), 3e-3);

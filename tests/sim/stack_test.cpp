@@ -3,7 +3,7 @@
 #include "core/hash.hpp"
 #include "io/file.hpp"
 #include "io/scratch.hpp"
-#include "sim/outfit_run.hpp"
+#include "dress/outfit_run.hpp"
 #include "sim/setup.hpp"
 #include "sim/simulate.hpp"
 #include "support/bodies.hpp"
@@ -105,7 +105,7 @@ Rises rises_of_energy(int sheets, Under under, double step_max_s) {
   Outfit outfit = outfit_of_shapes(cloth);
   SolidMesh loaded = load_collider(scene.body, inputs).surface;
   BodySurface body(std::move(loaded.positions), std::move(loaded.triangles));
-  OutfitRun run(scene, outfit, &body, step_options(scene, cloth.front().edge_m), {}, {});
+  OutfitRun run(run_options(scene, step_options(scene, cloth.front().edge_m)), outfit, &body);
   Elements elements(run.model());
   const double first = energy_J(run.model(), elements, outfit.state, 0);
   double last = first;

@@ -1,0 +1,70 @@
+#include "dress/label_springs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile::internal {
+namespace {
+
+constexpr double pull_N_per_m = 20, give_m = 0.02, damping_s = 0.02;
+// What is kept as it is placed may sink so far: seams that close move most bodices by less, and they find their place better alone.  A dress with two
+// tiers of rings, kept from the first millimetre on, ends with a p99 of stretch of 8.3 % instead of 7.1.
+constexpr double may_sink_m = 0.05;
+
+}  // namespace
+
+LabelSprings::LabelSprings(const GarmentMesh& garment, std::span<const LabelHeight> heights) {
+  for (const LabelledEdge& edge : garment.labels) {
+    const auto wanted = std::find_if(heights.begin(), heights.end(),
+                                     [&](const LabelHeight& height) { return height.label == edge.label; });
+    if (wanted != heights.end()) hold(garment, edge, wanted->height_m);
+  }
+}
+
+LabelSprings LabelSprings::as_placed(const GarmentMesh& garment, std::string_view label) {
+  std::vector<char> sewn(garment.x.size(), 0);
+  for (const SeamPair& pair : garment.pairs) sewn[at(pair.a)] = sewn[at(pair.b)] = 1;
+  LabelSprings springs;
+  for (const LabelledEdge& edge : garment.labels) {
+    const bool draws =
+        std::all_of(edge.particles.begin(), edge.particles.end(), [&](Index i) { return sewn[at(i)] != 0; });
+    if (edge.label == label && draws) springs.hold(garment, edge, std::nullopt);
+  }
+  return springs;
+}
+
+void LabelSprings::hold(const GarmentMesh& garment, const LabelledEdge& edge, std::optional<double> height_m) {
+  for (std::size_t k = 0; k < edge.particles.size(); ++k) {
+    // Panels are placed flat and unstretched: distances there are lengths of the edge.
+    const Vec3& x = garment.x[at(edge.particles[k])];
+    double share = 0;
+    if (k > 0) share += 0.5 * (x - garment.x[at(edge.particles[k - 1])]).norm();
+    if (k + 1 < edge.particles.size()) share += 0.5 * (garment.x[at(edge.particles[k + 1])] - x).norm();
+    held_.push_back({edge.particles[k], height_m.value_or(x.y() - may_sink_m), share});
+  }
+}
+
+void LabelSprings::append(const ClothState& state, double strength, std::vector<LinearSpring>& springs) const {
+  if (strength <= 0) return;
+  for (const Held& held : held_) {
+    const double away = held.height_m - state.x[at(held.particle)].y();
+    const double limit = strength * pull_N_per_m * held.share_m, k = limit / give_m;
+    const double force = std::clamp(k * away, -limit, limit);
+    LinearSpring spring;
+    spring.particle = {held.particle, -1, -1, -1};
+    spring.weight = {1, 0, 0, 0};
+    spring.direction = Vec3::UnitY();
+    spring.force_N = force;
+    spring.stiffness_N_per_m = std::fabs(away) > give_m ? std::fabs(force / away) : k;  // secant: never overshoots
+    spring.damping_N_s_per_m = damping_s * spring.stiffness_N_per_m;
+    springs.push_back(spring);
+  }
+}
+
+LabelSprings LabelSprings::welded(std::span<const Index> particle_of) const {
+  LabelSprings joined = *this;
+  for (Held& held : joined.held_) held.particle = particle_of[at(held.particle)];
+  return joined;
+}
+
+}  // namespace toile::internal

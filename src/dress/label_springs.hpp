@@ -1,0 +1,48 @@
+// dress/label_springs.hpp: edges that the pattern wants at a height of the body, a waist seam at the waist.
+//
+//   F = min( k |y_wanted - y|, f_max ) up or down,      f_max = 20 N per metre of edge,  k = f_max / 2 cm
+//
+// Gently.  Of what hangs from the shoulders only once the seams are closed: held from the start, a waist pushes the armholes above the arms.
+#pragma once
+#include "garment/garment_mesh.hpp"
+#include "step/implicit_euler.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace toile::internal {
+
+struct LabelHeight {
+  std::string label;  // of edges in the pattern: "lower_interface" ...
+  double height_m = 0;
+};
+
+class LabelSprings {
+ public:
+  LabelSprings() = default;
+  // Labels that no edge carries do nothing.
+  LabelSprings(const GarmentMesh& garment, std::span<const LabelHeight> heights);
+
+  // Edges with this label to which something is sewn, each particle at 5 cm below where its panel is now.
+  static LabelSprings as_placed(const GarmentMesh& garment, std::string_view label);
+
+  bool empty() const { return held_.empty(); }
+  // Appends one row per particle; `strength` 0 ... 1 scales the force.
+  void append(const ClothState& state, double strength, std::vector<LinearSpring>& springs) const;
+  // The same on the welded cloth, particle i having become particle_of[i].
+  LabelSprings welded(std::span<const Index> particle_of) const;
+
+ private:
+  void hold(const GarmentMesh& garment, const LabelledEdge& edge, std::optional<double> height_m);
+
+  struct Held {
+    Index particle;
+    double height_m, share_m;  // of the edge's length
+  };
+  std::vector<Held> held_;
+};
+
+}  // namespace toile::internal

@@ -1,0 +1,16 @@
+// dress/model_as_it_is.hpp: a cloth without a pattern, whose rest shape is the one it has.
+//
+// Every triangle is laid flat on its own: no uv is needed, and rest lengths are exactly those of x.  Rest angles are those of x too.
+//
+// Easily got wrong: the threads of neighbours do not line up, so the fabric must be the same along both.
+#pragma once
+#include "assembly/cloth_model.hpp"
+
+#include <span>
+
+namespace toile::internal {
+
+// Without gravity.  No triangle may be without area.
+ClothModel model_as_it_is(std::span<const Triangle> triangles, std::span<const Vec3> x, const Fabric& fabric);
+
+}  // namespace toile::internal

@@ -1,0 +1,126 @@
+// dress/outfit_run.hpp: an outfit in time, from the weld of its last garment on: phase after phase (dress/phase.hpp) on one integrator, which keeps
+// what it knows of contacts and where friction holds them.  The next garment makes another mesh of it, and another run.
+#pragma once
+#include "dress/events.hpp"
+#include "dress/label_springs.hpp"
+#include "dress/outfit.hpp"
+#include "dress/phase.hpp"
+#include "dress/tangles.hpp"
+#include "step/adaptive_step.hpp"
+
+#include <functional>
+#include <optional>
+#include <span>
+
+namespace toile::internal {
+
+struct OutfitRunOptions {
+  ModelOptions model;
+  AirOptions air;
+  StepOptions step;
+  double fps = 30;
+  std::optional<double> step_max_s;  // instead of the phases'
+  std::function<bool()> stop;        // asked before every step; may be empty
+};
+
+// The garment that was put on last.
+struct NewGarment {
+  Index worn_before = 0;  // particles: the first of the outfit
+  LabelSprings labels;    // hold it for a while
+};
+
+class OutfitRun {
+ public:
+  // `outfit` and `body` must outlive this object; the outfit's state and thickness are advanced in place.  `body` may be null.
+  OutfitRun(const OutfitRunOptions& options, Outfit& outfit, BodySurface* body, NewGarment garment = {});
+  OutfitRun(const OutfitRun&) = delete;
+  OutfitRun& operator=(const OutfitRun&) = delete;
+
+  // Of what is simulated from now on; its clock starts, and the body stands.  Before the first: all is as drawn, a step a frame.
+  void begin(const Phase& phase);
+  // Advances by one frame, or by another length.
+  FrameReport frame() { return frame(1 / options_.fps); }
+  FrameReport frame(double length_s);
+  void set_events(Events events) { events_ = std::move(events); }
+  const Events& events() const { return events_; }
+  // Between two frames pins and hands may come, go and be led elsewhere.
+  Events& events() { return events_; }
+  void set_gravity(const Vec3& m_per_s2) { gravity_m_per_s2_ = m_per_s2; }
+  // Of one collider, or of all that have none of their own.
+  void set_friction(std::optional<Index> collider, double friction);
+  void set_stiffness(Index panel, const StiffnessShare& share);
+  void set_wind(const Vec3& m_per_s) { world_.air.wind_m_per_s = m_per_s; }
+  // From the next frame on the body moves: at 0 s it is where it is now.  Rest is not awaited any more.
+  void start_motion(BodyAt body_at);
+  double motion_from_s() const { return motion_start_s_; }
+
+  // Of the phase.
+  double time_s() const { return frames_from_s_ + static_cast<double>(frames_) * frame_s_; }
+  // Gravity and elastic are in full.
+  bool settled() const { return time_s() >= phase_.settled_s; }
+  PhaseSeconds seconds() const { return stepper_->integrator().seconds() - seconds_before_; }  // of the phase
+  const ClothModel& model() const { return model_; }
+  double stored_in_contacts_J() const { return stepper_->integrator().contact_rows().stored_J(); }
+  LayerGap layer_gap() { return stepper_->integrator().contact_rows().layer_gap(outfit_->state.x); }
+  bool touches_body(Index particle) const {
+    return stepper_->integrator().body_constraints().touch(particle) != Touch::none;
+  }
+  std::span<const Pin> pins() const { return world_.pins; }  // of the last frame
+
+  // What outlives a frame (core/state_archive.hpp), without the outfit, which is its owner's.  To be read back once the events are set and, of a run
+  // whose body moves, start_motion has been called.
+  template <class Archive>
+  void remember(Archive& archive) {
+    std::vector<Vec2> b = panel_rest_stretch();
+    archive.fixed(b);
+    archive(frames_, frames_from_s_, frame_s_, gravity_m_per_s2_, world_.air.wind_m_per_s, motion_start_s_,
+            without_room_, ramped_, seconds_before_, *tangles_, *stepper_, changed_);
+    for (TimedPin& timed : events_.pins) archive(timed.pin.particle, timed.from, timed.pin.on_body);
+    for (TimedDrag& timed : events_.drags) archive(timed.drag.particle, timed.drag.weight);
+    if constexpr (Archive::reads) take_up(b);
+  }
+
+ private:
+  std::vector<Vec2> panel_rest_stretch() const;  // [panel] of the model, as it is now
+  void take_up(std::span<const Vec2> panel_rest_stretch);
+  void share_out();
+  void choose_steps();
+  void choose_tolerance();
+  bool is_slow() const;
+  void set_rest_stretch(double share);
+  void happen();
+  void change_in_time(double end_s);
+  void take_and_let_go();
+
+  // What was set since the run began; of a panel that has its own stiffness, and of friction, absent: as it was.
+  struct Changed {
+    std::optional<double> friction;
+    std::vector<std::optional<double>> collider_friction;
+    std::vector<std::optional<Vec3>> stiffness;  // [panel]
+    template <class Archive>
+    void remember(Archive& archive) {
+      archive(friction, collider_friction, stiffness);
+    }
+  };
+
+  OutfitRunOptions options_;
+  Outfit* outfit_;
+  NewGarment garment_;
+  std::vector<Pin> worn_pins_;  // hold what was worn before
+  ClothModel model_;
+  StepWorld world_;
+  Phase phase_;
+  PhaseSeconds seconds_before_;
+  std::optional<Tangles> tangles_;
+  long without_room_ = 0;  // steps in which the body let cloth pass (step/flypaper.hpp), by the last look
+  double label_strength_ = 0, motion_start_s_ = 0, ramped_ = -1;
+  BodyAt motion_;
+  Changed changed_;
+  Events events_;
+  Vec3 gravity_m_per_s2_{0, 0, 0};  // when it has grown to all of it
+  long frames_ = 0;                 // of one length, since
+  double frames_from_s_ = 0, frame_s_ = 0;
+  std::optional<AdaptiveStep> stepper_;
+};
+
+}  // namespace toile::internal

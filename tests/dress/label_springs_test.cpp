@@ -1,0 +1,155 @@
+// Edges with a label while a garment is sewn: drawn to a height, kept where they were placed, or free.
+#include "dress/label_springs.hpp"
+#include "garment/garments.hpp"
+#include "sewing_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+namespace toile::internal {
+namespace {
+
+using test::expect_closed_without_crossings;
+using test::SewingRun;
+
+// One tube above the other, sewn together at the upper one's lower edge, which is labelled.
+Pattern two_tubes(Pattern pattern, const Pattern& below) {
+  pattern.panels.insert(pattern.panels.end(), below.panels.begin(), below.panels.end());
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) pattern.panels[p].name += std::to_string(p);
+  pattern.stitches.insert(pattern.stitches.end(), {test::stitch(2, 1, 3, 3), test::stitch(2, 3, 3, 1),
+                                                   test::stitch(0, 0, 2, 2), test::stitch(1, 0, 3, 2)});
+  for (const std::size_t panel : {0, 1}) pattern.panels[panel].edges[0].label = "lower_interface";
+  return pattern;
+}
+
+// How high its edges with this label are, on average, m.
+double height_of(const GarmentMesh& garment, const std::string& label, const Vec3s& x) {
+  double sum = 0, count = 0;
+  for (const LabelledEdge& edge : garment.labels) {
+    if (edge.label != label) continue;
+    for (const Index i : edge.particles) {
+      sum += x[at(i)].y();
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
+// A narrow band above wide panels: sewn together they meet where the middle of their mass is, unless the band is held.
+TEST(Sewing, ABandThatIsHeldDrawsHeavierPanelsUpToItself) {
+  const Pattern pattern = two_tubes(test::tube_pattern(0.2, 0.04, 0.1, Vec3(0, 0.2, 0)),
+                                    test::tube_pattern(0.2, 0.3, 0.1, Vec3(0, -0.1, 0)));
+  const double waist_m = 0.18;
+  std::array<double, 2> fallen_m{};
+  for (const bool held : {false, true}) {
+    SewingOptions options;
+    options.label_heights = {{"lower_interface", waist_m}};
+    options.labels_hold_panels = held;
+    SewingRun run(pattern, 0.02, nullptr, options);
+    run.run(12);
+    ASSERT_EQ(run.sewing->status(), SewingStatus::sewing);
+    fallen_m[held ? 1 : 0] = waist_m - height_of(run.garment, "lower_interface", run.sewing->state().x);
+    run.run(200);
+    expect_closed_without_crossings(run);
+  }
+  EXPECT_GT(fallen_m[0], 0.05);
+  EXPECT_LT(fallen_m[1], 0.02);
+}
+
+// A bodice of 30 cm above wide tiers: its lower end is not drawn down to them, and goes nowhere of itself where nothing is sewn to it.
+TEST(Sewing, ABodiceThatIsKeptSinksNoFartherThanFiveCentimetres) {
+  Pattern pattern = two_tubes(test::tube_pattern(0.2, 0.3, 0.1, Vec3(0, 0.2, 0)),
+                              test::tube_pattern(0.2, 0.5, 0.1, Vec3(0, -0.4, 0)));
+  for (const std::size_t panel : {2, 3}) pattern.panels[panel].edges[0].label = "hem";
+  std::array<double, 2> fallen_m{};
+  for (const std::string kept : {"", "lower_interface"}) {
+    SewingOptions options;
+    options.kept_label = kept;
+    SewingRun run(pattern, 0.02, nullptr, options);
+    const std::size_t k = kept.empty() ? 0 : 1;
+    options.kept_label = "hem";
+    SewingRun hem(pattern, 0.02, nullptr, options);
+    run.run(20);
+    hem.run(20);
+    const Vec3s hem_kept = hem.sewing->state().x;
+    ASSERT_EQ(run.sewing->status(), SewingStatus::sewing);
+    fallen_m[k] = height_of(run.garment, "lower_interface", run.garment.x) -
+                  height_of(run.garment, "lower_interface", run.sewing->state().x);
+    if (k == 0) {
+      EXPECT_EQ(hem_kept, run.sewing->state().x) << "nothing is sewn to a hem";
+    }
+    run.run(300);
+    expect_closed_without_crossings(run);
+  }
+  EXPECT_GT(fallen_m[0], 0.09);
+  EXPECT_LT(fallen_m[1], 0.06) << "it may sink by 5 cm";
+}
+
+TEST(Sewing, ALabelledEdgeIsDrawnToItsHeightOnceTheSeamsAreClosed) {
+  Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
+  for (Panel& panel : pattern.panels) panel.edges[0].label = "lower_interface";
+  SewingOptions options;
+  const GarmentMesh garment = mesh_garment(pattern, 0.02);
+  ASSERT_EQ(garment.labels.size(), 2U);
+  const auto height = [&](const Vec3s& x) { return height_of(garment, "lower_interface", x); };
+  const double wanted = height(garment.x) + 0.03;
+  options.label_heights = {{"lower_interface", wanted}, {"unknown", 7}};
+  SewingRun held(pattern, 0.02, nullptr, options), free(pattern, 0.02);
+  held.run(200);
+  free.run(200);
+  ASSERT_EQ(held.sewing->status(), SewingStatus::closed);
+  EXPECT_NEAR(height(free.sewing->state().x), height(garment.x), 2e-3);
+  EXPECT_GT(height(held.sewing->state().x), height(garment.x) + 1e-3) << "on its way";
+
+  // Springs of their own weight: at the height they rest, above it they push down, never harder than their limit.
+  const LabelSprings springs(garment, options.label_heights);
+  ClothState state{garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
+  for (const double above : {-0.5, -0.01, 0.0, 0.01, 0.5}) {
+    for (Vec3& p : state.x) p.y() = wanted + above;
+    std::vector<LinearSpring> rows;
+    springs.append(state, 0.5, rows);
+    double force = 0;
+    for (const LinearSpring& row : rows) {
+      force += row.force_N * row.direction.y();
+      EXPECT_LE(row.stiffness_N_per_m * std::fabs(above), std::fabs(row.force_N) + 1e-12) << "a step cannot overshoot";
+    }
+    const double limit = 0.5 * 20 * 0.24;  // two edges of 12 cm
+    EXPECT_NEAR(force, std::clamp(-above / 0.02, -1.0, 1.0) * limit, 1e-9) << above;
+  }
+}
+
+TEST(Sewing, LabelledEdgesAreFreeUntilTheSeamsAreClosed) {
+  Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
+  for (Panel& panel : pattern.panels) panel.edges[0].label = "hem";
+  SewingOptions options;
+  options.label_heights = {{"hem", 1.0}};
+  SewingRun held(pattern, 0.02, nullptr, options), free(pattern, 0.02);
+  for (SewingRun* run : {&held, &free}) run->run(10);  // of 12 frames
+  ASSERT_EQ(held.sewing->status(), SewingStatus::sewing);
+  const Vec3s &x = held.sewing->state().x, &y = free.sewing->state().x;
+  EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(Vec3)), 0);
+}
+
+TEST(Sewing, LabelSpringsFollowTheirParticlesIntoTheWeld) {
+  Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
+  pattern.panels[1].edges[0].label = "hem";
+  const GarmentMesh garment = mesh_garment(pattern, 0.02);
+  const WeldedMesh welded = weld(garment);
+  const std::vector<LabelHeight> heights{{"hem", 1.0}};
+  const LabelSprings panels(garment, heights), whole = panels.welded(welded.particle_of);
+  std::vector<LinearSpring> before, after;
+  panels.append({garment.x, Vec3s(garment.x.size(), Vec3::Zero())}, 1, before);
+  whole.append({Vec3s(at(welded.mesh.particle_count), Vec3::Zero()), {}}, 1, after);
+  ASSERT_EQ(before.size(), garment.labels.at(0).particles.size());
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t k = 0; k < before.size(); ++k)
+    EXPECT_EQ(after[k].particle[0], welded.particle_of[at(before[k].particle[0])]);
+}
+
+}  // namespace
+}  // namespace toile::internal

@@ -1,0 +1,122 @@
+// What a garment goes through between the weld and the motion of its body.
+#include "dress/outfit_run.hpp"
+#include "io/file.hpp"
+#include "sim/setup.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace toile::internal {
+namespace {
+
+// A sheet of 20 cm that has just been welded, and hangs by two of its corners.
+struct Hanging {
+  Scene scene;
+  Hash inputs;
+  std::vector<LoadedCloth> cloth;
+  Outfit outfit;
+  std::optional<OutfitRun> run;
+
+  explicit Hanging(bool to_rest, const char* time = "{}", const char* tolerance = "0.002", bool waits = false,
+                   bool weightless = false) {
+    scene = parse_scene(R"({"cloth": [{"name": "sheet", "grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.025},
+        "placement": {"rotation_deg": [-90, 0, 0]}}], "time": )" +
+                            std::string(time) + R"(, "solver": {"tolerance": )" + tolerance + "}}",
+                        "hanging.json");
+    cloth.push_back(load_cloth(scene, scene.cloth.front(), read_text_file, inputs));
+    outfit = outfit_of_shapes(cloth);
+    run.emplace(run_options(scene, step_options(scene, cloth.front().edge_m)), outfit, nullptr);
+    run->begin(waits ? within_growing(weightless) : after_weld(true, to_rest ? awaiting_rest : Pace{}));
+    const auto along = [](const Vec3& a, const Vec3& b) { return a.z() != b.z() ? a.z() < b.z() : a.x() < b.x(); };
+    const auto first = std::min_element(outfit.state.x.begin(), outfit.state.x.end(), along);
+    const auto last = std::max_element(outfit.state.x.begin(), outfit.state.x.end(), [](const Vec3& a, const Vec3& b) {
+      return a.z() != b.z() ? a.z() > b.z() : a.x() < b.x();
+    });
+    Events events;
+    for (const auto corner : {first, last}) {
+      TimedPin held;
+      held.pin.particle = static_cast<Index>(corner - outfit.state.x.begin());
+      events.pins.push_back(held);
+    }
+    run->set_events(std::move(events));
+  }
+  double longest_step_s() { return run->frame().step_max_s; }
+};
+
+TEST(OutfitRun, StepsAreTwiceAsLongWhileRestIsAwaited) {
+  EXPECT_DOUBLE_EQ(Hanging(false).longest_step_s(), 1.0 / 60);
+  Hanging awaited(true);
+  for (int frame = 0; frame < 3; ++frame) EXPECT_DOUBLE_EQ(awaited.longest_step_s(), 1.0 / 30);
+  awaited.run->start_motion([](double, std::span<Vec3>) {});
+  EXPECT_DOUBLE_EQ(awaited.longest_step_s(), 1.0 / 60);
+}
+
+// At 60 frames per second steps have the same length whether rest is awaited or not, and states are the same until the first that is
+// solved again for its slow motion.
+TEST(OutfitRun, SlowMotionIsSolvedForWhileRestIsAwaited) {
+  const auto solved_again = [](Hanging& hanging) {
+    std::vector<int> counts;
+    for (int frame = 0; frame < 60; ++frame) counts.push_back(hanging.run->frame().last.relinearised);
+    return counts;
+  };
+  Hanging timed(false, R"({"fps": 60})"), awaited(true, R"({"fps": 60})"), moving(true, R"({"fps": 60})");
+  moving.run->start_motion([](double, std::span<Vec3>) {});
+  const std::vector<int> without = solved_again(timed), with = solved_again(awaited);
+  const auto [first, differs] = std::mismatch(without.begin(), without.end(), with.begin());
+  ASSERT_NE(first, without.end());
+  EXPECT_EQ(*first, 0);
+  EXPECT_EQ(*differs, 1);
+  EXPECT_EQ(solved_again(moving), without);
+}
+
+TEST(OutfitRun, StepsAreSolvedBetterWhileRestIsAwaited) {
+  const auto iterations = [](bool to_rest, const char* tolerance) {
+    return Hanging(to_rest, R"({"fps": 60})", tolerance).run->frame().cg_iterations;
+  };
+  EXPECT_GT(iterations(true, "0.01"), iterations(false, "0.01"));
+  EXPECT_EQ(iterations(true, "0.01"), iterations(false, "0.002"));
+  EXPECT_EQ(iterations(true, "0.0005"), iterations(false, "0.0005"));
+}
+
+// As long as it moves: cloth that falls is not about to rest.
+TEST(OutfitRun, FastStepsAreSolvedNoBetterWhileRestIsAwaited) {
+  const auto iterations = [](bool to_rest, const char* tolerance, double speed_m_per_s) {
+    Hanging hanging(to_rest, R"({"fps": 60})", tolerance);
+    for (Vec3& v : hanging.outfit.state.v) v = Vec3(0, speed_m_per_s, 0);
+    return hanging.run->frame().cg_iterations;
+  };
+  EXPECT_EQ(iterations(true, "0.01", 0.2), iterations(false, "0.01", 0.2));
+  EXPECT_NE(iterations(true, "0.01", 0.02), iterations(false, "0.01", 0.02));
+  EXPECT_EQ(iterations(true, "0.01", 0.02), iterations(false, "0.002", 0.02));
+}
+
+TEST(OutfitRun, StepsAreNoLongerThanTheSceneSaysAlsoWhileRestIsAwaited) {
+  EXPECT_DOUBLE_EQ(Hanging(true, R"({"step_max_ms": 5})").longest_step_s(), 1.0 / 30 / 7);
+  EXPECT_DOUBLE_EQ(Hanging(true, R"({"fps": 60})").longest_step_s(), 1.0 / 60);
+}
+
+// While something of the weld is tangled, the time in which a garment gets its weight does not begin.
+TEST(OutfitRun, AGarmentThatWaitsHasWeightUnlessItIsToHaveNone) {
+  Hanging weightless(true, "{}", "0.002", true, true), waits(true, "{}", "0.002", true), falls(true);
+  const Vec3s start = waits.outfit.state.x;
+  const auto moved_m = [&](const Hanging& sheet) {
+    double most_m = 0;
+    for (std::size_t i = 0; i < start.size(); ++i)
+      most_m = std::max(most_m, (sheet.outfit.state.x[i] - start[i]).norm());
+    return most_m;
+  };
+  for (int frame = 0; frame < 30; ++frame)
+    for (Hanging* sheet : {&weightless, &waits, &falls}) sheet->run->frame();
+  EXPECT_FALSE(weightless.run->settled());
+  EXPECT_FALSE(waits.run->settled());
+  EXPECT_TRUE(falls.run->settled());
+  EXPECT_LT(moved_m(weightless), 1e-6);
+  EXPECT_GT(moved_m(waits), 0.05);
+  EXPECT_GT(moved_m(falls), 0.05);
+}
+
+}  // namespace
+}  // namespace toile::internal
