@@ -1,6 +1,7 @@
 // apps/cli/untangle_command.cpp: `toile untangle`: cloth that passes through itself or a body, moved until it does not.
 #include "body_option.hpp"
 #include "commands.hpp"
+#include "dress/untangle.hpp"
 #include "io/file.hpp"
 #include "io/json_text.hpp"
 #include "io/mesh_file.hpp"
@@ -10,7 +11,6 @@
 #include "mesh/check.hpp"
 #include "mesh/join_sides.hpp"
 #include "sim/setup.hpp"
-#include "dress/untangle.hpp"
 #include "terminal.hpp"
 #include "verify/crossings.hpp"
 

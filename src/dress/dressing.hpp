@@ -1,7 +1,7 @@
 // dress/dressing.hpp: puts one more garment on: its panels placed, sewn around body and outfit, and welded.
 #pragma once
-#include "dress/sewing.hpp"
 #include "dress/outfit.hpp"
+#include "dress/sewing.hpp"
 
 #include <functional>
 #include <limits>

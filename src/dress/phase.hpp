@@ -22,9 +22,10 @@ struct Ramp {
 
 // How steps are made.
 struct Pace {
-  double step_max_s = 1.0 / 60;  // where the scene says nothing
+  double step_max_s = 1.0 / 60;       // where the scene says nothing
   std::optional<double> slow_motion;  // instead of StepOptions::slow_motion
-  double slow_tolerance = std::numeric_limits<double>::infinity();  // of the solver at most, once nearly all cloth is slow
+  double slow_tolerance =
+      std::numeric_limits<double>::infinity();  // of the solver at most, once nearly all cloth is slow
 };
 constexpr Pace steps_of(double step_max_s) {
   Pace pace;

@@ -2,8 +2,8 @@
 
 #include "contact/crossing_finder.hpp"
 #include "core/error.hpp"
-#include "mesh/check.hpp"
 #include "dress/untangle.hpp"
+#include "mesh/check.hpp"
 
 #include <fmt/printf.h>
 

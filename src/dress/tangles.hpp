@@ -7,8 +7,8 @@
 #pragma once
 #include "assembly/implicit_row.hpp"
 #include "contact/crossing_finder.hpp"
-#include "mesh/topology.hpp"
 #include "dress/contour_push.hpp"
+#include "mesh/topology.hpp"
 
 #include <optional>
 #include <span>

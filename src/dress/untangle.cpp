@@ -4,9 +4,9 @@
 
 #include "contact/crossing_finder.hpp"
 #include "core/parallel.hpp"
-#include "mesh/check.hpp"
 #include "dress/contour_push.hpp"
 #include "dress/model_as_it_is.hpp"
+#include "mesh/check.hpp"
 #include "step/implicit_euler.hpp"
 
 #include <Eigen/Geometry>

@@ -4,11 +4,11 @@
 #include "core/available_memory.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "garment/pattern_check.hpp"
-#include "dress/sewing.hpp"
-#include "io/pc2.hpp"
 #include "dress/dressing_body.hpp"
 #include "dress/outfit_run.hpp"
+#include "dress/sewing.hpp"
+#include "garment/pattern_check.hpp"
+#include "io/pc2.hpp"
 
 #include <fmt/printf.h>
 

@@ -1,8 +1,8 @@
 #include "sim/cloth_arrays.hpp"
 
 #include "core/error.hpp"
-#include "mesh/check.hpp"
 #include "dress/rigid_path.hpp"
+#include "mesh/check.hpp"
 #include "sim/setup.hpp"
 
 #include <numeric>

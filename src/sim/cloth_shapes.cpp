@@ -3,8 +3,8 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
-#include "garment/triangulate.hpp"
 #include "dress/rigid_path.hpp"
+#include "garment/triangulate.hpp"
 
 #include <fmt/printf.h>
 #include <Eigen/Geometry>

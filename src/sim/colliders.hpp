@@ -4,11 +4,11 @@
 // `load` (its surface) and `cost` (what that takes); `describe_beside` if it has keys of its own beside that one.  Everything else about it
 // follows from its line in ColliderShape.
 #pragma once
+#include "dress/keyed.hpp"
+#include "dress/rigid_path.hpp"
 #include "sim/collider_capsule.hpp"
 #include "sim/collider_person.hpp"
 #include "sim/collider_solid.hpp"
-#include "dress/keyed.hpp"
-#include "dress/rigid_path.hpp"
 
 #include <optional>
 #include <span>

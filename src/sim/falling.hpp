@@ -14,9 +14,9 @@
 // nothing follows for what is to come; the caller must not ask.
 #pragma once
 #include "body/measure.hpp"
-#include "garment/garment_mesh.hpp"
 #include "dress/outfit.hpp"
 #include "dress/outfit_run.hpp"
+#include "garment/garment_mesh.hpp"
 
 #include <optional>
 #include <span>

@@ -10,13 +10,13 @@
 // that runs has been obeyed in every word.
 #pragma once
 #include "assembly/air.hpp"
+#include "dress/keyed.hpp"
 #include "dress/label_springs.hpp"
+#include "dress/rigid_path.hpp"
 #include "io/json.hpp"
 #include "material/fabric.hpp"
 #include "material/membrane.hpp"
 #include "sim/colliders.hpp"
-#include "dress/keyed.hpp"
-#include "dress/rigid_path.hpp"
 #include "solver/modified_pcg.hpp"
 #include "step/drag.hpp"
 #include "step/implicit_euler.hpp"
@@ -48,7 +48,7 @@ struct ScenePin {
   enum class Hold { fixed, path, moves, body };
   Hold hold = Hold::fixed;
   std::vector<VectorKey> path;  // ascending times; straight in between, at rest before and after
-  RigidPath moves;        // instead: all that is held moves as one, from where it is when it is taken; times from there
+  RigidPath moves;  // instead: all that is held moves as one, from where it is when it is taken; times from there
   double from_s = 0, to_s = std::numeric_limits<double>::infinity();  // it is held in this time
   std::string where, pointer;
 };

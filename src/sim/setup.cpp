@@ -274,8 +274,7 @@ double default_offset_m(double edge_m) { return std::clamp(0.2 * edge_m, 1.5e-3,
 
 OutfitRunOptions run_options(const Scene& scene, const StepOptions& step, std::function<bool()> stop) {
   OutfitRunOptions options;
-  options.model.gravity_m_per_s2 =
-      scene.gravity_path.empty() ? scene.gravity_m_per_s2 : scene.gravity_path.front().x;
+  options.model.gravity_m_per_s2 = scene.gravity_path.empty() ? scene.gravity_m_per_s2 : scene.gravity_path.front().x;
   options.model.paper_scaling = scene.paper_scaling;
   options.model.damping_jacobian = scene.damping_jacobian;
   options.model.pair_friction = scene.friction_between;

@@ -2,12 +2,12 @@
 #pragma once
 #include "assembly/cloth_model.hpp"
 #include "core/hash.hpp"
-#include "garment/garment_mesh.hpp"
-#include "garment/pattern_figures.hpp"
-#include "sim/colliders.hpp"
 #include "dress/keyed.hpp"
 #include "dress/outfit.hpp"
 #include "dress/outfit_run.hpp"
+#include "garment/garment_mesh.hpp"
+#include "garment/pattern_figures.hpp"
+#include "sim/colliders.hpp"
 #include "sim/scene.hpp"
 #include "step/implicit_euler.hpp"
 

@@ -11,12 +11,12 @@
 #pragma once
 #include "core/state_archive.hpp"
 #include "core/stopwatch.hpp"
-#include "garment/placement.hpp"
-#include "io/surface_mesh.hpp"
 #include "dress/dressing.hpp"
 #include "dress/dressing_body.hpp"
-#include "sim/falling.hpp"
 #include "dress/outfit_run.hpp"
+#include "garment/placement.hpp"
+#include "io/surface_mesh.hpp"
+#include "sim/falling.hpp"
 #include "sim/phase_report.hpp"
 #include "sim/progress.hpp"
 #include "sim/rest_watch.hpp"
@@ -228,8 +228,8 @@ class Simulation {
   std::optional<Outfit> start_;     // likewise
   Outfit outfit_;
   std::optional<NewGarment> new_garment_;  // of a weld
-  Vec3s body_x_;      // at the last frame
-  Vec3s standing_x_;  // how the body stands when it is dressed
+  Vec3s body_x_;                           // at the last frame
+  Vec3s standing_x_;                       // how the body stands when it is dressed
   std::vector<Triangle> body_triangles_;
   std::vector<JoinedColliders::Part> colliders_;
   std::optional<BodySurface> body_;

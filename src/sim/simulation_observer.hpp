@@ -1,9 +1,9 @@
 // sim/simulation_observer.hpp: who looks on while a scene is simulated: a writer of files, a judge, a picture.
 #pragma once
 #include "core/types.hpp"
+#include "dress/outfit.hpp"
 #include "io/surface_mesh.hpp"
 #include "mesh/cloth_mesh.hpp"
-#include "dress/outfit.hpp"
 
 #include <functional>
 #include <span>

@@ -10,8 +10,9 @@
 namespace toile::internal {
 namespace {
 
-constexpr double rest_s = 0.5;                // after a garment has settled, before it may be said to be still
-constexpr RestLimits rests_below_others{10, std::numeric_limits<double>::infinity()};  // of a garment that others go over
+constexpr double rest_s = 0.5;  // after a garment has settled, before it may be said to be still
+constexpr RestLimits rests_below_others{10,
+                                        std::numeric_limits<double>::infinity()};  // of a garment that others go over
 
 PhasePlan plan_of(RunPhase which, const Phase& cloth, std::string_view doing) {
   PhasePlan plan;
@@ -114,8 +115,7 @@ bool Simulation::go_through(const PhasePlan& plan) {
 }
 
 bool Simulation::frame(const PhasePlan& plan) {
-  if (plan.which == RunPhase::motion)
-    motion_->at(static_cast<double>(place_.frame + 1) * frame_s(), body_x_, body_x_);
+  if (plan.which == RunPhase::motion) motion_->at(static_cast<double>(place_.frame + 1) * frame_s(), body_x_, body_x_);
   const Stopwatch watch;
   const FrameReport frame = run_->frame();
   for (PhaseReport* report : plan.reports) {

@@ -1,7 +1,7 @@
 // sim/simulation_start.cpp: what is wrong with cloth before its first frame, and how it is taken apart.
 #include "core/error.hpp"
-#include "sim/simulation.hpp"
 #include "dress/start_state.hpp"
+#include "sim/simulation.hpp"
 
 #include <algorithm>
 #include <numeric>

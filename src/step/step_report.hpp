@@ -19,7 +19,7 @@ struct PhaseSeconds {
   }
 };
 inline PhaseSeconds operator-(const PhaseSeconds& a, const PhaseSeconds& b) {
-  return {a.eval - b.eval,     a.cg - b.cg, a.cloth_cloth - b.cloth_cloth, a.cloth_solid - b.cloth_solid,
+  return {a.eval - b.eval,     a.cg - b.cg,    a.cloth_cloth - b.cloth_cloth, a.cloth_solid - b.cloth_solid,
           a.filter - b.filter, a.body - b.body};
 }
 

@@ -2,8 +2,8 @@
 #include "dress/dressing.hpp"
 
 #include "body/mannequin.hpp"
-#include "garment/garments.hpp"
 #include "dress/dressing_body.hpp"
+#include "garment/garments.hpp"
 #include "support/bare_step.hpp"
 #include "support/crossings.hpp"
 

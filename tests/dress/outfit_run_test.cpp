@@ -118,5 +118,33 @@ TEST(OutfitRun, AGarmentThatWaitsHasWeightUnlessItIsToHaveNone) {
   EXPECT_GT(moved_m(falls), 0.05);
 }
 
+// A sheet that friction holds on a slope, in as many phases as frames or in one: what holds it is known from phase to phase.  A run that begins
+// anew takes hold where the sheet has slid to.
+TEST(OutfitRun, ContactsAreKnownFromPhaseToPhase) {
+  const Scene scene = parse_scene(R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.025},
+        "placement": {"translation_m": [0, 0.054, 0], "rotation_deg": [-90, 0, 0]}}],
+      "body": {"box": {"size_m": [1, 0.1, 1]}, "friction": 0.6},
+      "world": {"gravity_m_per_s2": [3.4, -9.2, 0]}})",
+                                  "slope.json");
+  Hash inputs;
+  const std::vector<LoadedCloth> cloth{load_cloth(scene, scene.cloth.front(), read_text_file, inputs)};
+  const auto slid = [&](bool in_phases, bool anew) {
+    SolidMesh loaded = load_collider(scene.body, inputs).surface;
+    BodySurface body(std::move(loaded.positions), std::move(loaded.triangles));
+    Outfit outfit = outfit_of_shapes(cloth);
+    const StepOptions step = step_options(scene, cloth.front().edge_m);
+    std::optional<OutfitRun> run;
+    for (int frame = 0; frame < 40; ++frame) {
+      if (!run || anew) run.emplace(run_options(scene, step), outfit, &body);
+      if (in_phases) run->begin(as_drawn(steps_of(1 / scene.fps), steps_of(1 / scene.fps)));
+      EXPECT_TRUE(run->frame().ok);
+    }
+    return outfit.state.x;
+  };
+  const Vec3s whole = slid(false, false);
+  EXPECT_EQ(slid(true, false), whole);
+  EXPECT_NE(slid(true, true), whole);
+}
+
 }  // namespace
 }  // namespace toile::internal

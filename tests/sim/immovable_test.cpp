@@ -2,10 +2,10 @@
 // on with the parts of what it was made from.  A new class of that kind belongs into this list; those inside a .cpp say it there.
 #include "core/tasks.hpp"
 #include "core/team.hpp"
-#include "dress/sewing.hpp"
-#include "preview/ray_scene.hpp"
 #include "dress/dressing.hpp"
 #include "dress/outfit_run.hpp"
+#include "dress/sewing.hpp"
+#include "preview/ray_scene.hpp"
 #include "sim/simulation.hpp"
 #include "solver/modified_pcg.hpp"
 #include "solver/step_solver.hpp"

@@ -1,6 +1,8 @@
 // What a run may be said to have come to: no pass before gravity, no rest in free fall, no silent move of a start.
 #include "body/mannequin.hpp"
 #include "body/measure.hpp"
+#include "dress/start_state.hpp"
+#include "dress/untangle.hpp"
 #include "garment/garments.hpp"
 #include "io/json.hpp"
 #include "io/pc2.hpp"
@@ -8,8 +10,6 @@
 #include "sim/falling.hpp"
 #include "sim/setup.hpp"
 #include "sim/simulate.hpp"
-#include "dress/start_state.hpp"
-#include "dress/untangle.hpp"
 #include "support/tangled_starts.hpp"
 #include "support/tube_pattern.hpp"
 #include "verify/verify.hpp"

@@ -1,8 +1,8 @@
 // The garments that patterns/draft.py draws, hung around the bodies they are drawn for: clear of them, with every thread
 // beside them, where they stand.
 #include "body/mannequin.hpp"
-#include "garment/placement.hpp"
 #include "dress/outfit.hpp"
+#include "garment/placement.hpp"
 #include "sim/setup.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Stacks of sheets that fall on each other, on the floor and on a sphere: they come to rest, and nothing passes through anything.
 #include "assembly/elements.hpp"
 #include "core/hash.hpp"
+#include "dress/outfit_run.hpp"
 #include "io/file.hpp"
 #include "io/scratch.hpp"
-#include "dress/outfit_run.hpp"
 #include "sim/setup.hpp"
 #include "sim/simulate.hpp"
 #include "support/bodies.hpp"
