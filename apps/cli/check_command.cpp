@@ -4,7 +4,6 @@
 #include "budget_text.hpp"
 #include "check_pattern.hpp"
 #include "commands.hpp"
-#include "core/hash.hpp"
 #include "io/file.hpp"
 #include "io/json.hpp"
 #include "io/json_text.hpp"
@@ -102,15 +101,14 @@ std::string check_scene(const std::string& path, const std::string& text, const 
   const Scene scene = parse_scene(text, path);
   output_folder({}, scene);
   const std::string budget = "  " + describe_budget(scene, limits, json);
-  Hash hash;
   Index vertices = 0, triangles = 0;
   std::vector<LoadedCloth> cloth;
   for (const SceneCloth& one : scene.cloth) {
-    cloth.push_back(load_cloth(scene, one, read_text_file, hash));
+    cloth.push_back(load_cloth(scene, one, read_text_file));
     vertices += cloth.back().garment.mesh.particle_count;
     triangles += cloth.back().garment.mesh.triangle_count();
   }
-  const LoadedColliders colliders = load_colliders(scene.body, scene.solids, hash);
+  const LoadedColliders colliders = load_colliders(scene.body, scene.solids);
   const JoinedColliders& body = colliders.joined;
   if (!scene.start.empty()) start_from(scene.start, cloth, body.surface.positions);
   json.member("kind", "scene");

@@ -71,9 +71,7 @@ std::string load_as_dress_does(const CommandLine& line, const std::string& path,
   dressed.cloth.front().set_edge_m(resolution_m);
   const std::string budget =
       fmt::sprintf("  as dressed for %g s: ", dressed.seconds) + describe_budget(dressed, line.limits, json);
-  Hash hash;
-  const LoadedCloth loaded = load_cloth(
-      dressed, dressed.cloth.front(), [&](const std::string&) { return text; }, hash);
+  const LoadedCloth loaded = load_cloth(dressed, dressed.cloth.front(), [&](const std::string&) { return text; });
   return describe(pattern, loaded.garment, resolution_m, json) + budget;
 }
 
@@ -117,8 +115,7 @@ std::optional<BodyFigures> figures_of(const CommandLine& line, std::string& note
   if (line.body.empty() && !line.measurements.empty())
     throw Error(ExitCode::usage, "--measurements: expected --body beside it");
   if (line.body.empty()) return std::nullopt;
-  Hash hash;
-  const Collider body = load_collider(body_option(line), hash);
+  const Collider body = load_collider(body_option(line));
   BodyFigures figures = body_figures(body.surface.positions, body.surface.triangles, body.measurements);
   add_arms(figures, find_arms(body.surface.positions, body.surface.triangles));
   for (const std::string& note : body.warnings) notes += "  note: " + note + '\n';

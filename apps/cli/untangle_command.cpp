@@ -70,8 +70,7 @@ SolidMesh load_solid(const CommandLine& line) {
   double units_per_m = 1;
   if (line.body_unit == "dm") units_per_m = 10;
   if (line.body_unit == "cm") units_per_m = 100;
-  Hash hash;
-  SolidMesh solid = load_collider(body_option(line), hash).surface;
+  SolidMesh solid = load_collider(body_option(line)).surface;
   for (Vec3& p : solid.positions) p *= units_per_m;
   return solid;
 }

@@ -1,6 +1,7 @@
 #include "toile/simulation.hpp"
 
 #include "api/implementation.hpp"
+#include "core/hash.hpp"
 #include "io/file.hpp"
 #include "sim/budget.hpp"
 #include "sim/recorder.hpp"
@@ -54,10 +55,8 @@ internal::Scene scene_of(std::span<const Cloth> cloths, const Body& body, std::s
 Simulation::Implementation::Recipe::Recipe(internal::Scene made_scene, SimulationOptions made_options)
     : options(std::move(made_options)), scene(std::move(made_scene)) {
   internal::require_budget(scene, internal::read_text_file, {});
-  internal::Hash hash;
-  internal::add_to_hash(scene, hash);
-  in_threads([&] { loaded = internal::load_scene(scene, internal::read_text_file, hash); });
-  input_hash = hash.value();
+  in_threads([&] { loaded = internal::load_scene(scene, internal::read_text_file); });
+  input_hash = internal::input_hash(scene, loaded);
 }
 
 void Simulation::Implementation::make_engine() {

@@ -41,23 +41,23 @@ void place(const SceneCollider& from, Collider& collider) {
   collider.movement = std::move(whole);
 }
 
-Collider load_kind(const SceneCollider& from, Hash& inputs) {
+Collider load_kind(const SceneCollider& from) {
   return std::visit(
       [&]<class Kind>(const Kind& kind) {
         if constexpr (std::is_same_v<Kind, std::monostate>)
           return Collider{};
         else
-          return load(kind, from, inputs);
+          return load(kind, from);
       },
       from.shape);
 }
 
 }  // namespace
 
-Collider load_collider(const SceneCollider& from, Hash& inputs) {
+Collider load_collider(const SceneCollider& from) {
   Collider collider;
   try {
-    collider = load_kind(from, inputs);
+    collider = load_kind(from);
   } catch (const InputError& error) {
     if (from.is_person() || from.where.empty()) throw;  // names its own file
     throw Error(error.code(), from.where + ": " + from.pointer + ": " + error.what());
@@ -77,11 +77,12 @@ ColliderCost cost_of(const SceneCollider& collider) {
       collider.shape);
 }
 
-LoadedColliders load_colliders(const SceneCollider& body, std::span<const SceneCollider> solids, Hash& inputs) {
+LoadedColliders load_colliders(const SceneCollider& body, std::span<const SceneCollider> solids) {
   LoadedColliders loaded;
   std::vector<Collider> all;
   const auto add = [&](const SceneCollider& one) {
-    all.push_back(load_collider(one, inputs));
+    all.push_back(load_collider(one));
+    loaded.input_hashes.push_back(all.back().input_hash);
     for (std::string& warning : all.back().warnings) loaded.warnings.push_back(std::move(warning));
   };
   if (body.exists()) {

@@ -9,6 +9,7 @@
 #include "sim/collider_solid.hpp"
 #include "sim/rigid_path.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -68,7 +69,7 @@ void for_each_kind(const F& f) {
 
 // Where it stands and how it moves.  Nothing: no surface.  Throws InputError at its place in the scene for a shape that is none, and for
 // moves that lead it faster than most_led_m_per_s.
-Collider load_collider(const SceneCollider& collider, Hash& inputs);
+Collider load_collider(const SceneCollider& collider);
 ColliderCost cost_of(const SceneCollider& collider);
 
 // The body, if there is one, and the solids, in this order, as one.
@@ -77,8 +78,9 @@ struct LoadedColliders {
   std::size_t worn_vertices = 0, worn_triangles = 0;  // of the body: the first ones
   std::optional<BodyMeasurements> measurements;       // likewise
   std::vector<std::string> warnings;
+  std::vector<std::uint64_t> input_hashes;  // of each
 };
-LoadedColliders load_colliders(const SceneCollider& body, std::span<const SceneCollider> solids, Hash& inputs);
+LoadedColliders load_colliders(const SceneCollider& body, std::span<const SceneCollider> solids);
 
 // Throws InputError("<where>", "<pointer>/moves/2", ...) for moves that lead what is within `reach_m` of their centre faster than
 // most_led_m_per_s.

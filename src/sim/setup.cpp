@@ -2,6 +2,7 @@
 #include "sim/setup.hpp"
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "io/mesh_file.hpp"
 #include "mesh/check.hpp"
 #include "sim/check_garment.hpp"
@@ -25,14 +26,13 @@ Index nearest_particle(std::span<const Vec3> x, const Vec3& p) {
 }
 
 // The pattern of the cloth, meshed and moved as `placement` says.
-GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& inputs,
-                         std::optional<double>& counted_edge_m, std::optional<Pattern>& as_read) {
+void load_garment(const SceneCloth& cloth, const TextSource& read, std::optional<double>& counted_edge_m,
+                  LoadedCloth& loaded) {
   const std::string text = read(cloth.pattern);
-  inputs.add_text(text);
+  loaded.input_hash = hash_of_text(text);
   const std::string file = printable(cloth.pattern);
-  as_read = parse_pattern(text, file);
-  const Pattern& pattern = *as_read;
-  GarmentMesh garment;
+  const Pattern& pattern = loaded.pattern.emplace(parse_pattern(text, file));
+  GarmentMesh& garment = loaded.garment;
   try {
     if (cloth.vertices) {
       CountedGarment counted = mesh_garment_to_count(pattern, *cloth.vertices);
@@ -49,28 +49,27 @@ GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& 
     const Mat3 turn = rotation_from_degrees(cloth.rotation_deg);
     for (Vec3& x : garment.x) x = turn * x + cloth.translation_m;
   }
-  return garment;
 }
 
 // The shape of the cloth, or the refusal of one that has none, at its place in the scene.
-GarmentMesh load_shape(const SceneCloth& cloth, const TextSource& read, Hash& inputs,
-                       std::vector<std::string>& warnings) {
+void load_shape(const SceneCloth& cloth, const TextSource& read, LoadedCloth& loaded) {
   if (!cloth.mesh.empty()) {
     const std::string text = read(cloth.mesh), file = printable(cloth.mesh);
-    inputs.add_text(text);
+    Hash bytes;
+    bytes.add_text(text);
     SceneCloth as_arrays = cloth;
-    const SurfaceMesh mesh = parse_mesh(text, cloth.mesh, [&](std::string_view beside) { inputs.add_text(beside); });
+    const SurfaceMesh mesh = parse_mesh(text, cloth.mesh, [&](std::string_view beside) { bytes.add_text(beside); });
+    loaded.input_hash = bytes.value();
     as_arrays.arrays = std::make_shared<const SceneClothArrays>(
-        arrays_of_mesh(mesh, file, metres_in(cloth.mesh_unit), cloth.rest_shape, warnings));
-    return cloth_of_arrays(as_arrays);
+        arrays_of_mesh(mesh, file, metres_in(cloth.mesh_unit), cloth.rest_shape, loaded.warnings));
+    loaded.garment = cloth_of_arrays(as_arrays);
+  } else if (cloth.arrays) {
+    loaded.input_hash = hash_of(*cloth.arrays);
+    loaded.garment = cloth_of_arrays(cloth);
+  } else {
+    loaded.garment = shaped_cloth(cloth);
+    check_areas("", loaded.garment.x, loaded.garment.mesh.triangles);
   }
-  if (cloth.arrays) {
-    add_to_hash(*cloth.arrays, inputs);
-    return cloth_of_arrays(cloth);
-  }
-  GarmentMesh shape = shaped_cloth(cloth);
-  check_areas("", shape.x, shape.mesh.triangles);
-  return shape;
 }
 
 std::vector<Fabric> fabrics_of(const Scene& scene, const SceneCloth& cloth, const ClothMesh& mesh) {
@@ -167,7 +166,7 @@ TimedPin timed_pin(const ScenePin& given, Index particle) {
   return timed;
 }
 
-LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read, Hash& inputs) {
+LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read) {
   LoadedCloth loaded;
   std::optional<double> counted_edge_m;
   const std::string where = cloth.is_sewn()             ? printable(cloth.pattern)
@@ -175,8 +174,10 @@ LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSo
                             : cloth.shape_where.empty() ? printable(cloth.name)
                                                         : cloth.shape_where + ": " + cloth.shape_pointer;
   try {
-    loaded.garment = cloth.is_sewn() ? load_garment(cloth, read, inputs, counted_edge_m, loaded.pattern)
-                                     : load_shape(cloth, read, inputs, loaded.warnings);
+    if (cloth.is_sewn())
+      load_garment(cloth, read, counted_edge_m, loaded);
+    else
+      load_shape(cloth, read, loaded);
   } catch (const InputError& error) {
     throw_within(where, error);
   }

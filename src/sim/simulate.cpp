@@ -1,6 +1,7 @@
 #include "sim/simulate.hpp"
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "core/parallel.hpp"
 #include "io/run_folder.hpp"
 #include "sim/checkpoint.hpp"
@@ -93,10 +94,8 @@ void Run::open_folder() {
 
 void Run::load() {
   if (options_.progress) options_.progress({"meshing", 0, -1});
-  Hash hash;
-  add_to_hash(scene_, hash);
-  LoadedScene loaded = load_scene(scene_, options_.read, hash);
-  input_hash_ = hash.value();
+  LoadedScene loaded = load_scene(scene_, options_.read);
+  input_hash_ = input_hash(scene_, loaded);
   simulation_.emplace(
       scene_, std::move(loaded),
       SimulationOptions{options_.progress, options_.stop, options_.time_limit_s, options_.seconds_before, watch_},
@@ -108,7 +107,7 @@ void Run::load() {
         "the folder held a run that was interrupted; it is replaced, toile resume would have gone on with it");
   if (!options_.built_in) report.inputs = checksums_of_inputs(inputs_, folder_->directory());
   report.command = options_.command;
-  report.input_hash = hash.hex();
+  report.input_hash = hex_of(input_hash_);
   report.threads = available_threads();
 }
 

@@ -17,8 +17,7 @@ namespace {
 
 LoadedColliders load(const std::string& keys, const std::string& file = "s.json") {
   const Scene scene = parse_scene(R"({"cloth": [{"grid": {}}], )" + keys + "}", file);
-  Hash unused;
-  return load_colliders(scene.body, scene.solids, unused);
+  return load_colliders(scene.body, scene.solids);
 }
 
 std::string refusal(const std::string& keys) {

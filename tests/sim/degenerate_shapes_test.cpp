@@ -17,12 +17,11 @@ namespace {
 std::string refusal(const std::string& scene_text) {
   try {
     const Scene scene = parse_scene("\n" + scene_text, "s.json");
-    Hash unused;
     for (const SceneCloth& cloth : scene.cloth) {
-      const LoadedCloth loaded = load_cloth(scene, cloth, read_text_file, unused);
+      const LoadedCloth loaded = load_cloth(scene, cloth, read_text_file);
       check_cloth("accepted", loaded.garment.mesh, loaded.garment.x);
     }
-    const SolidMesh solid = load_colliders(scene.body, scene.solids, unused).joined.surface;
+    const SolidMesh solid = load_colliders(scene.body, scene.solids).joined.surface;
     if (!solid.positions.empty()) check_closed("accepted", solid.positions, solid.triangles);
   } catch (const Error& error) {
     return error.what();

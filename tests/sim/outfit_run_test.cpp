@@ -15,7 +15,6 @@ namespace {
 // A sheet of 20 cm that counts as sewn, and hangs by two of its corners.
 struct Hanging {
   Scene scene;
-  Hash inputs;
   std::vector<LoadedCloth> cloth;
   Outfit outfit;
   std::optional<OutfitRun> run;
@@ -26,7 +25,7 @@ struct Hanging {
         "placement": {"rotation_deg": [-90, 0, 0]}}], "time": )" +
                             std::string(time) + R"(, "solver": {"tolerance": )" + tolerance + "}}",
                         "hanging.json");
-    cloth.push_back(load_cloth(scene, scene.cloth.front(), read_text_file, inputs));
+    cloth.push_back(load_cloth(scene, scene.cloth.front(), read_text_file));
     scene.cloth.front().pattern = "sheet.json";
     outfit = outfit_of_shapes(cloth);
     Settling settling;

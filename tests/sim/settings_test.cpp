@@ -35,11 +35,7 @@ std::string refusal(const std::string& text) {
   return {};
 }
 
-std::string hash_of(const std::string& text) {
-  Hash hash;
-  add_to_hash(parse_scene(text, "s.json"), hash);
-  return hash.hex();
-}
+std::string hash_of(const std::string& text) { return hex_of(settings_hash(parse_scene(text, "s.json"))); }
 
 std::string text_of(double x) {
   JsonText text(0);
