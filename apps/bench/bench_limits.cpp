@@ -156,7 +156,7 @@ double time_iteration(const SheetSystem& sheet, Preconditioner kind) {
   const Stopwatch watch;
   const PcgReport report = pcg.solve(sheet.system(), sheet.b(), sheet.reference(), options, dv);
   const double seconds = watch.seconds();
-  if (report.iterations != iterations) throw Error(ExitCode::internal, "bench limits: " + report.explain());
+  if (report.iterations != iterations) throw Error(ErrorKind::internal, "bench limits: " + report.explain());
   return seconds / iterations;
 }
 

@@ -53,7 +53,7 @@ std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json)
   CollisionBody body;
   const std::string no_body = complaint([&] { body = read_body(path, text, unit); });
   const std::vector<std::string>& notes = no_body.empty() ? body.notes : mesh.notes;
-  if (!no_cloth.empty() && !no_body.empty()) throw Error(ExitCode::bad_input, open.empty() ? no_body : no_cloth);
+  if (!no_cloth.empty() && !no_body.empty()) throw Error(ErrorKind::bad_input, open.empty() ? no_body : no_cloth);
   Vec3 low = mesh.positions.front(), high = low;
   for (const Vec3& p : mesh.positions) {
     low = low.cwiseMin(p);
@@ -147,7 +147,7 @@ Checked check_file(const CommandLine& line, const std::string& path, JsonText& j
 
 ExitCode check_command(const CommandLine& line) {
   if (line.inputs.size() > 1 && !(line.svg.empty() && line.repair.empty()))
-    throw Error(ExitCode::usage, "--svg and --repair take one pattern at a time");
+    throw Error(ErrorKind::usage, "--svg and --repair take one pattern at a time");
   ExitCode code = ExitCode::ok;
   JsonText json;
   json.begin_object();
@@ -163,9 +163,9 @@ ExitCode check_command(const CommandLine& line) {
       json.member("ok", true);
       checked = check_file(line, path, json);
     } catch (const Error& error) {
-      if (error.code() == ExitCode::usage) throw;
+      if (error.kind() == ErrorKind::usage) throw;
       checked.error = error.what();
-      checked.code = error.code();
+      checked.code = exit_code(error.kind());
     }
     if (!checked.error.empty()) {
       if (code == ExitCode::ok) code = checked.code;

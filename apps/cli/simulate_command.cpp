@@ -77,7 +77,7 @@ Scene demo_scene(const CommandLine& line) {
     }
     names.push_back(demo.name);
   }
-  throw Error(ExitCode::usage, "demo: expected one of toile demo --list; nearest is \"" +
+  throw Error(ErrorKind::usage, "demo: expected one of toile demo --list; nearest is \"" +
                                    std::string(nearest_name(name, names.data(), names.size())) + "\", got \"" +
                                    printable(name) + '"');
 }
@@ -97,7 +97,7 @@ bool looks_like_a_file(const std::string& text) {
 SceneCollider dress_body(const CommandLine& line) {
   SceneCollider body = body_option(line);
   const bool mannequin = body.as<SceneMannequin>() != nullptr;
-  if (mannequin && !line.body_unit.empty()) throw Error(ExitCode::usage, "--body-unit: mannequins are in metres");
+  if (mannequin && !line.body_unit.empty()) throw Error(ErrorKind::usage, "--body-unit: mannequins are in metres");
   if (line.motion.empty()) return body;
   SceneMotion motion;
   motion.where = "--motion";
@@ -106,10 +106,10 @@ SceneCollider dress_body(const CommandLine& line) {
     return std::find(some.begin(), some.end(), line.motion) != some.end();
   };
   if (!mannequin && !among(of_a_mesh) && (among(names) || !looks_like_a_file(line.motion)))
-    throw Error(ExitCode::usage,
+    throw Error(ErrorKind::usage,
                 "--motion: expected " + std::string(what_moves_a_mesh) + "; got \"" + printable(line.motion) + '"');
   if (mannequin && !among(names) && !std::filesystem::exists(line.motion))
-    throw Error(ExitCode::usage, "--motion: expected a motion or a file; nearest is \"" +
+    throw Error(ErrorKind::usage, "--motion: expected a motion or a file; nearest is \"" +
                                      std::string(nearest_name(line.motion, names.data(), names.size())) + "\", got \"" +
                                      printable(line.motion) + '"');
   if (among(names)) motion.name = line.motion;
@@ -196,7 +196,7 @@ bool wants_pictures(const CommandLine& line, const Scene& scene) {
   const bool wanted = scene.preview.value_or(!asked) && !line.no_preview;
   if (!wanted || can_draw()) return wanted;
   if (asked)
-    throw Error(ExitCode::usage,
+    throw Error(ErrorKind::usage,
                 "/output/preview of the scene asks for pictures, and this Toile is built without "
                 "pictures (--no-preview runs the scene without)");
   if (!line.quiet)
@@ -255,7 +255,7 @@ ExitCode simulate_command(const CommandLine& line) {
   const bool dresses = line.command == CommandLine::Command::dress;
   options.time_limit_s = line.time_limit_s.value_or(dresses ? default_time_limit_s : 0);
   const Report report = simulate(scene, options);
-  ExitCode code = exit_code(report);
+  ExitCode code = exit_code(outcome(report));
 
   std::string picture_error;
   if (pictures_wanted && code != ExitCode::interrupted) {
@@ -272,7 +272,7 @@ ExitCode simulate_command(const CommandLine& line) {
           interrupted);
     } catch (const Error& error) {
       picture_error = error.what();
-      if (code == ExitCode::ok) code = error.code();
+      if (code == ExitCode::ok) code = exit_code(error.kind());
     }
   }
   bar.clear();

@@ -201,7 +201,7 @@ ExitCode untangle_command(const CommandLine& line) {
   refuse_inputs(line);
   ClothFile cloth = load_cloth_file(line.inputs.front());
   if (!cloth.is_obj && mesh_writer_for(out_path(line, true)) == nullptr)
-    throw Error(ExitCode::usage,
+    throw Error(ErrorKind::usage,
                 "--out: expected a name that ends as " + mesh_writers_in_words() + ", got " + printable(line.out));
   const SolidMesh solid = load_solid(line);
 

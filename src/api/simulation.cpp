@@ -15,7 +15,7 @@
 namespace toile {
 namespace {
 
-[[noreturn]] void misuse(const std::string& message) { throw internal::Error(internal::ExitCode::usage, message); }
+[[noreturn]] void misuse(const std::string& message) { throw internal::Error(internal::ErrorKind::usage, message); }
 
 internal::Scene scene_of(std::span<const Cloth> cloths, const Body& body, std::span<const Body> solids,
                          const SimulationOptions& options) {

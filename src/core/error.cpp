@@ -20,10 +20,10 @@ std::string input_message(std::string_view where, std::string_view place, std::s
 }  // namespace
 
 InputError::InputError(std::string_view where, std::string_view place, std::string_view expected, std::string_view got)
-    : Error(ExitCode::bad_input, input_message(where, place, expected, got)) {}
+    : Error(ErrorKind::bad_input, input_message(where, place, expected, got)) {}
 
 IoError::IoError(std::string_view path, std::string_view what)
-    : Error(ExitCode::io, printable(path) + ": " + std::string(what)) {}
+    : Error(ErrorKind::io, printable(path) + ": " + std::string(what)) {}
 
 std::string printable(std::string_view name) {
   constexpr std::size_t limit = 200;

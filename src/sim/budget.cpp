@@ -264,7 +264,7 @@ std::string largest_items(const Budget& budget) {
 }
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
-  throw Error(ExitCode::resource_limit, printable(where) + ": " + what);
+  throw Error(ErrorKind::resource_limit, printable(where) + ": " + what);
 }
 
 }  // namespace

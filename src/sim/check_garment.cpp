@@ -20,7 +20,7 @@ void check_weld(const std::string& where, const GarmentMesh& garment) {
   try {
     weld(garment);
   } catch (const InputError& error) {
-    throw Error(error.code(), where + ": once its seams are sewn: " + error.what());
+    throw Error(error.kind(), where + ": once its seams are sewn: " + error.what());
   }
 }
 
@@ -33,7 +33,7 @@ void check_garment(const std::string& where, const GarmentMesh& garment) {
 
 void throw_within(const std::string& where, const InputError& error) {
   const std::string what = error.what();
-  throw Error(error.code(), what.starts_with(where) ? what : where + ": " + what);
+  throw Error(error.kind(), what.starts_with(where) ? what : where + ": " + what);
 }
 
 }  // namespace toile::internal

@@ -60,7 +60,7 @@ Collider load_collider(const SceneCollider& from) {
     collider = load_kind(from);
   } catch (const InputError& error) {
     if (from.is_person() || from.where.empty()) throw;  // names its own file
-    throw Error(error.code(), from.where + ": " + from.pointer + ": " + error.what());
+    throw Error(error.kind(), from.where + ": " + from.pointer + ": " + error.what());
   }
   if (!from.worn) place(from, collider);
   return collider;

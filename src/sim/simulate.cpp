@@ -79,7 +79,7 @@ Report Run::operator()() {
     simulation_->run();
     return finish();
   } catch (const IoError& error) {
-    throw Error(error.code(), std::string(error.what()) + "; " + std::to_string(writer_->cloth_frames()) +
+    throw Error(error.kind(), std::string(error.what()) + "; " + std::to_string(writer_->cloth_frames()) +
                                   " frames are kept in " + folder_->directory() + ": toile resume goes on from there");
   }
 }
@@ -194,9 +194,9 @@ Report Run::finish() {
 
 Report simulate(const Scene& scene, const RunOptions& options) { return Run(scene, options)(); }
 
-ExitCode exit_code(const Report& report) {
-  if (report.ended == reason::interrupted) return ExitCode::interrupted;
-  return report.verdict.pass ? ExitCode::ok : ExitCode::simulation_failed;
+Outcome outcome(const Report& report) {
+  if (report.ended == reason::interrupted) return Outcome::interrupted;
+  return report.verdict.pass ? Outcome::passed : Outcome::failed;
 }
 
 }  // namespace toile::internal
