@@ -39,6 +39,22 @@ class InputError : public Error {
   // `where` is the file with its line, `place` the element in it ("/cloth/0/fabric", "face 12");
   // either may be empty.
   InputError(std::string_view where, std::string_view place, std::string_view expected, std::string_view got);
+
+  // The same, about what is at `path` of the model that was given ("/cloth/0/pins/2"): who read that from a file completes the message
+  // (io/json_places.hpp).
+  InputError of(std::string_view path) const;
+  // The same with `where` before its message, unless that begins with it.
+  InputError within(std::string_view where) const;
+
+  const std::string& path() const { return path_; }
+  const std::string& place() const { return place_; }
+  const std::string& expected() const { return expected_; }
+  const std::string& got() const { return got_; }
+
+ private:
+  InputError(const std::string& message, const InputError& like);
+
+  std::string path_, place_, expected_, got_;
 };
 
 // A file that cannot be opened, read or written; names the path and the system's reason.

@@ -24,6 +24,20 @@ TEST(InputError, LeavesOutWhatIsNotKnown) {
   EXPECT_STREQ(InputError("", "", "a", "b").what(), "expected a, got b");
 }
 
+TEST(InputError, KnowsWhatOfTheModelItIsAboutAndSaysNoMoreOfIt) {
+  const InputError error = InputError("", "to_m", "a", "b").of("/solids/0");
+  EXPECT_STREQ(error.what(), "to_m: expected a, got b");
+  EXPECT_EQ(error.path(), "/solids/0");
+  EXPECT_EQ(error.place() + '|' + error.expected() + '|' + error.got(), "to_m|a|b");
+  EXPECT_EQ(error.within("sheet").path(), "/solids/0");
+}
+
+TEST(InputError, IsOfAFileThatItDoesNotNameItself) {
+  EXPECT_STREQ(InputError("", "uv_m", "a", "b").within("sheet").what(), "sheet: uv_m: expected a, got b");
+  EXPECT_STREQ(InputError("p.json:3:4", "/x", "a", "b").within("p.json").what(), "p.json:3:4: /x: expected a, got b");
+  EXPECT_EQ(InputError("", "uv_m", "a", "b").within("sheet").kind(), ErrorKind::bad_input);
+}
+
 TEST(IoError, NamesThePathAndTheReason) {
   const IoError error("out/cloth.pc2", "cannot write: No space left on device");
   EXPECT_STREQ(error.what(), "out/cloth.pc2: cannot write: No space left on device");
