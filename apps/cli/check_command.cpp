@@ -97,14 +97,13 @@ std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json)
   return said;
 }
 
-std::string check_scene(const std::string& path, const std::string& text, const BudgetLimits& limits, JsonText& json) {
-  const Scene scene = parse_scene(text, path);
+std::string check_scene(const Scene& scene, const BudgetLimits& limits, JsonText& json) {
   output_folder({}, scene);
   const std::string budget = "  " + describe_budget(scene, limits, json);
   Index vertices = 0, triangles = 0;
   std::vector<LoadedCloth> cloth;
-  for (const SceneCloth& one : scene.cloth) {
-    cloth.push_back(load_cloth(scene, one, read_text_file));
+  for (std::size_t k = 0; k < scene.cloth.size(); ++k) {
+    cloth.push_back(load_cloth(scene, k, read_text_file));
     vertices += cloth.back().garment.mesh.particle_count;
     triangles += cloth.back().garment.mesh.triangle_count();
   }
@@ -140,7 +139,8 @@ Checked check_file(const CommandLine& line, const std::string& path, JsonText& j
   if (is_pattern) return check_pattern(line, path, text, json);
   if (root.is_object() && root.find("cloth") == nullptr)
     root.fail("\"cloth\" (a scene) or \"pattern\" (a pattern)", "neither of them");
-  return {check_scene(path, text, line.limits, json)};
+  const SceneFile scene = read_scene(text, path);
+  return scene.places.complete_errors_of([&]() -> Checked { return {check_scene(scene.scene, line.limits, json)}; });
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ std::string load_as_dress_does(const CommandLine& line, const std::string& path,
   dressed.cloth.front().set_edge_m(resolution_m);
   const std::string budget =
       fmt::sprintf("  as dressed for %g s: ", dressed.seconds) + describe_budget(dressed, line.limits, json);
-  const LoadedCloth loaded = load_cloth(dressed, dressed.cloth.front(), [&](const std::string&) { return text; });
+  const LoadedCloth loaded = load_cloth(dressed, 0, [&](const std::string&) { return text; });
   return describe(pattern, loaded.garment, resolution_m, json) + budget;
 }
 

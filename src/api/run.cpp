@@ -105,7 +105,7 @@ Verdict RunWriter::finish() {
 
 Verdict run_scene(const std::string& path, const std::string& folder, const RunOptions& options) {
   return translated([&] {
-    const internal::Scene scene = internal::parse_scene(internal::read_text_file(path), path);
+    const internal::SceneFile file = internal::read_scene(internal::read_text_file(path), path);
     internal::RunOptions run;
     run.directory = folder;
     run.command = "toile run " + path;
@@ -116,7 +116,7 @@ Verdict run_scene(const std::string& path, const std::string& folder, const RunO
     run.stop = options.cancelled;
     run.time_limit_s = options.time_limit_s;
     internal::Report report;
-    const auto work = [&] { report = internal::simulate(scene, run); };
+    const auto work = [&] { file.places.complete_errors_of([&] { report = internal::simulate(file.scene, run); }); };
     if (options.threads > 0)
       internal::with_threads(options.threads, work);
     else

@@ -4,8 +4,8 @@
 
 namespace toile::internal {
 
-void JsonPlaces::add(std::string path, const Json& value) {
-  place_of_.insert_or_assign(std::move(path), Place{value.where(), value.pointer()});
+void JsonPlaces::add(std::string path, const Json& value, std::string_view note) {
+  place_of_.insert_or_assign(std::move(path), Place{value.where(), value.pointer().append(note)});
 }
 
 InputError JsonPlaces::complete(const InputError& error) const {

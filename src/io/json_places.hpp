@@ -14,8 +14,10 @@ namespace toile::internal {
 
 class JsonPlaces {
  public:
-  // What is at `path` of the model was read from this value.
-  void add(std::string path, const Json& value);
+  // What is at `path` of the model was read from this value; messages say `note` behind its pointer.
+  void add(std::string path, const Json& value, std::string_view note = {});
+  // Of a model whose paths are the pointers of its file.
+  void add(const Json& value) { add(value.pointer(), value); }
 
   // The same where the file says of what the error is about; otherwise the error.  A place that begins with a slash goes on from there.
   InputError complete(const InputError& error) const;

@@ -19,7 +19,6 @@ struct SceneMotion {
   std::string path;                              // resolved: .pc2, or a folder of OBJ files
   double fps = SampleOptions{}.rate_hz;          // of the file
   double lead_in_s = SampleOptions{}.lead_in_s;  // from the body's own pose into the motion
-  std::string where, pointer;
 };
 
 struct SceneMannequin {

@@ -9,7 +9,7 @@ LoadedScene load_scene(const Scene& scene, const TextSource& read) {
   LoadedScene loaded;
   {
     const Timed timed(loaded.cloth_s);
-    for (const SceneCloth& cloth : scene.cloth) loaded.cloth.push_back(load_cloth(scene, cloth, read));
+    for (std::size_t k = 0; k < scene.cloth.size(); ++k) loaded.cloth.push_back(load_cloth(scene, k, read));
   }
   const Timed timed(loaded.body_s);
   loaded.colliders = load_colliders(scene.body, scene.solids);

@@ -31,9 +31,9 @@ struct LoadedCloth {
   std::vector<std::string> warnings;
   std::uint64_t input_hash = 0;  // of the files or arrays that it was made of; 0: of none
 };
-// `read` gives the text of a pattern.  Errors of the mesher are given the name of the file, or the place of the
+// That of scene.cloth[k]; `read` gives the text of a pattern.  Errors of the mesher are given the name of the file, or are of the path of the
 // shape.  Throws InputError for a panel or a label that the cloth does not have, and for what check_garment refuses.
-LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read);
+LoadedCloth load_cloth(const Scene& scene, std::size_t k, const TextSource& read);
 
 // All that a scene names, read.
 struct LoadedScene {
@@ -54,8 +54,9 @@ struct PinnedParticle {
     archive(pin, particle);
   }
 };
-// Which particles the cloth's pins hold, by where they are.  Throws InputError for a box with none in it, and for one that two pins hold at once.
-std::vector<PinnedParticle> pinned_particles(const SceneCloth& cloth, std::span<const Vec3> x);
+// Which particles the pins of scene.cloth[k] hold, by where they are.  Throws InputError for a box with none in it, and for one that two pins
+// hold at once.
+std::vector<PinnedParticle> pinned_particles(const Scene& scene, std::size_t k, std::span<const Vec3> x);
 TimedPin timed_pin(const ScenePin& pin, Index particle);
 
 // Sheets, tubes and ribbons that hang where they are drawn.

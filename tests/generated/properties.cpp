@@ -115,7 +115,9 @@ class Checker {
         run.directory = name;
         run.command = "generated";
         ExitCode code = ExitCode::internal;
-        with_threads(threads, [&] { code = exit_code(outcome(simulate(parse_scene(text, name + ".json"), run))); });
+        const SceneFile scene = read_scene(text, name + ".json");
+        scene.places.complete_errors_of(
+            [&] { with_threads(threads, [&] { code = exit_code(outcome(simulate(scene.scene, run))); }); });
         return static_cast<int>(code);
       } catch (const Error& error) {
         std::fprintf(stderr, "%s\n", error.what());

@@ -25,7 +25,7 @@ struct Hanging {
         "placement": {"rotation_deg": [-90, 0, 0]}}], "time": )" +
                             std::string(time) + R"(, "solver": {"tolerance": )" + tolerance + "}}",
                         "hanging.json");
-    cloth.push_back(load_cloth(scene, scene.cloth.front(), read_text_file));
+    cloth.push_back(load_cloth(scene, 0, read_text_file));
     scene.cloth.front().pattern = "sheet.json";
     outfit = outfit_of_shapes(cloth);
     Settling settling;

@@ -343,9 +343,9 @@ TEST(Settings, TheDefaultsOfTheLibraryAreThoseOfAScene) {
 }
 
 TEST(Settings, ThePlaceOfTheOutputIsKept) {
-  const Scene scene = parse_scene("{\"cloth\": [{\"grid\": {}}],\n \"output\": {\"dir\": \"../x\"}}", "s.json");
-  EXPECT_EQ(scene.output_dir_pointer, "/output/dir");
-  EXPECT_EQ(scene.output_dir_where.rfind("s.json:2:", 0), 0U) << scene.output_dir_where;
+  const SceneFile read = read_scene("{\"cloth\": [{\"grid\": {}}],\n \"output\": {\"dir\": \"../x\"}}", "s.json");
+  EXPECT_STREQ(read.places.complete(InputError("output.dir", "", "a", "b").of("/output/dir")).what(),
+               "s.json:2:20: /output/dir: expected a, got b");
 }
 
 }  // namespace
