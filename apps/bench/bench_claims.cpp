@@ -37,7 +37,7 @@ Drape drape_to(BenchRuns& runs, int particles, std::string_view what) {
 }
 
 void reach(Drape& drape, int frames) {
-  if (!drape.advance(frames)) throw Error(ExitCode::simulation_failed, "bench paper: the drape failed");
+  if (!drape.advance(frames)) throw Error(ErrorKind::simulation_failed, "bench paper: the drape failed");
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ BenchResult run_bench(BenchRuns& runs) {
   if (kind == "paper") return bench_paper(runs);
   if (kind == "stiffness") return bench_stiffness(runs);
   if (kind == "torture") return bench_torture(runs);
-  throw Error(ExitCode::internal, "bench: " + kind);
+  throw Error(ErrorKind::internal, "bench: " + kind);
 }
 
 }  // namespace

@@ -156,7 +156,7 @@ double time_iteration(const SheetSystem& sheet, Preconditioner kind) {
   const Stopwatch watch;
   const PcgReport report = pcg.solve(sheet.system(), sheet.b(), sheet.reference(), options, dv);
   const double seconds = watch.seconds();
-  if (report.iterations != iterations) throw Error(ExitCode::internal, "bench limits: " + report.explain());
+  if (report.iterations != iterations) throw Error(ErrorKind::internal, "bench limits: " + report.explain());
   return seconds / iterations;
 }
 
@@ -256,8 +256,7 @@ BenchTable measure_limits(BenchRuns& runs) {
     Scene scene = embedded_scene("fig1-drape");
     SceneCloth& cloth = scene.cloth.front();
     cloth.grid->edge_m = edge_for(*cloth.grid, size);
-    Hash unused;
-    measure(load_cloth(scene, cloth, read_text_file, unused), runs, table.rows);
+    measure(load_cloth(scene, 0, read_text_file), runs, table.rows);
   }
   return table;
 }

@@ -132,7 +132,7 @@ void measure_contact(Stopwatches& time, Drape& drape) {
   time.add("continuous collision, vertex and face", "query", triangles, [&] {
     for (std::size_t k = 0; k < x.size(); ++k) sum += vertex_face_impact(x[k], u[k], ccd_separation_m);
   });
-  if (sum < 0) throw Error(ExitCode::internal, "an impact before the step");
+  if (sum < 0) throw Error(ErrorKind::internal, "an impact before the step");
 }
 
 }  // namespace
@@ -144,7 +144,7 @@ BenchResult bench_micro(BenchRuns& runs) {
   grid.edge_m = edge_for(grid, runs.line().sizes.front());
   runs.say("state", 0);
   Drape drape(scene);
-  if (!drape.advance(state_frame)) throw Error(ExitCode::simulation_failed, "bench micro: the drape failed");
+  if (!drape.advance(state_frame)) throw Error(ErrorKind::simulation_failed, "bench micro: the drape failed");
   StepSystem system(drape, h_s);
   result.facts.add("particles", "particles", static_cast<long>(system.model().particle_count()));
   result.facts.add("constrained", "constrained particles", static_cast<long>(system.constrained()));

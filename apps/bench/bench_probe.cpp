@@ -19,14 +19,13 @@ ClothModel of_fabric(const ClothModel& model, const Fabric& fabric) {
 }  // namespace
 
 Drape::Drape(const Scene& scene) : scene_(scene) {
-  Hash unused;
   std::vector<LoadedCloth> shapes;
   double edge_m = 0;
-  for (const SceneCloth& cloth : scene_.cloth) {
-    shapes.push_back(load_cloth(scene_, cloth, read_text_file, unused));
+  for (std::size_t k = 0; k < scene_.cloth.size(); ++k) {
+    shapes.push_back(load_cloth(scene_, k, read_text_file));
     edge_m = std::max(edge_m, shapes.back().edge_m);
   }
-  JoinedColliders joined = load_colliders(scene_.body, scene_.solids, unused).joined;
+  JoinedColliders joined = load_colliders(scene_.body, scene_.solids).joined;
   if (!joined.surface.positions.empty())
     body_.emplace(std::move(joined.surface.positions), std::move(joined.surface.triangles),
                   std::move(joined.vertex_collider));

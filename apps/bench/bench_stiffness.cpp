@@ -133,7 +133,7 @@ BenchResult bench_stiffness(BenchRuns& runs) {
   result.tables.back().rows = iterations_along_the_drape(scene, frames);
   Drape drape(scene);
   if (!drape.advance(std::min(frames, state_frame)))
-    throw Error(ExitCode::simulation_failed, "bench stiffness: the base drape failed before its state was reached");
+    throw Error(ErrorKind::simulation_failed, "bench stiffness: the base drape failed before its state was reached");
   const StepSystem base_system(drape, state_h_s);
 
   for (const Multiple& by : multiples) {

@@ -46,7 +46,7 @@ std::vector<std::string> torture_scenes(const std::vector<std::string>& wanted) 
   }
   for (const std::string& one : wanted)
     if (std::find(numbers.begin(), numbers.end(), one) == numbers.end())
-      throw Error(ExitCode::usage, "bench torture: --scenes: expected of " + known + ", got " + printable(one));
+      throw Error(ErrorKind::usage, "bench torture: --scenes: expected of " + known + ", got " + printable(one));
   return names;
 }
 

@@ -19,7 +19,7 @@ SceneCollider body_option(const CommandLine& line) {
     if (line.body != "mannequin") mannequin.who = mannequin_kind(line.body);
     body.shape = mannequin;
     if (!line.measurements.empty())
-      throw Error(ExitCode::usage, "--measurements: expected a body from a file, got " + line.body);
+      throw Error(ErrorKind::usage, "--measurements: expected a body from a file, got " + line.body);
     return body;
   }
   SceneMesh mesh;

@@ -4,7 +4,6 @@
 #include "budget_text.hpp"
 #include "check_pattern.hpp"
 #include "commands.hpp"
-#include "core/hash.hpp"
 #include "io/file.hpp"
 #include "io/json.hpp"
 #include "io/json_text.hpp"
@@ -54,7 +53,7 @@ std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json)
   CollisionBody body;
   const std::string no_body = complaint([&] { body = read_body(path, text, unit); });
   const std::vector<std::string>& notes = no_body.empty() ? body.notes : mesh.notes;
-  if (!no_cloth.empty() && !no_body.empty()) throw Error(ExitCode::bad_input, open.empty() ? no_body : no_cloth);
+  if (!no_cloth.empty() && !no_body.empty()) throw Error(ErrorKind::bad_input, open.empty() ? no_body : no_cloth);
   Vec3 low = mesh.positions.front(), high = low;
   for (const Vec3& p : mesh.positions) {
     low = low.cwiseMin(p);
@@ -98,19 +97,17 @@ std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json)
   return said;
 }
 
-std::string check_scene(const std::string& path, const std::string& text, const BudgetLimits& limits, JsonText& json) {
-  const Scene scene = parse_scene(text, path);
+std::string check_scene(const Scene& scene, const BudgetLimits& limits, JsonText& json) {
   output_folder({}, scene);
   const std::string budget = "  " + describe_budget(scene, limits, json);
-  Hash hash;
   Index vertices = 0, triangles = 0;
   std::vector<LoadedCloth> cloth;
-  for (const SceneCloth& one : scene.cloth) {
-    cloth.push_back(load_cloth(scene, one, read_text_file, hash));
+  for (std::size_t k = 0; k < scene.cloth.size(); ++k) {
+    cloth.push_back(load_cloth(scene, k, read_text_file));
     vertices += cloth.back().garment.mesh.particle_count;
     triangles += cloth.back().garment.mesh.triangle_count();
   }
-  const LoadedColliders colliders = load_colliders(scene.body, scene.solids, hash);
+  const LoadedColliders colliders = load_colliders(scene.body, scene.solids);
   const JoinedColliders& body = colliders.joined;
   if (!scene.start.empty()) start_from(scene.start, cloth, body.surface.positions);
   json.member("kind", "scene");
@@ -142,14 +139,15 @@ Checked check_file(const CommandLine& line, const std::string& path, JsonText& j
   if (is_pattern) return check_pattern(line, path, text, json);
   if (root.is_object() && root.find("cloth") == nullptr)
     root.fail("\"cloth\" (a scene) or \"pattern\" (a pattern)", "neither of them");
-  return {check_scene(path, text, line.limits, json)};
+  const SceneFile scene = read_scene(text, path);
+  return scene.places.complete_errors_of([&]() -> Checked { return {check_scene(scene.scene, line.limits, json)}; });
 }
 
 }  // namespace
 
 ExitCode check_command(const CommandLine& line) {
   if (line.inputs.size() > 1 && !(line.svg.empty() && line.repair.empty()))
-    throw Error(ExitCode::usage, "--svg and --repair take one pattern at a time");
+    throw Error(ErrorKind::usage, "--svg and --repair take one pattern at a time");
   ExitCode code = ExitCode::ok;
   JsonText json;
   json.begin_object();
@@ -165,9 +163,9 @@ ExitCode check_command(const CommandLine& line) {
       json.member("ok", true);
       checked = check_file(line, path, json);
     } catch (const Error& error) {
-      if (error.code() == ExitCode::usage) throw;
+      if (error.kind() == ErrorKind::usage) throw;
       checked.error = error.what();
-      checked.code = error.code();
+      checked.code = exit_code(error.kind());
     }
     if (!checked.error.empty()) {
       if (code == ExitCode::ok) code = checked.code;

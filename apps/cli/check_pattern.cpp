@@ -71,9 +71,7 @@ std::string load_as_dress_does(const CommandLine& line, const std::string& path,
   dressed.cloth.front().set_edge_m(resolution_m);
   const std::string budget =
       fmt::sprintf("  as dressed for %g s: ", dressed.seconds) + describe_budget(dressed, line.limits, json);
-  Hash hash;
-  const LoadedCloth loaded = load_cloth(
-      dressed, dressed.cloth.front(), [&](const std::string&) { return text; }, hash);
+  const LoadedCloth loaded = load_cloth(dressed, 0, [&](const std::string&) { return text; });
   return describe(pattern, loaded.garment, resolution_m, json) + budget;
 }
 
@@ -97,7 +95,7 @@ void refuse_inputs(const CommandLine& line) {
   }
   if (!line.svg.empty() &&
       std::filesystem::path(line.svg).lexically_normal() == std::filesystem::path(line.repair).lexically_normal())
-    throw Error(ExitCode::usage, "--svg and --repair name one file");
+    throw Error(ErrorKind::usage, "--svg and --repair name one file");
 }
 
 std::string describe_findings(const std::vector<LintFinding>& findings) {
@@ -115,10 +113,9 @@ std::string describe_findings(const std::vector<LintFinding>& findings) {
 // `notes`: what is odd about the body.
 std::optional<BodyFigures> figures_of(const CommandLine& line, std::string& notes) {
   if (line.body.empty() && !line.measurements.empty())
-    throw Error(ExitCode::usage, "--measurements: expected --body beside it");
+    throw Error(ErrorKind::usage, "--measurements: expected --body beside it");
   if (line.body.empty()) return std::nullopt;
-  Hash hash;
-  const Collider body = load_collider(body_option(line), hash);
+  const Collider body = load_collider(body_option(line));
   BodyFigures figures = body_figures(body.surface.positions, body.surface.triangles, body.measurements);
   add_arms(figures, find_arms(body.surface.positions, body.surface.triangles));
   for (const std::string& note : body.warnings) notes += "  note: " + note + '\n';
@@ -144,7 +141,7 @@ std::string write_mended(const CommandLine& line, const std::string& text, const
       load_as_dress_does(line, line.repair, copy, ignored);
     } catch (const Error& error) {
       checked.error = error.what();
-      checked.code = error.code();
+      checked.code = exit_code(error.kind());
     }
   }
   if (mended == 0) return "  nothing is to be mended: " + printable(line.repair) + " is a copy\n";
@@ -166,10 +163,10 @@ Checked check_pattern(const CommandLine& line, const std::string& path, const st
   } catch (const Error& error) {
     json = before;
     checked.error = error.what();
-    checked.code = error.code();
+    checked.code = exit_code(error.kind());
     if (!report.has_errors()) {
       LintFinding finding;
-      finding.code = error.code() == ExitCode::resource_limit ? reason::beyond_limits : reason::cannot_mesh;
+      finding.code = error.kind() == ErrorKind::resource_limit ? reason::beyond_limits : reason::cannot_mesh;
       finding.where = printable(path);
       finding.place = "the garment";
       finding.expected = "what `dress` takes";
@@ -237,7 +234,7 @@ void refuse_other_files(const CommandLine& line, bool is_pattern, const std::str
       {line.svg, "--svg"}, {line.repair, "--repair"}, {line.body, "--body"}, {line.measurements, "--measurements"}};
   for (const auto& [value, option] : options)
     if (!value.empty() && !is_pattern)
-      throw Error(ExitCode::usage, std::string(option) + ": " + printable(path) + " is no pattern");
+      throw Error(ErrorKind::usage, std::string(option) + ": " + printable(path) + " is no pattern");
 }
 
 }  // namespace toile::internal

@@ -1,7 +1,7 @@
 // apps/cli/check_pattern.hpp: `toile check` of a sewing pattern: figures, findings, a drawing, a mended copy.
 #pragma once
 #include "command_line.hpp"
-#include "core/error.hpp"
+#include "exit_code.hpp"
 #include "garment/lint.hpp"
 #include "io/json_text.hpp"
 

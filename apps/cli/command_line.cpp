@@ -214,12 +214,12 @@ void require_finite(const CommandLine& line) {
                                       {"--max-frames", line.limits.frames},
                                       {"--max-hours", line.limits.hours}})
     if (value && !std::isfinite(*value))
-      throw Error(ExitCode::usage, std::string(option) + ": expected a finite number");
+      throw Error(ErrorKind::usage, std::string(option) + ": expected a finite number");
 }
 
 void settle_bench(const CLI::App& bench, CommandLine& line) {
   if (bench.get_subcommands().empty())
-    throw Error(ExitCode::usage, "bench: expected paper, scaling, stiffness, micro or torture");
+    throw Error(ErrorKind::usage, "bench: expected paper, scaling, stiffness, micro or torture");
   line.inputs = {bench.get_subcommands().front()->get_name()};
   if (line.sizes.empty() && line.inputs.front() == "scaling") line.sizes = {500, 899, 2602, 7359};
   if (line.repeats == 0) line.repeats = line.inputs.front() == "micro" ? 9 : 1;
@@ -253,10 +253,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     line.help = std::string(toile_version()) + "\n";
     return line;
   } catch (const CLI::ParseError& error) {
-    throw Error(ExitCode::usage, one_line(error.what()) + " (toile --help lists what there is)");
+    throw Error(ErrorKind::usage, one_line(error.what()) + " (toile --help lists what there is)");
   }
   if (app.get_subcommands().empty())
-    throw Error(ExitCode::usage,
+    throw Error(ErrorKind::usage,
                 "a command is missing: demo, dress, run, check, verify, preview, resume, untangle, export or bench "
                 "(toile --help)");
 

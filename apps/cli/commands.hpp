@@ -1,7 +1,7 @@
 // apps/cli/commands.hpp: one function per command.  Each prints its result and returns the exit code, or throws.
 #pragma once
 #include "command_line.hpp"
-#include "core/error.hpp"
+#include "exit_code.hpp"
 
 namespace toile::internal {
 

@@ -1,4 +1,4 @@
-// apps/cli/main.cpp: the program `toile`.  Whatever happens, it ends with one of the exit codes of core/error.hpp and, if
+// apps/cli/main.cpp: the program `toile`.  Whatever happens, it ends with one of the codes of exit_code.hpp and, if
 // that is not 0 or the verdict of a run, with one line on stderr.
 #include "commands.hpp"
 #include "core/parallel.hpp"
@@ -79,7 +79,7 @@ ExitCode guarded_main(int argc, char** argv) noexcept {
     with_threads(threads_for(line), [&] { code = run_command(line); });
     return code;
   } catch (const Error& error) {
-    return fail(error.code(), error.what(), json);
+    return fail(exit_code(error.kind()), error.what(), json);
   } catch (const std::bad_alloc&) {
     return fail(ExitCode::resource_limit, "out of memory", json);
   } catch (const std::exception& error) {

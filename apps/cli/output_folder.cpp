@@ -24,9 +24,9 @@ std::string output_folder(const CommandLine& line, const Scene& scene) {
   if (!line.out.empty()) return line.out;
   if (!scene.output_dir.empty()) {
     if (!is_within_working_directory(scene.output_dir))
-      throw InputError(scene.output_dir_where, scene.output_dir_pointer,
-                       "a folder within the one where the program runs (--out may name any)",
-                       '"' + printable(scene.output_dir) + '"');
+      throw InputError("output.dir", "", "a folder within the one where the program runs (--out may name any)",
+                       '"' + printable(scene.output_dir) + '"')
+          .of("/output/dir");
     return scene.output_dir;
   }
   std::string name = scene.name;

@@ -1,5 +1,8 @@
 #include "process_end.hpp"
 
+#include "core/error.hpp"
+#include "exit_code.hpp"
+
 #include <sys/mman.h>
 #include <sys/time.h>
 #include <unistd.h>

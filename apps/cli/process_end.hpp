@@ -9,8 +9,6 @@
 // Always by an exit code (8, 7), never by a signal.  Leaving loses nothing: files get their names when they are complete, and frames are on
 // the disk as they come.
 #pragma once
-#include "core/error.hpp"
-
 namespace toile::internal {
 
 // Once, at the start of main.  `json`: whoever is left without another word gets an object on stdout, too.

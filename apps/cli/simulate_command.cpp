@@ -66,20 +66,20 @@ ExitCode list_demos(const CommandLine& line) {
   return ExitCode::ok;
 }
 
-Scene demo_scene(const CommandLine& line) {
+SceneFile demo_scene(const CommandLine& line) {
   const std::string name = line.inputs.empty() ? "tshirt" : line.inputs.front();
   std::vector<std::string_view> names;
   for (const Demo& demo : demos) {
     if (!is_demo(demo)) continue;
     if (demo.name == name) {
       const std::string path = "scenes/" + name + ".json";
-      return parse_scene(embedded_text(path), path);
+      return read_scene(embedded_text(path), path);
     }
     names.push_back(demo.name);
   }
-  throw Error(ExitCode::usage, "demo: expected one of toile demo --list; nearest is \"" +
-                                   std::string(nearest_name(name, names.data(), names.size())) + "\", got \"" +
-                                   printable(name) + '"');
+  throw Error(ErrorKind::usage, "demo: expected one of toile demo --list; nearest is \"" +
+                                    std::string(nearest_name(name, names.data(), names.size())) + "\", got \"" +
+                                    printable(name) + '"');
 }
 
 std::string name_of_pattern(const std::string& path) {
@@ -97,21 +97,20 @@ bool looks_like_a_file(const std::string& text) {
 SceneCollider dress_body(const CommandLine& line) {
   SceneCollider body = body_option(line);
   const bool mannequin = body.as<SceneMannequin>() != nullptr;
-  if (mannequin && !line.body_unit.empty()) throw Error(ExitCode::usage, "--body-unit: mannequins are in metres");
+  if (mannequin && !line.body_unit.empty()) throw Error(ErrorKind::usage, "--body-unit: mannequins are in metres");
   if (line.motion.empty()) return body;
   SceneMotion motion;
-  motion.where = "--motion";
   const auto names = motion_names(), of_a_mesh = motion_names_without_skeleton();
   const auto among = [&](std::span<const std::string_view> some) {
     return std::find(some.begin(), some.end(), line.motion) != some.end();
   };
   if (!mannequin && !among(of_a_mesh) && (among(names) || !looks_like_a_file(line.motion)))
-    throw Error(ExitCode::usage,
+    throw Error(ErrorKind::usage,
                 "--motion: expected " + std::string(what_moves_a_mesh) + "; got \"" + printable(line.motion) + '"');
   if (mannequin && !among(names) && !std::filesystem::exists(line.motion))
-    throw Error(ExitCode::usage, "--motion: expected a motion or a file; nearest is \"" +
-                                     std::string(nearest_name(line.motion, names.data(), names.size())) + "\", got \"" +
-                                     printable(line.motion) + '"');
+    throw Error(ErrorKind::usage, "--motion: expected a motion or a file; nearest is \"" +
+                                      std::string(nearest_name(line.motion, names.data(), names.size())) +
+                                      "\", got \"" + printable(line.motion) + '"');
   if (among(names)) motion.name = line.motion;
   if (motion.name.empty()) {
     motion.path = line.motion;
@@ -162,19 +161,20 @@ void set_quality(const std::string& quality, Scene& scene) {
   }
 }
 
-Scene scene_of(const CommandLine& line) {
-  Scene scene;
+SceneFile scene_of(const CommandLine& line) {
+  SceneFile file;
   switch (line.command) {
     case CommandLine::Command::demo:
-      scene = demo_scene(line);
+      file = demo_scene(line);
       break;
     case CommandLine::Command::dress:
-      scene = dress_scene(line);
+      file.scene = dress_scene(line);
       break;
     default:
-      scene = parse_scene(read_text_file(line.inputs.front()), line.inputs.front());
+      file = read_scene(read_text_file(line.inputs.front()), line.inputs.front());
       break;
   }
+  Scene& scene = file.scene;
   set_quality(line.quality, scene);
   for (SceneCloth& cloth : scene.cloth) {
     if (line.fabric) cloth.fabric = fabric_preset(*line.fabric, "", "--fabric");
@@ -186,7 +186,7 @@ Scene scene_of(const CommandLine& line) {
     scene.seconds = *line.seconds;
     scene.seconds_given = true;
   }
-  return scene;
+  return file;
 }
 
 // A scene file of the user's own that asks for pictures is refused by a build that makes none, before hours are spent on it; `demo` and `dress`
@@ -196,7 +196,7 @@ bool wants_pictures(const CommandLine& line, const Scene& scene) {
   const bool wanted = scene.preview.value_or(!asked) && !line.no_preview;
   if (!wanted || can_draw()) return wanted;
   if (asked)
-    throw Error(ExitCode::usage,
+    throw Error(ErrorKind::usage,
                 "/output/preview of the scene asks for pictures, and this Toile is built without "
                 "pictures (--no-preview runs the scene without)");
   if (!line.quiet)
@@ -229,12 +229,7 @@ std::string summary(const Report& report, const std::string& directory) {
                    report.audit.still_mm_per_s_p99, report.state_hash.c_str());
 }
 
-}  // namespace
-
-ExitCode simulate_command(const CommandLine& line) {
-  const Stopwatch since_start;
-  if (line.list) return list_demos(line);
-  const Scene scene = scene_of(line);
+ExitCode run_scene(const CommandLine& line, const Scene& scene, const Stopwatch& since_start) {
   const bool pictures_wanted = wants_pictures(line, scene);
   ProgressBar bar(line);
   RunOptions options;
@@ -255,7 +250,7 @@ ExitCode simulate_command(const CommandLine& line) {
   const bool dresses = line.command == CommandLine::Command::dress;
   options.time_limit_s = line.time_limit_s.value_or(dresses ? default_time_limit_s : 0);
   const Report report = simulate(scene, options);
-  ExitCode code = exit_code(report);
+  ExitCode code = exit_code(outcome(report));
 
   std::string picture_error;
   if (pictures_wanted && code != ExitCode::interrupted) {
@@ -272,7 +267,7 @@ ExitCode simulate_command(const CommandLine& line) {
           interrupted);
     } catch (const Error& error) {
       picture_error = error.what();
-      if (code == ExitCode::ok) code = error.code();
+      if (code == ExitCode::ok) code = exit_code(error.kind());
     }
   }
   bar.clear();
@@ -284,6 +279,15 @@ ExitCode simulate_command(const CommandLine& line) {
   }
   tell_failure(options.directory, report.verdict);
   return code;
+}
+
+}  // namespace
+
+ExitCode simulate_command(const CommandLine& line) {
+  const Stopwatch since_start;
+  if (line.list) return list_demos(line);
+  const SceneFile file = scene_of(line);
+  return file.places.complete_errors_of([&] { return run_scene(line, file.scene, since_start); });
 }
 
 }  // namespace toile::internal

@@ -70,8 +70,7 @@ SolidMesh load_solid(const CommandLine& line) {
   double units_per_m = 1;
   if (line.body_unit == "dm") units_per_m = 10;
   if (line.body_unit == "cm") units_per_m = 100;
-  Hash hash;
-  SolidMesh solid = load_collider(body_option(line), hash).surface;
+  SolidMesh solid = load_collider(body_option(line)).surface;
   for (Vec3& p : solid.positions) p *= units_per_m;
   return solid;
 }
@@ -202,7 +201,7 @@ ExitCode untangle_command(const CommandLine& line) {
   refuse_inputs(line);
   ClothFile cloth = load_cloth_file(line.inputs.front());
   if (!cloth.is_obj && mesh_writer_for(out_path(line, true)) == nullptr)
-    throw Error(ExitCode::usage,
+    throw Error(ErrorKind::usage,
                 "--out: expected a name that ends as " + mesh_writers_in_words() + ", got " + printable(line.out));
   const SolidMesh solid = load_solid(line);
 

@@ -23,10 +23,9 @@ constexpr const char* scene_text = R"({"cloth": [{"grid": {"width_m": 1, "height
 int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 10;
   const toile::internal::Scene scene = toile::internal::parse_scene(scene_text, "bench");
-  toile::internal::Hash hash;
   toile::internal::SimulationObserver nobody;
-  toile::internal::Simulation engine(scene, toile::internal::load_scene(scene, toile::internal::read_text_file, hash),
-                                     {}, nobody);
+  toile::internal::Simulation engine(scene, toile::internal::load_scene(scene, toile::internal::read_text_file), {},
+                                     nobody);
   engine.put_on();
   engine.begin();
 

@@ -16,7 +16,6 @@ bool is_motion(const std::string& name) {
 
 internal::SceneMotion motion_of(const std::string& given, double fps) {
   internal::SceneMotion motion;
-  motion.where = "motion";
   if (is_motion(given)) {
     motion.name = given;
   } else {

@@ -17,8 +17,6 @@ internal::ScenePanel& panel_of(internal::SceneCloth& cloth, std::string_view nam
   if (known != cloth.panels.end()) return *known;
   internal::ScenePanel& panel = cloth.panels.emplace_back();
   panel.name = name;
-  panel.where = "cloth";
-  panel.pointer = "panels";
   return panel;
 }
 
@@ -40,7 +38,6 @@ Cloth Cloth::from_pattern(const std::string& path, const PatternOptions& options
     auto parts = std::make_unique<Parts>();
     parts->cloth.pattern = path;
     parts->cloth.resolution_m = options.edge_m;
-    parts->cloth.shape_where = path;
     parts->cloth.name = std::filesystem::path(path).stem().string();
     return Cloth(std::move(parts));
   });

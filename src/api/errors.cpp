@@ -4,6 +4,30 @@
 #include <string>
 
 namespace toile {
+namespace {
+
+// Of what is no InputError and no IoError.
+ErrorCode code_of(internal::ErrorKind kind) {
+  switch (kind) {
+    case internal::ErrorKind::usage:
+      return ErrorCode::usage;
+    case internal::ErrorKind::bad_input:
+      return ErrorCode::bad_input;
+    case internal::ErrorKind::bad_start:
+      return ErrorCode::bad_start;
+    case internal::ErrorKind::io:
+      return ErrorCode::input_output;
+    case internal::ErrorKind::resource_limit:
+      return ErrorCode::resource_limit;
+    case internal::ErrorKind::simulation_failed:  // in the library both come back in a report
+    case internal::ErrorKind::interrupted:
+    case internal::ErrorKind::internal:
+      return ErrorCode::internal;
+  }
+  return ErrorCode::internal;
+}
+
+}  // namespace
 
 void require_finite(const char* what, const Point& p) {
   for (const double x : p)
@@ -31,8 +55,8 @@ void throw_translated() {
     throw IoError(error.what());
   } catch (const internal::Error& error) {
     // Also what was given the name of its file on the way, and so another type.
-    if (error.code() == internal::ExitCode::bad_input) throw InputError(error.what());
-    throw Error(static_cast<ErrorCode>(error.code()), error.what());
+    if (error.kind() == internal::ErrorKind::bad_input) throw InputError(error.what());
+    throw Error(code_of(error.kind()), error.what());
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::resource_limit, "there is not enough memory");
   }

@@ -33,7 +33,7 @@ internal::Vec3 Simulation::Implementation::along(const Way& way, double t_s) con
 
 const internal::JoinedColliders::Part& Simulation::Implementation::collider(int number) const {
   const auto all = engine->colliders();
-  if (all.empty()) throw internal::Error(internal::ExitCode::usage, "there is no body");
+  if (all.empty()) throw internal::Error(internal::ErrorKind::usage, "there is no body");
   if (number < 0 || static_cast<std::size_t>(number) >= all.size())
     throw internal::InputError("", "collider", "a number from 0 to " + std::to_string(all.size() - 1),
                                std::to_string(number));
@@ -244,7 +244,7 @@ void Simulation::set_collider(int collider, std::span<const Point> vertices_m) {
     Implementation& own = *implementation_;
     own.live("set_body");
     const internal::JoinedColliders::Part& part = own.collider(collider);
-    if (part.moves) throw internal::Error(internal::ExitCode::usage, "set_body: this body has a motion of its own");
+    if (part.moves) throw internal::Error(internal::ErrorKind::usage, "set_body: this body has a motion of its own");
     if (vertices_m.size() != part.vertices)
       throw internal::InputError("", "vertices_m", std::to_string(part.vertices) + " vertices",
                                  std::to_string(vertices_m.size()));

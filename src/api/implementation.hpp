@@ -15,18 +15,22 @@ namespace toile {
 struct Simulation::Implementation : internal::SimulationObserver {
   // All that a simulation is made of, and may be made of again.
   struct Recipe {
-    Recipe(internal::Scene made_scene, SimulationOptions made_options);
+    Recipe(internal::SceneFile made_of, SimulationOptions made_options);
     SimulationOptions options;
     internal::Scene scene;
+    internal::JsonPlaces places;
     internal::LoadedScene loaded;
     std::uint64_t input_hash = 0;
 
+    // Errors name their place in the scene's file, if there is one.
     template <class Work>
     void in_threads(const Work& work) const {
-      if (options.threads > 0)
-        internal::with_threads(options.threads, work);
-      else
-        work();
+      places.complete_errors_of([&] {
+        if (options.threads > 0)
+          internal::with_threads(options.threads, work);
+        else
+          work();
+      });
     }
   };
   explicit Implementation(std::shared_ptr<const Recipe> made_of) : recipe(std::move(made_of)) {}

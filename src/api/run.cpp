@@ -29,7 +29,7 @@ struct RunWriter::Parts {
 RunWriter::Parts::Parts(const std::string& directory, const Simulation& simulation, double fps) {
   const Simulation::Implementation& made = simulation.implementation();
   if (!made.begun)
-    throw internal::Error(internal::ExitCode::usage,
+    throw internal::Error(internal::ErrorKind::usage,
                           "RunWriter: nothing is on yet, and what is to be sewn is by dress()");
   report = made.engine->report();
   report.command = "toile::RunWriter";
@@ -65,7 +65,7 @@ void RunWriter::add(const Simulation& simulation) {
   translated([&] {
     Parts& own = *parts_;
     const Simulation::Implementation& made = simulation.implementation();
-    if (!own.writer) throw internal::Error(internal::ExitCode::usage, "RunWriter::add: the run is finished");
+    if (!own.writer) throw internal::Error(internal::ErrorKind::usage, "RunWriter::add: the run is finished");
     if (made.state().x.size() != own.vertices || made.body_x.size() != own.body_vertices)
       throw internal::InputError(
           "", "simulation",
@@ -84,7 +84,7 @@ int RunWriter::frames() const { return parts_->report.frames; }
 Verdict RunWriter::finish() {
   return translated([&] {
     Parts& own = *parts_;
-    if (!own.writer) throw internal::Error(internal::ExitCode::usage, "RunWriter::finish: the run is finished");
+    if (!own.writer) throw internal::Error(internal::ErrorKind::usage, "RunWriter::finish: the run is finished");
     own.report.state_hash = own.state_hash;
     own.report.ended = "time";
     own.report.audit = own.recorder->report();
@@ -105,7 +105,7 @@ Verdict RunWriter::finish() {
 
 Verdict run_scene(const std::string& path, const std::string& folder, const RunOptions& options) {
   return translated([&] {
-    const internal::Scene scene = internal::parse_scene(internal::read_text_file(path), path);
+    const internal::SceneFile file = internal::read_scene(internal::read_text_file(path), path);
     internal::RunOptions run;
     run.directory = folder;
     run.command = "toile run " + path;
@@ -116,7 +116,7 @@ Verdict run_scene(const std::string& path, const std::string& folder, const RunO
     run.stop = options.cancelled;
     run.time_limit_s = options.time_limit_s;
     internal::Report report;
-    const auto work = [&] { report = internal::simulate(scene, run); };
+    const auto work = [&] { file.places.complete_errors_of([&] { report = internal::simulate(file.scene, run); }); };
     if (options.threads > 0)
       internal::with_threads(options.threads, work);
     else

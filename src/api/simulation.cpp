@@ -1,6 +1,7 @@
 #include "toile/simulation.hpp"
 
 #include "api/implementation.hpp"
+#include "core/hash.hpp"
 #include "io/file.hpp"
 #include "sim/budget.hpp"
 #include "sim/recorder.hpp"
@@ -14,7 +15,7 @@
 namespace toile {
 namespace {
 
-[[noreturn]] void misuse(const std::string& message) { throw internal::Error(internal::ExitCode::usage, message); }
+[[noreturn]] void misuse(const std::string& message) { throw internal::Error(internal::ErrorKind::usage, message); }
 
 internal::Scene scene_of(std::span<const Cloth> cloths, const Body& body, std::span<const Body> solids,
                          const SimulationOptions& options) {
@@ -51,13 +52,11 @@ internal::Scene scene_of(std::span<const Cloth> cloths, const Body& body, std::s
 
 }  // namespace
 
-Simulation::Implementation::Recipe::Recipe(internal::Scene made_scene, SimulationOptions made_options)
-    : options(std::move(made_options)), scene(std::move(made_scene)) {
-  internal::require_budget(scene, internal::read_text_file, {});
-  internal::Hash hash;
-  internal::add_to_hash(scene, hash);
-  in_threads([&] { loaded = internal::load_scene(scene, internal::read_text_file, hash); });
-  input_hash = hash.value();
+Simulation::Implementation::Recipe::Recipe(internal::SceneFile made_of, SimulationOptions made_options)
+    : options(std::move(made_options)), scene(std::move(made_of.scene)), places(std::move(made_of.places)) {
+  places.complete_errors_of([&] { internal::require_budget(scene, internal::read_text_file, {}); });
+  in_threads([&] { loaded = internal::load_scene(scene, internal::read_text_file); });
+  input_hash = internal::input_hash(scene, loaded);
 }
 
 void Simulation::Implementation::make_engine() {
@@ -144,10 +143,9 @@ void Simulation::Implementation::judge(DressReport& to) {
 
 namespace {
 
-std::unique_ptr<Simulation::Implementation> make_simulation(internal::Scene scene, const SimulationOptions& options) {
+std::unique_ptr<Simulation::Implementation> make_simulation(internal::SceneFile of, const SimulationOptions& options) {
   using Implementation = Simulation::Implementation;
-  auto made =
-      std::make_unique<Implementation>(std::make_shared<const Implementation::Recipe>(std::move(scene), options));
+  auto made = std::make_unique<Implementation>(std::make_shared<const Implementation::Recipe>(std::move(of), options));
   made->make();
   return made;
 }
@@ -167,12 +165,13 @@ Simulation::Simulation(std::span<const Cloth> cloths, const Body& body, const Si
 
 Simulation::Simulation(std::span<const Cloth> cloths, const Body& body, std::span<const Body> solids,
                        const SimulationOptions& options)
-    : implementation_(translated([&] { return make_simulation(scene_of(cloths, body, solids, options), options); })) {}
+    : implementation_(translated([&] {
+        return make_simulation({scene_of(cloths, body, solids, options), {}}, options);
+      })) {}
 
 Simulation Simulation::from_scene(const std::string& path, const SimulationOptions& options) {
-  return translated([&] {
-    return Simulation(make_simulation(internal::parse_scene(internal::read_text_file(path), path), options));
-  });
+  return translated(
+      [&] { return Simulation(make_simulation(internal::read_scene(internal::read_text_file(path), path), options)); });
 }
 
 DressReport Simulation::dress(double longest_s, double time_limit_s) {

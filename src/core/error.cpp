@@ -20,10 +20,32 @@ std::string input_message(std::string_view where, std::string_view place, std::s
 }  // namespace
 
 InputError::InputError(std::string_view where, std::string_view place, std::string_view expected, std::string_view got)
-    : Error(ExitCode::bad_input, input_message(where, place, expected, got)) {}
+    : Error(ErrorKind::bad_input, input_message(where, place, expected, got)),
+      place_(place),
+      expected_(expected),
+      got_(got) {}
+
+InputError::InputError(const std::string& message, const InputError& like)
+    : Error(ErrorKind::bad_input, message),
+      path_(like.path_),
+      place_(like.place_),
+      expected_(like.expected_),
+      got_(like.got_) {}
+
+InputError InputError::of(std::string_view path) const {
+  InputError error = *this;
+  error.path_ = path;
+  return error;
+}
+
+InputError InputError::within(std::string_view where) const {
+  const std::string_view message = what();
+  if (message.starts_with(where)) return *this;
+  return InputError(std::string(where).append(": ").append(message), *this);
+}
 
 IoError::IoError(std::string_view path, std::string_view what)
-    : Error(ExitCode::io, printable(path) + ": " + std::string(what)) {}
+    : Error(ErrorKind::io, printable(path) + ": " + std::string(what)) {}
 
 std::string printable(std::string_view name) {
   constexpr std::size_t limit = 200;

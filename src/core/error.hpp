@@ -1,7 +1,7 @@
 // core/error.hpp: what is thrown when the caller asked for something that cannot be meant.
 //
 // Three kinds of trouble and no fourth:
-//   1. bad input, output or usage        an exception from this file; its code is the program's exit code
+//   1. bad input, output or usage        an exception from this file
 //   2. physics that goes badly           a status in a report, never an exception
 //   3. a bug of ours                     TOILE_ASSERT, on unless NDEBUG
 #pragma once
@@ -13,26 +13,24 @@
 
 namespace toile::internal {
 
-// The process exit codes of the command line; a contract with scripts.
-enum class ExitCode {
-  ok = 0,
-  usage = 2,
-  bad_input = 3,
-  bad_start = 4,
-  simulation_failed = 5,
-  io = 6,
-  resource_limit = 7,
-  interrupted = 8,
-  internal = 9,
+enum class ErrorKind {
+  usage,              // a call in the wrong order, or an option that is out of its range
+  bad_input,          // a file or an array that is not what it should be
+  bad_start,          // cloth that begins through itself or the body, where that is to be an error
+  simulation_failed,  // a simulation did not come to the state that was needed of it
+  io,                 // a file that cannot be read or written
+  resource_limit,     // more than the machine has, or than was allowed
+  interrupted,        // the caller asked for an end, and there is no result
+  internal,           // a bug of ours
 };
 
 class Error : public std::runtime_error {
  public:
-  Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
-  ExitCode code() const { return code_; }
+  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  ErrorKind kind() const { return kind_; }
 
  private:
-  ExitCode code_;
+  ErrorKind kind_;
 };
 
 // One line: "<file>[:<line>[:<column>]]: <place>: expected <expected>, got <got>".
@@ -41,6 +39,22 @@ class InputError : public Error {
   // `where` is the file with its line, `place` the element in it ("/cloth/0/fabric", "face 12");
   // either may be empty.
   InputError(std::string_view where, std::string_view place, std::string_view expected, std::string_view got);
+
+  // The same, about what is at `path` of the model that was given ("/cloth/0/pins/2"): who read that from a file completes the message
+  // (io/json_places.hpp).
+  InputError of(std::string_view path) const;
+  // The same with `where` before its message, unless that begins with it.
+  InputError within(std::string_view where) const;
+
+  const std::string& path() const { return path_; }
+  const std::string& place() const { return place_; }
+  const std::string& expected() const { return expected_; }
+  const std::string& got() const { return got_; }
+
+ private:
+  InputError(const std::string& message, const InputError& like);
+
+  std::string path_, place_, expected_, got_;
 };
 
 // A file that cannot be opened, read or written; names the path and the system's reason.

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -75,5 +76,18 @@ class Hash {
  private:
   std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
+
+inline std::uint64_t hash_of_text(std::string_view text) {
+  Hash hash;
+  hash.add_text(text);
+  return hash.value();
+}
+
+// Of several hashes as one; their order counts.
+inline std::uint64_t combined(std::initializer_list<std::uint64_t> hashes) {
+  Hash hash;
+  hash.add_counted(std::span(hashes.begin(), hashes.size()));
+  return hash.value();
+}
 
 }  // namespace toile::internal

@@ -67,7 +67,7 @@ std::vector<Triangle> clip_ears(std::span<const GridPoint> points, std::span<con
     if (!is_ear(current)) {
       // Every simple polygon with more than three corners has two ears, so a full turn without one means it was not
       // simple.
-      if (++misses > left) throw Error(ExitCode::internal, "clip_ears: the polygon is not simple");
+      if (++misses > left) throw Error(ErrorKind::internal, "clip_ears: the polygon is not simple");
       current = after[current];
       continue;
     }

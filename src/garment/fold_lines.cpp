@@ -23,7 +23,7 @@ double signed_area(const Ring& ring, const std::vector<Vec2>& points) {
 // Cuts the one piece that has both ends of the line.  False for a line that runs outside: it leaves pieces that go round in opposite directions.
 bool cut(std::vector<Ring>& pieces, const FoldLine& line, const Ring& between, const std::vector<Vec2>& points,
          const std::string& name) {
-  if (line.from == line.to) throw FoldError(line.where, name, "two ends", "a line that ends where it begins");
+  if (line.from == line.to) throw FoldError(name, line, "two ends", "a line that ends where it begins");
   for (Ring& piece : pieces) {
     auto from = std::find(piece.begin(), piece.end(), line.from);
     if (from == piece.end() || std::find(piece.begin(), piece.end(), line.to) == piece.end()) continue;
@@ -40,7 +40,7 @@ bool cut(std::vector<Ring>& pieces, const FoldLine& line, const Ring& between, c
     pieces.push_back(std::move(right));
     return inside;
   }
-  throw FoldError(line.where, name, "a line from one side of the panel to another that no other fold crosses",
+  throw FoldError(name, line, "a line from one side of the panel to another that no other fold crosses",
                   "one that is crossed or lies on the outline");
 }
 
@@ -64,9 +64,9 @@ FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<con
       between.push_back(static_cast<Index>(points.size()));
       points.push_back(p);
     }
-    const std::string name = line.place.empty() ? "fold " + std::to_string(folded.line.size()) : line.place;
+    const std::string name = line.name.empty() ? "fold " + std::to_string(folded.line.size()) : line.name;
     if (!cut(pieces, line, between, points, name) && !outside)
-      outside = FoldError(line.where, name, "a line inside the panel", "one that leaves it");
+      outside = FoldError(name, line, "a line inside the panel", "one that leaves it");
     std::vector<std::array<Index, 2>> edges;
     Index last = line.from;
     for (const Index i : between) {

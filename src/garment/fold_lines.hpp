@@ -12,19 +12,23 @@
 #include <array>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace toile::internal {
 
 struct FoldLine {
-  Index from = 0, to = 0;              // points of the outline
-  std::vector<Vec2> between;           // the points on the way, in order, m
-  std::string where = {}, place = {};  // in a file, for an error; empty: "fold 1"
+  Index from = 0, to = 0;     // points of the outline
+  std::vector<Vec2> between;  // the points on the way, in order, m
+  std::string name = {};      // for an error; empty: "fold 1"
+  std::string path = {};      // of InputError
 };
 
 // Of a line that cannot cut the panel: names it by itself.
 class FoldError : public InputError {
-  using InputError::InputError;
+ public:
+  FoldError(const std::string& name, const FoldLine& line, std::string_view expected, std::string_view got)
+      : InputError(InputError(name, "", expected, got).of(line.path)) {}
 };
 
 struct FoldedPlanarMesh {

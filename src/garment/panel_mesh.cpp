@@ -124,10 +124,9 @@ PanelMesh mesh_panel(const Panel& panel, const std::vector<int>& pieces, const s
     };
     const std::vector<Vec2> points =
         sample_edge(panel, fold.line, piece_count(edge_length_m(panel, fold.line), resolution_m));
-    const std::string name = "panel " + printable(panel.name) + ", fold " + std::to_string(lines.size());
     lines.push_back({corner(fold.line.start), corner(fold.line.end),
-                     std::vector<Vec2>(points.begin() + 1, points.end() - 1), fold.where,
-                     fold.pointer.empty() ? name : fold.pointer + " (" + name + ")"});
+                     std::vector<Vec2>(points.begin() + 1, points.end() - 1), name_of_fold(panel, lines.size()),
+                     path_of_fold(panel, lines.size())});
   }
   try {
     mesh.folded = triangulate_folded(outline, lines, resolution_m, finer);

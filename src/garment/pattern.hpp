@@ -7,6 +7,7 @@
 // because two panels that lie beside each other, both counter-clockwise, pass their common seam in opposite directions.
 #pragma once
 #include "core/types.hpp"
+#include "io/json_places.hpp"
 
 #include <array>
 #include <string>
@@ -30,7 +31,6 @@ struct PanelEdge {
 struct PanelFold {       // a line across a panel that wants to stay folded: of a collar, a pleat, a crease
   PanelEdge line;        // from one corner of the outline to another, inside the panel
   double angle_rad = 0;  // at rest; > 0: a ridge on the panel's outer side, < 0: a valley
-  std::string where = {}, pointer = {};  // in the file, for the mesher's message that it leaves the panel
 };
 
 struct Panel {
@@ -78,5 +78,14 @@ double edge_length_m(const Panel& panel, const PanelEdge& edge);
 // self-crossing outline, unknown curve type, stitch to a missing panel or edge, an edge stitched twice, not finite ...
 Pattern load_pattern(const std::string& path);
 Pattern parse_pattern(std::string_view text, std::string_view file);
+// With the places of its folds, for the mesher's message that one leaves the panel.
+struct PatternFile {
+  Pattern pattern;
+  JsonPlaces places;
+};
+PatternFile read_pattern(std::string_view text, std::string_view file);
+
+std::string path_of_fold(const Panel& panel, std::size_t fold);  // of InputError
+std::string name_of_fold(const Panel& panel, std::size_t fold);  // in words
 
 }  // namespace toile::internal

@@ -69,7 +69,7 @@ class PatternReader {
     }
     if (!leniently_) report_faults(pattern);
     pattern_.legacy_frame = is_legacy_frame();
-    return {std::move(pattern_), std::move(sources_), stitches_, absolute_, centre_panels_};
+    return {std::move(pattern_), std::move(sources_), stitches_, absolute_, centre_panels_, std::move(places_)};
   }
 
  private:
@@ -297,7 +297,7 @@ class PatternReader {
   }
 
   // What the format has no words for: docs/pattern-format.md, "The extension".
-  void read_extension(Panel& panel) const {
+  void read_extension(Panel& panel) {
     const Json* json = extension_ != nullptr ? extension_->find(panel.name) : nullptr;
     if (json == nullptr) return;
     if (!json->is_object()) json->fail("an object", json->describe());
@@ -318,7 +318,8 @@ class PatternReader {
     for (const Json& entry : folds->array()) {
       if (!entry.is_object()) entry.fail("a fold: an object", entry.describe());
       entry.allow_only({"endpoints", "curvature", "angle_deg"});
-      PanelFold fold{read_line(panel, entry), read_angle(entry.at("angle_deg")), entry.where(), entry.pointer()};
+      PanelFold fold{read_line(panel, entry), read_angle(entry.at("angle_deg"))};
+      places_.add(path_of_fold(panel, panel.folds.size()), entry, " (" + name_of_fold(panel, panel.folds.size()) + ")");
       const auto is_side = [&](const PanelEdge& edge) {
         return (edge.start == fold.line.start && edge.end == fold.line.end) ||
                (edge.start == fold.line.end && edge.end == fold.line.start);
@@ -415,6 +416,7 @@ class PatternReader {
   std::vector<PanelSource> sources_;             // as Pattern::panels
   const Json* stitches_ = nullptr;
   const Json* extension_ = nullptr;  // /toile/panels
+  JsonPlaces places_;
 };
 
 }  // namespace
@@ -441,6 +443,20 @@ PatternReading read_pattern_leniently(const Json& root, std::string_view file) {
 Pattern parse_pattern(std::string_view text, std::string_view file) {
   const Json root = Json::parse(text, file);
   return PatternReader(root, false).read(file).pattern;
+}
+
+PatternFile read_pattern(std::string_view text, std::string_view file) {
+  const Json root = Json::parse(text, file);
+  PatternReading reading = PatternReader(root, false).read(file);
+  return {std::move(reading.pattern), std::move(reading.places)};
+}
+
+std::string path_of_fold(const Panel& panel, std::size_t fold) {
+  return "/panels" + pointer_step(panel.name) + "/folds/" + std::to_string(fold);
+}
+
+std::string name_of_fold(const Panel& panel, std::size_t fold) {
+  return "panel " + printable(panel.name) + ", fold " + std::to_string(fold);
 }
 
 Pattern load_pattern(const std::string& path) {

@@ -24,6 +24,7 @@ struct PatternReading {
   std::vector<PanelSource> sources;  // [panel]
   const Json* stitches = nullptr;
   bool absolute_curves = false, centred_panels = false;  // "curvature_coords", "normalize_panel_translation"
+  JsonPlaces places;                                     // of the folds
 };
 
 // `root` must outlive what is read.  Throws InputError for what leaves nothing to look at: missing keys, values of another type, words that

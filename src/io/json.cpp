@@ -67,21 +67,6 @@ std::string place_in(std::string_view file, int line, int column) {
   return text;
 }
 
-// One reference token of a JSON pointer, with its slash.  [RFC 6901]
-std::string pointer_step(std::string_view key) {
-  std::string step = "/";
-  for (const char c : key) {
-    if (c == '~') {
-      step += "~0";
-    } else if (c == '/') {
-      step += "~1";
-    } else {
-      step += c;
-    }
-  }
-  return step;
-}
-
 std::string in_quotes(std::string_view name) { return '"' + printable(name) + '"'; }
 
 // What the parser's message says it wanted ("; expected X") and met ("- unexpected Y", "- invalid Z; last read: ...").
@@ -104,6 +89,20 @@ SyntaxComplaint syntax_complaint(std::string_view what) {
 }
 
 }  // namespace
+
+std::string pointer_step(std::string_view key) {
+  std::string step = "/";
+  for (const char c : key) {
+    if (c == '~') {
+      step += "~0";
+    } else if (c == '/') {
+      step += "~1";
+    } else {
+      step += c;
+    }
+  }
+  return step;
+}
 
 // Receives the parser's events and puts the values into their containers.
 //

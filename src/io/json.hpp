@@ -21,6 +21,9 @@
 
 namespace toile::internal {
 
+// One reference token of a JSON pointer, with its slash.  [RFC 6901]
+std::string pointer_step(std::string_view key);
+
 class Json {
  public:
   enum class Type { null, boolean, number, string, array, object };

@@ -244,7 +244,7 @@ void FfmpegProcess::finish(const std::function<bool()>& stop) {
   constexpr int ask_every_ms = 100;
   close_if_open(input_);
   while (errors_ >= 0) {
-    if (stop && stop()) throw Error(ExitCode::interrupted, "interrupted while the film was finished");
+    if (stop && stop()) throw Error(ErrorKind::interrupted, "interrupted while the film was finished");
     pollfd ready{errors_, POLLIN, 0};
     if (::poll(&ready, 1, stop ? ask_every_ms : -1) < 0 && errno != EINTR) break;
     if (!read_messages()) close_if_open(errors_);

@@ -8,7 +8,7 @@ namespace toile::internal {
 bool can_draw() { return false; }
 
 void require_pictures() {
-  throw Error(ExitCode::usage,
+  throw Error(ErrorKind::usage,
               "built without pictures: Embree 3 or 4 and libpng were not there, or TOILE_PREVIEW was OFF, when this "
               "Toile was built");
 }

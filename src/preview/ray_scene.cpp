@@ -123,8 +123,8 @@ struct RayScene::Device {
     if (device) return;
     const RTCError error = rtcGetDeviceError(nullptr);
     if (error == RTC_ERROR_UNSUPPORTED_CPU)
-      throw Error(ExitCode::internal, "preview: the ray tracer (Embree) cannot start on this processor");
-    throw Error(ExitCode::resource_limit,
+      throw Error(ErrorKind::internal, "preview: the ray tracer (Embree) cannot start on this processor");
+    throw Error(ErrorKind::resource_limit,
                 "preview: not enough memory or threads for the ray tracer (Embree) to start: error " +
                     std::to_string(static_cast<int>(error)));
   }
@@ -142,9 +142,9 @@ struct RayScene::Device {
     const RTCError error = rtcGetDeviceError(device);
     if (error == RTC_ERROR_NONE) return;
     if (error == RTC_ERROR_OUT_OF_MEMORY) {
-      throw Error(ExitCode::resource_limit, "preview: not enough memory for the ray tracer");
+      throw Error(ErrorKind::resource_limit, "preview: not enough memory for the ray tracer");
     }
-    throw Error(ExitCode::internal, "preview: ray tracer error " + std::to_string(static_cast<int>(error)));
+    throw Error(ErrorKind::internal, "preview: ray tracer error " + std::to_string(static_cast<int>(error)));
   }
 };
 

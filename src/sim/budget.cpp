@@ -84,9 +84,9 @@ class Estimate {
   Budget operator()() {
     budget_.name = scene_->name;
     for (std::size_t k = 0; k < scene_->cloth.size(); ++k) add_cloth(scene_->cloth[k]);
-    add_collider("body", scene_->body);
+    add_collider("body", scene_->body, "/body");
     for (std::size_t k = 0; k < scene_->solids.size(); ++k)
-      add_collider("solid " + std::to_string(k), scene_->solids[k]);
+      add_collider("solid " + std::to_string(k), scene_->solids[k], path_of_solid(k));
     for (const BudgetItem& item : budget_.items) budget_.memory_mb += item.memory_mb;
     budget_.memory_mb = program_mb + std::max(budget_.memory_mb, making_mb_);
     count_frames();
@@ -181,10 +181,10 @@ class Estimate {
     sewing_frames_ += std::ceil((widest_m / sewing.closing_speed_m_per_s + after_closing_s) * sewing.fps);
   }
 
-  void add_collider(const std::string& name, const SceneCollider& collider) {
+  void add_collider(const std::string& name, const SceneCollider& collider, std::string_view path) {
     const ColliderCost cost = cost_of(collider);
     if (cost.what.empty()) return;
-    if (!collider.worn) check_own_limit(collider, cost.triangles);
+    if (!collider.worn) check_own_limit(collider, cost.triangles, path);
     budget_.items.push_back({name + ' ' + cost.what, cost.triangles, mb_per_body_triangle * cost.triangles});
     budget_.seconds += cost.making_s;
     body_triangles_ += cost.triangles;
@@ -197,11 +197,12 @@ class Estimate {
   }
 
   // What is too large by itself is refused where it stands in the file, as it would be when it is made, whatever all together would take.
-  static void check_own_limit(const SceneCollider& solid, double triangles) {
+  static void check_own_limit(const SceneCollider& solid, double triangles, std::string_view path) {
     constexpr auto most = static_cast<double>(most_solid_triangles);
     if (solid.is_person() || triangles <= most) return;
-    throw InputError(solid.where, solid.pointer + ": edge_m", fmt::sprintf("at most %.0f triangles", most),
-                     fmt::sprintf("at least %.0f", triangles));
+    throw InputError("", "edge_m", fmt::sprintf("at most %.0f triangles", most),
+                     fmt::sprintf("at least %.0f", triangles))
+        .of(path);
   }
 
   void count_frames() {
@@ -264,7 +265,7 @@ std::string largest_items(const Budget& budget) {
 }
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
-  throw Error(ExitCode::resource_limit, printable(where) + ": " + what);
+  throw Error(ErrorKind::resource_limit, printable(where) + ": " + what);
 }
 
 }  // namespace

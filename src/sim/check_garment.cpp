@@ -1,5 +1,6 @@
 #include "sim/check_garment.hpp"
 
+#include "core/error.hpp"
 #include "mesh/check.hpp"
 
 namespace toile::internal {
@@ -20,7 +21,7 @@ void check_weld(const std::string& where, const GarmentMesh& garment) {
   try {
     weld(garment);
   } catch (const InputError& error) {
-    throw Error(error.code(), where + ": once its seams are sewn: " + error.what());
+    throw Error(error.kind(), where + ": once its seams are sewn: " + error.what());
   }
 }
 
@@ -29,11 +30,6 @@ void check_weld(const std::string& where, const GarmentMesh& garment) {
 void check_garment(const std::string& where, const GarmentMesh& garment) {
   check_cloth(where, garment.mesh, garment.x);
   if (!garment.pairs.empty()) check_weld(where, garment);
-}
-
-void throw_within(const std::string& where, const InputError& error) {
-  const std::string what = error.what();
-  throw Error(error.code(), what.starts_with(where) ? what : where + ": " + what);
 }
 
 }  // namespace toile::internal

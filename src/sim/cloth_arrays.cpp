@@ -1,6 +1,7 @@
 #include "sim/cloth_arrays.hpp"
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "dress/rigid_path.hpp"
 #include "mesh/check.hpp"
 #include "sim/setup.hpp"
@@ -67,7 +68,8 @@ GarmentMesh cloth_of_arrays(const SceneCloth& cloth) {
   return garment;
 }
 
-void add_to_hash(const SceneClothArrays& arrays, Hash& hash) {
+std::uint64_t hash_of(const SceneClothArrays& arrays) {
+  Hash hash;
   hash.add_counted(std::span<const Vec3>(arrays.x));
   hash.add_counted(std::span<const Triangle>(arrays.triangles));
   hash.add_counted(std::span<const std::array<Vec2, 3>>(arrays.uv));
@@ -75,6 +77,7 @@ void add_to_hash(const SceneClothArrays& arrays, Hash& hash) {
   const std::uint64_t names = arrays.panel_names.size();
   hash.add_bytes(&names, sizeof names);
   for (const std::string& name : arrays.panel_names) hash.add_text(name);
+  return hash.value();
 }
 
 }  // namespace toile::internal

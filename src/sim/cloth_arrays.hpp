@@ -1,8 +1,9 @@
 // sim/cloth_arrays.hpp: cloth that is given as arrays: any surface of triangles, with or without the drawing that it was cut from.
 #pragma once
-#include "core/hash.hpp"
 #include "garment/garment_mesh.hpp"
 #include "sim/scene.hpp"
+
+#include <cstdint>
 
 namespace toile::internal {
 
@@ -13,6 +14,6 @@ namespace toile::internal {
 // along its first side where it lies level.  Its weft is to the left of the warp, seen from the right side, as in panels.
 GarmentMesh cloth_of_arrays(const SceneCloth& cloth);
 
-void add_to_hash(const SceneClothArrays& arrays, Hash& hash);
+std::uint64_t hash_of(const SceneClothArrays& arrays);
 
 }  // namespace toile::internal

@@ -2,11 +2,11 @@
 #pragma once
 #include "body/collision_body.hpp"
 #include "body/solid_shapes.hpp"
-#include "core/hash.hpp"
 #include "io/body_measurements.hpp"
 #include "step/body_at.hpp"
 #include "step/collider_contact.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +25,7 @@ struct Collider {
   std::optional<BodyMovement> movement;          // absent: it stands
   std::optional<BodyMeasurements> measurements;  // of a person, where they are known
   std::vector<std::string> warnings;             // what of its file is left out
+  std::uint64_t input_hash = 0;                  // of the files and arrays that it was made of; 0: of none
 };
 
 // The union of the colliders' surfaces, in their order.

@@ -35,7 +35,7 @@ std::vector<Vec2> outline(const SceneCapsule& capsule, double edge_m) {
 
 }  // namespace
 
-Collider load(const SceneCapsule& capsule, const SceneCollider& whole, Hash&) {
+Collider load(const SceneCapsule& capsule, const SceneCollider& whole) {
   const Vec3 way = capsule.to_m - capsule.from_m;
   if (way.norm() < shortest_m) throw InputError("", "to_m", "another place than from_m", "the same: that is a sphere");
   SolidMesh surface = revolved(outline(capsule, whole.edge_m), whole.edge_m);

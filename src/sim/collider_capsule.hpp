@@ -25,7 +25,7 @@ void describe_choice(V& v, SceneCapsule& capsule, bool) {
 }
 
 // Throws InputError("", "to_m", ...) for ends at one place: that is a sphere.
-Collider load(const SceneCapsule& capsule, const SceneCollider& whole, Hash& inputs);
+Collider load(const SceneCapsule& capsule, const SceneCollider& whole);
 ColliderCost cost(const SceneCapsule& capsule, const SceneCollider& whole);
 
 }  // namespace toile::internal

@@ -1,8 +1,8 @@
 #include "sim/collider_person.hpp"
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "io/file.hpp"
-#include "io/mesh_file.hpp"
 #include "mesh/check.hpp"
 #include "sim/colliders.hpp"
 
@@ -26,27 +26,31 @@ constexpr double obj_bytes_per_triangle = 40;  // "f 1234 1235 1236", and half o
 constexpr double obj_copies = 4;               // of the text of a mesh while it is read: itself, and what it says
 constexpr double mannequin_s = 1.5;
 
-BodyMovement movement_of(BodyMotion motion, std::string name, Hash& inputs) {
-  motion.add_to(inputs);
+void add_input(std::uint64_t hash, Collider& loaded) { loaded.input_hash = combined({loaded.input_hash, hash}); }
+
+void set_movement(BodyMotion motion, std::string name, Collider& loaded) {
+  Hash hash;
+  motion.add_to(hash);
+  add_input(hash.value(), loaded);
   const double duration_s = motion.duration_s();
-  return {[motion = std::move(motion)](double t_s, std::span<Vec3> x) { motion.positions(t_s, x); }, std::move(name),
-          duration_s};
+  loaded.movement =
+      BodyMovement{[motion = std::move(motion)](double t_s, std::span<Vec3> x) { motion.positions(t_s, x); },
+                   std::move(name), duration_s};
 }
 
-BodyMovement movement_from_file(const SceneMotion& motion, LengthUnit unit, const CollisionBody& standing,
-                                Hash& inputs) {
+void load_movement(const SceneMotion& motion, LengthUnit unit, const CollisionBody& standing, Collider& loaded) {
   SampleOptions samples;
   samples.rate_hz = motion.fps;
   samples.unit = unit;
   samples.lead_in_s = motion.lead_in_s;
-  return movement_of(BodyMotion::from_files(motion.path, standing, samples),
-                     std::filesystem::path(motion.path).filename().string(), inputs);
+  set_movement(BodyMotion::from_files(motion.path, standing, samples),
+               std::filesystem::path(motion.path).filename().string(), loaded);
 }
 
 // Hair and shoes are in a mesh and not on a tape; people differ by more.
 constexpr double height_agrees = 0.02;
 
-void load_measurements(const SceneMesh& mesh, std::span<const Vec3> x, Collider& loaded, Hash& inputs) {
+void load_measurements(const SceneMesh& mesh, std::span<const Vec3> x, Collider& loaded) {
   const std::string path = measurements_path(mesh), file = printable(path);
   if (path.empty()) return;
   const std::string text = read_file(path, std::size_t{1} << 20);
@@ -54,7 +58,7 @@ void load_measurements(const SceneMesh& mesh, std::span<const Vec3> x, Collider&
     loaded.warnings.push_back(file + " is beside the body and holds no measurements: it has no key \"body\"");
     return;
   }
-  inputs.add_text(text);
+  add_input(hash_of_text(text), loaded);
   BodyMeasurements measured = parse_measurements(text, file);
   const auto [low, high] =
       std::minmax_element(x.begin(), x.end(), [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); });
@@ -69,12 +73,9 @@ void load_measurements(const SceneMesh& mesh, std::span<const Vec3> x, Collider&
 
 }  // namespace
 
-CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, Hash* inputs) {
+CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, const BytesSeen& beside) {
   const std::string file = printable(path);
-  const SurfaceMesh mesh = parse_mesh(text, path, [&](std::string_view beside) {
-    if (inputs != nullptr) inputs->add_text(beside);
-  });
-  CollisionBody body = make_collision_body(mesh, file, unit);
+  CollisionBody body = make_collision_body(parse_mesh(text, path, beside), file, unit);
   check_areas(file, body.positions, body.triangles);
   return body;
 }
@@ -86,16 +87,16 @@ std::string measurements_path(const SceneMesh& mesh) {
   return std::filesystem::is_regular_file(beside, ignored) ? beside.string() : std::string();
 }
 
-Collider load(const SceneMannequin& mannequin, const SceneCollider& whole, Hash& inputs) {
+Collider load(const SceneMannequin& mannequin, const SceneCollider& whole) {
   Collider collider;
   const Mannequin made = make_mannequin(mannequin.who);
   CollisionBody body = from_mannequin(made);
   if (whole.motion && whole.motion->name.empty()) {
-    collider.movement = movement_from_file(*whole.motion, LengthUnit::automatic, body, inputs);
+    load_movement(*whole.motion, LengthUnit::automatic, body, collider);
   } else if (whole.motion) {
     Motion motion = Motion::named(whole.motion->name, mannequin.who);
     motion.set_lead_in_s(whole.motion->lead_in_s);
-    collider.movement = movement_of(BodyMotion::of_mannequin(made, motion), whole.motion->name, inputs);
+    set_movement(BodyMotion::of_mannequin(made, motion), whole.motion->name, collider);
   }
   collider.surface = {std::move(body.positions), std::move(body.triangles)};
   return collider;
@@ -104,9 +105,9 @@ Collider load(const SceneMannequin& mannequin, const SceneCollider& whole, Hash&
 namespace {
 
 // Of what is not worn: all that the file has, closed parts of any number.
-CollisionBody read_whole(const std::string& path, LengthUnit unit, Hash& inputs) {
+CollisionBody read_whole(const std::string& path, LengthUnit unit, const BytesSeen& seen) {
   const std::string file = printable(path);
-  SolidMesh read = whole_of(load_mesh(path, [&](std::string_view bytes) { inputs.add_text(bytes); }));
+  SolidMesh read = whole_of(load_mesh(path, seen));
   for (Vec3& x : read.positions) x *= metres_in(unit);
   check_closed(file, read.positions, read.triangles);
   check_areas(file, read.positions, read.triangles);
@@ -118,45 +119,49 @@ CollisionBody read_whole(const std::string& path, LengthUnit unit, Hash& inputs)
 
 }  // namespace
 
-Collider load(const SceneMesh& mesh, const SceneCollider& whole, Hash& inputs) {
+Collider load(const SceneMesh& mesh, const SceneCollider& whole) {
   Collider collider;
+  Hash bytes;
+  const BytesSeen seen = [&](std::string_view file) { bytes.add_text(file); };
   const auto read_person = [&] {
     const std::string text = read_file(mesh.path);
-    inputs.add_text(text);
-    return read_body(mesh.path, text, mesh.unit, &inputs);
+    seen(text);
+    return read_body(mesh.path, text, mesh.unit, seen);
   };
   const bool is_person = whole.worn || whole.motion;
-  CollisionBody read = is_person ? read_person() : read_whole(mesh.path, mesh.unit, inputs);
+  CollisionBody read = is_person ? read_person() : read_whole(mesh.path, mesh.unit, seen);
+  collider.input_hash = bytes.value();
   collider.warnings = std::move(read.notes);
-  if (whole.worn) load_measurements(mesh, read.positions, collider, inputs);
+  if (whole.worn) load_measurements(mesh, read.positions, collider);
   if (whole.motion && whole.motion->name.empty()) {
-    collider.movement = movement_from_file(*whole.motion, mesh.unit, read, inputs);
+    load_movement(*whole.motion, mesh.unit, read, collider);
   } else if (whole.motion) {
     Motion motion = Motion::named(whole.motion->name);
     motion.set_lead_in_s(whole.motion->lead_in_s);
-    collider.movement =
-        movement_of(BodyMotion::of_person(printable(mesh.path), read, motion), whole.motion->name, inputs);
+    set_movement(BodyMotion::of_person(printable(mesh.path), read, motion), whole.motion->name, collider);
   }
   collider.surface = {std::move(read.positions), std::move(read.triangles)};
   return collider;
 }
 
-Collider load(const SceneArrays& arrays, const SceneCollider&, Hash& inputs) {
+Collider load(const SceneArrays& arrays, const SceneCollider&) {
   const SceneArrays::Frames& given = *arrays.frames;
   const std::span frames(given.x);
-  inputs.add_counted(frames);
-  inputs.add_counted(std::span<const Triangle>(given.triangles));
+  Hash arrays_given;
+  arrays_given.add_counted(frames);
+  arrays_given.add_counted(std::span<const Triangle>(given.triangles));
   CollisionBody standing;
   standing.positions.assign(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(given.vertices));
   standing.triangles = given.triangles;
   check_closed("body", standing.positions, standing.triangles);
   check_areas("body", standing.positions, standing.triangles);
   Collider collider;
+  collider.input_hash = arrays_given.value();
   if (frames.size() > given.vertices) {
     SampleOptions samples;
     samples.rate_hz = given.fps;
     samples.lead_in_s = 0;
-    collider.movement = movement_of(BodyMotion::from_frames("body", frames, standing, samples), "frames", inputs);
+    set_movement(BodyMotion::from_frames("body", frames, standing, samples), "frames", collider);
   }
   collider.surface = {std::move(standing.positions), std::move(standing.triangles)};
   return collider;

@@ -2,6 +2,7 @@
 #pragma once
 #include "body/body_motion.hpp"
 #include "body/mannequin.hpp"
+#include "io/mesh_file.hpp"
 #include "sim/collider.hpp"
 #include "sim/settings.hpp"
 
@@ -18,7 +19,6 @@ struct SceneMotion {
   std::string path;                              // resolved: .pc2, or a folder of OBJ files
   double fps = SampleOptions{}.rate_hz;          // of the file
   double lead_in_s = SampleOptions{}.lead_in_s;  // from the body's own pose into the motion
-  std::string where, pointer;
 };
 
 struct SceneMannequin {
@@ -69,16 +69,16 @@ struct SceneArrays {
   std::shared_ptr<const Frames> frames;
 };
 
-// The body of a mesh file with this text, checked; other files that it is made of are added to `inputs`.  Throws InputError, IoError.
-CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, Hash* inputs = nullptr);
+// The body of a mesh file with this text, checked; `beside` sees other files that it is made of.  Throws InputError, IoError.
+CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, const BytesSeen& beside = {});
 // The file that measurements are read from: the one that is named, or one beside the mesh; empty: there is none.
 std::string measurements_path(const SceneMesh& mesh);
 
-// Each adds the bytes of its files to `inputs`; every sample of a motion is checked here, before anything runs.
+// Every sample of a motion is checked here, before anything runs.
 // Throw IoError, InputError, also for measurements of another body.
-Collider load(const SceneMannequin& mannequin, const SceneCollider& whole, Hash& inputs);
-Collider load(const SceneMesh& mesh, const SceneCollider& whole, Hash& inputs);
-Collider load(const SceneArrays& arrays, const SceneCollider& whole, Hash& inputs);
+Collider load(const SceneMannequin& mannequin, const SceneCollider& whole);
+Collider load(const SceneMesh& mesh, const SceneCollider& whole);
+Collider load(const SceneArrays& arrays, const SceneCollider& whole);
 ColliderCost cost(const SceneMannequin& mannequin, const SceneCollider& whole);
 ColliderCost cost(const SceneMesh& mesh, const SceneCollider& whole);
 ColliderCost cost(const SceneArrays& arrays, const SceneCollider& whole);

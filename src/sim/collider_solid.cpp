@@ -43,14 +43,14 @@ double revolved_triangles(std::span<const Vec2> profile_m, double edge_m) {
   return 2 * along * std::max(6.0, 2 * std::numbers::pi * widest_m / edge_m);
 }
 
-Collider load(const SceneSphere& sphere, const SceneCollider& whole, Hash&) {
+Collider load(const SceneSphere& sphere, const SceneCollider& whole) {
   return standing(ball(sphere.radius_m, whole.edge_m));
 }
-Collider load(const SceneBox& box, const SceneCollider&, Hash&) { return standing(block(box.size_m)); }
-Collider load(const SceneRevolved& shape, const SceneCollider& whole, Hash&) {
+Collider load(const SceneBox& box, const SceneCollider&) { return standing(block(box.size_m)); }
+Collider load(const SceneRevolved& shape, const SceneCollider& whole) {
   return standing(revolved(shape.profile_m, whole.edge_m));
 }
-Collider load(const SceneCylinder& cylinder, const SceneCollider&, Hash&) {
+Collider load(const SceneCylinder& cylinder, const SceneCollider&) {
   return standing(rounded_cylinder(cylinder.radius_m, cylinder.height_m, cylinder.top_m));
 }
 

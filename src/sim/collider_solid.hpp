@@ -72,10 +72,10 @@ void describe_choice(V& v, SceneCylinder& cylinder, bool) {
 }
 
 // Throw InputError("", "edge_m" or "profile", ...) as body/solid_shapes.hpp says.
-Collider load(const SceneSphere& sphere, const SceneCollider& whole, Hash& inputs);
-Collider load(const SceneBox& box, const SceneCollider& whole, Hash& inputs);
-Collider load(const SceneRevolved& shape, const SceneCollider& whole, Hash& inputs);
-Collider load(const SceneCylinder& cylinder, const SceneCollider& whole, Hash& inputs);
+Collider load(const SceneSphere& sphere, const SceneCollider& whole);
+Collider load(const SceneBox& box, const SceneCollider& whole);
+Collider load(const SceneRevolved& shape, const SceneCollider& whole);
+Collider load(const SceneCylinder& cylinder, const SceneCollider& whole);
 ColliderCost cost(const SceneSphere& sphere, const SceneCollider& whole);
 ColliderCost cost(const SceneBox& box, const SceneCollider& whole);
 ColliderCost cost(const SceneRevolved& shape, const SceneCollider& whole);

@@ -10,9 +10,11 @@
 #include "sim/collider_person.hpp"
 #include "sim/collider_solid.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -34,7 +36,6 @@ struct SceneCollider {
   RigidPath moves;                         // about its translation_m, with what moves by itself
   ColliderContact contact;                 // of the body: also of solids that have none of their own (sim/setup.hpp)
   std::vector<FrictionKey> friction_path;  // in the place of its constant; of the body likewise
-  std::string where, pointer;
 
   bool exists() const { return !std::holds_alternative<std::monostate>(shape); }
   template <class Kind>
@@ -61,9 +62,9 @@ void for_each_kind(const F& f) {
   }(std::type_identity<ColliderShape>{});
 }
 
-// Where it stands and how it moves.  Nothing: no surface.  Throws InputError at its place in the scene for a shape that is none, and for
-// moves that lead it faster than most_led_m_per_s.
-Collider load_collider(const SceneCollider& collider, Hash& inputs);
+// Where it stands and how it moves.  Nothing: no surface.  `path` is its own in the scene, "/solids/2".  Throws InputError of it for a shape
+// that is none, and for moves that lead it faster than most_led_m_per_s.
+Collider load_collider(const SceneCollider& collider, std::string_view path = {});
 ColliderCost cost_of(const SceneCollider& collider);
 
 // The body, if there is one, and the solids, in this order, as one.
@@ -72,11 +73,13 @@ struct LoadedColliders {
   std::size_t worn_vertices = 0, worn_triangles = 0;  // of the body: the first ones
   std::optional<BodyMeasurements> measurements;       // likewise
   std::vector<std::string> warnings;
+  std::vector<std::uint64_t> input_hashes;  // of each
 };
-LoadedColliders load_colliders(const SceneCollider& body, std::span<const SceneCollider> solids, Hash& inputs);
+LoadedColliders load_colliders(const SceneCollider& body, std::span<const SceneCollider> solids);
 
-// Throws InputError("<where>", "<pointer>/moves/2", ...) for moves that lead what is within `reach_m` of their centre faster than
-// most_led_m_per_s.
-void check_speed(const RigidPath& moves, double reach_m, std::string_view where, std::string_view pointer);
+// Throws InputError("", "/moves/2", ...).of(path) for moves that lead what is within `reach_m` of their centre faster than most_led_m_per_s.
+void check_speed(const RigidPath& moves, double reach_m, std::string_view path);
+
+inline std::string path_of_solid(std::size_t k) { return "/solids/" + std::to_string(k); }
 
 }  // namespace toile::internal

@@ -24,13 +24,13 @@ namespace fs = std::filesystem;
 const MeshWriter& writer_of(const ExportOptions& options) {
   const MeshWriter* const writer = options.to.empty() ? mesh_writer_for(options.out) : mesh_writer_named(options.to);
   if (writer == nullptr)
-    throw Error(ExitCode::usage,
+    throw Error(ErrorKind::usage,
                 options.to.empty() ? "export: expected a format, " + mesh_writers_in_words() +
                                          ", or a file whose name ends as one of them"
                                    : "export: expected " + mesh_writers_in_words() + ", got " + printable(options.to));
   // Programs go by the ending: a .glb that is called .gltf opens in few of them.
   if (!options.all && !options.out.empty() && !options.out.ends_with(writer->ending))
-    throw Error(ExitCode::usage, "export: expected a file that ends in " + std::string(writer->ending) + ", got " +
+    throw Error(ErrorKind::usage, "export: expected a file that ends in " + std::string(writer->ending) + ", got " +
                                      printable(options.out));
   return *writer;
 }
@@ -99,8 +99,8 @@ void refuse_run_files(const fs::path& directory, const std::string& out) {
 
 Exported export_run(const std::string& directory, const ExportOptions& options, const std::function<bool()>& goes_on) {
   if (options.of != "cloth" && options.of != "body")
-    throw Error(ExitCode::usage, "export: expected cloth or body, got " + printable(options.of));
-  if (options.all && options.frame) throw Error(ExitCode::usage, "export: one frame or all of them, not both");
+    throw Error(ErrorKind::usage, "export: expected cloth or body, got " + printable(options.of));
+  if (options.all && options.frame) throw Error(ErrorKind::usage, "export: one frame or all of them, not both");
   const MeshWriter& writer = writer_of(options);
   const fs::path folder(directory);
   const std::string obj = (folder / (options.of + ".obj")).string(), pc2 = (folder / (options.of + ".pc2")).string();

@@ -251,7 +251,7 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   const Vec3 margin = Vec3::Constant(0.05);
   const Camera camera = frame_subject(box[0] - margin, box[1] + margin, 25, 8, aspect);
   const auto picture = [&](int k) {
-    if (stop && stop()) throw Error(ExitCode::interrupted, "interrupted while the film was made");
+    if (stop && stop()) throw Error(ErrorKind::interrupted, "interrupted while the film was made");
     show(shots[static_cast<std::size_t>(k)]);
     Image image = renderer.render(scene, camera);
     if (progress) progress(0.1 + 0.9 * (k + 1) / static_cast<double>(shots.size()));

@@ -35,21 +35,20 @@ void settle(const Json& value, Scene& scene) {
   const bool sewn = scene.cloth.front().is_sewn();
   if (!is_given(value, "time", "until_still")) scene.until_still = sewn;
   if (!is_given(value, "time", "drape_seconds") && !sewn && !scene.body.motion) scene.drape_seconds = 0;
-  if (is_given(value, "output", "dir")) {
-    const Json& dir = value.at("output").at("dir");
-    scene.output_dir_where = dir.where();
-    scene.output_dir_pointer = dir.pointer();
-  }
 }
 
 double Scene::solver_tolerance() const { return tolerance.value_or(usual_tolerance(preconditioner, procedure)); }
 
-Scene parse_scene(std::string_view text, const std::string& file) {
-  Scene scene;
-  scene.name = std::filesystem::path(file).stem().string();
-  scene_reading::SceneReader::read(Json::parse(text, file), file, scene);
-  return scene;
+SceneFile read_scene(std::string_view text, const std::string& file) {
+  SceneFile read;
+  read.scene.name = std::filesystem::path(file).stem().string();
+  const Json root = Json::parse(text, file);
+  scene_reading::SceneReader::read(root, {file, read.places}, read.scene);
+  if (is_given(root, "output", "dir")) read.places.add(root.at("output").at("dir"));
+  return read;
 }
+
+Scene parse_scene(std::string_view text, const std::string& file) { return read_scene(text, file).scene; }
 
 std::string read_text_file(const std::string& path) { return read_file(path, Json::text_limit); }
 

@@ -13,7 +13,7 @@
 #include "dress/keyed.hpp"
 #include "dress/label_springs.hpp"
 #include "dress/rigid_path.hpp"
-#include "io/json.hpp"
+#include "io/json_places.hpp"
 #include "material/fabric.hpp"
 #include "material/membrane.hpp"
 #include "sim/colliders.hpp"
@@ -39,7 +39,6 @@ struct ScenePanel {  // what one panel has of its own
       rest_stretch_v;  // b of the warp and the weft, < 1 pulls together; absent: the pattern's
   std::vector<RestStretchKey> rest_stretch_path;
   std::vector<StiffnessKey> stiffness_path;
-  std::string where, pointer;  // in the file, for the message that there is no such panel
 };
 
 struct ScenePin {
@@ -50,7 +49,6 @@ struct ScenePin {
   std::vector<VectorKey> path;  // ascending times; straight in between, at rest before and after
   RigidPath moves;  // instead: all that is held moves as one, from where it is when it is taken; times from there
   double from_s = 0, to_s = std::numeric_limits<double>::infinity();  // it is held in this time
-  std::string where, pointer;
 };
 
 // A hand that pulls the nearest particle by a damped spring to a place that may move.
@@ -99,9 +97,9 @@ struct SceneCloth {
   std::optional<SceneTube> tube;
   std::optional<SceneRibbon> ribbon;
   std::shared_ptr<const SceneClothArrays> arrays;
-  std::string shape_where,
-      shape_pointer;  // of the shape, or of the cloth with a pattern, in the file: for what is found when it is meshed
   bool is_sewn() const { return !pattern.empty(); }
+  // Empty for patterns, meshes and arrays.
+  std::string_view shape_key() const { return grid ? "grid" : tube ? "tube" : ribbon ? "ribbon" : ""; }
   // Of its triangles: of the outlines of a pattern, or of its shape.
   double edge_m() const { return grid ? grid->edge_m : tube ? tube->edge_m : ribbon ? ribbon->edge_m : resolution_m; }
   void set_edge_m(double edge_m) {
@@ -162,13 +160,18 @@ struct Scene {
 
   std::string start;       // directory of a run whose last frame is where this one begins; empty: from the panels
   std::string output_dir;  // empty: out/<name>
-  std::string output_dir_where, output_dir_pointer;  // in the file
   std::optional<bool> preview;
   std::vector<int> picture_frames;  // of frames.png, sim/picture_run.hpp
 };
 
+struct SceneFile {
+  Scene scene;
+  JsonPlaces places;  // of its objects and of /output/dir, for what is found wrong with them when they are loaded
+};
 // Throws InputError naming file, line, JSON pointer, expected and got.  Relative paths resolve against the folder of
 // `file`, but for output.dir, which resolves against the folder where the program runs.
+SceneFile read_scene(std::string_view text, const std::string& file);
+// Without the places: later messages name no line.
 Scene parse_scene(std::string_view text, const std::string& file);
 
 // Where the texts of scenes and patterns come from: the disk, or the files inside the program.

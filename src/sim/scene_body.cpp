@@ -7,15 +7,11 @@
 namespace toile::internal {
 
 void settle(const Json& value, SceneMotion& motion) {
-  motion.where = value.where();
-  motion.pointer = value.pointer();
   if (motion.path.empty() && value.is_object())
     if (const Json* fps = value.find("fps")) fps->fail("\"file\" beside it", "frames per second without a file");
 }
 
 void settle(const Json& value, SceneCollider& collider) {
-  collider.where = value.where();
-  collider.pointer = value.pointer();
   collider.moves.centre() = collider.translation_m;
   if (const Json* moves = value.find("moves")) check_ascending(*moves, collider.moves.keys());
   const bool mesh = collider.as<SceneMesh>() != nullptr;

@@ -84,14 +84,7 @@ void settle(const Json& value, SceneRibbon& ribbon) {
     value.at("across").fail("a direction", "zero");
 }
 
-void settle(const Json& value, ScenePanel& panel) {
-  panel.where = value.where();
-  panel.pointer = value.pointer();
-}
-
 void settle(const Json& value, ScenePin& pin) {
-  pin.where = value.where();
-  pin.pointer = value.pointer();
   if (!(pin.to_s > pin.from_s)) value.fail("a pin that lets go after it takes hold", "to_s not after from_s");
   const bool on_path = pin.hold == ScenePin::Hold::path, moved = pin.hold == ScenePin::Hold::moves;
   const Json* path = of_hold(value, "path_m", "path", on_path);
@@ -119,23 +112,14 @@ void settle(const Json& value, SceneCloth& cloth) {
   if (cloth.mesh.empty())
     for (const std::string_view key : {"mesh_unit", "rest_shape"})
       if (const Json* given = value.find(key)) given->fail("a mesh beside it", given->describe());
-  if (cloth.is_sewn()) {
-    cloth.shape_where = value.where();
-    cloth.shape_pointer = value.pointer();
-    return;
-  }
+  if (cloth.is_sewn()) return;
   if (!cloth.mesh.empty()) {
-    cloth.shape_where = value.where();
-    cloth.shape_pointer = value.pointer();
     if (cloth.name.empty()) cloth.name = std::filesystem::path(cloth.mesh).stem().string();
     if (const Json* vertices = value.find("vertices")) vertices->fail("a pattern beside it", "a number of vertices");
     return;
   }
-  const std::string_view kind = cloth.grid ? "grid" : cloth.tube ? "tube" : "ribbon";
-  const Json& shape = value.at(kind);
-  cloth.shape_where = shape.where();
-  cloth.shape_pointer = shape.pointer();
-  check_count(shape, area_m2(cloth), cloth.edge_m());
+  const std::string_view kind = cloth.shape_key();
+  check_count(value.at(kind), area_m2(cloth), cloth.edge_m());
   if (cloth.name.empty()) cloth.name = cloth.grid ? "sheet" : kind;
   if (const Json* vertices = value.find("vertices"))
     vertices->fail("a pattern beside it: other shapes have an edge_m", "a number of vertices");

@@ -1,11 +1,14 @@
 // sim/scene_hash.cpp: every setting of a scene that changes the result, in the order of its description (sim/settings.hpp).
 //
 // A setting is its key, whether it is given where that may be left open, how many there are where there may be more, and its value.
-// So no two scenes are told by one row of bytes.  Of a file only that there is one: who reads it adds what it holds.
+// So no two scenes are told by one row of bytes.  Of a file only that there is one; what it holds is in the hash of what was made of it.
+#include "core/hash.hpp"
 #include "sim/settings_scene.hpp"
 #include "sim/setup.hpp"
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -140,10 +143,21 @@ class SettingsHash {
 
 }  // namespace
 
-void add_to_hash(const Scene& scene, Hash& hash) {
+std::uint64_t settings_hash(const Scene& scene) {
   Scene asked = scene;  // a description may write, too
+  Hash hash;
   SettingsHash settings(hash);
   describe(settings, asked);
+  return hash.value();
+}
+
+std::uint64_t input_hash(const Scene& scene, const LoadedScene& loaded) {
+  std::vector<std::uint64_t> cloth;
+  for (const LoadedCloth& one : loaded.cloth) cloth.push_back(one.input_hash);
+  Hash hash;
+  hash.add_counted(std::span<const std::uint64_t>(cloth));
+  hash.add_counted(std::span<const std::uint64_t>(loaded.colliders.input_hashes));
+  return combined({settings_hash(scene), hash.value(), loaded.start_hash});
 }
 
 }  // namespace toile::internal

@@ -137,12 +137,15 @@ class RowReader {
 
 class SceneReader {
  public:
-  // `file` is the scene's: relative paths start at its folder.
-  SceneReader(const Json& value, const std::string& file) : value_(&value), file_(&file) {}
+  struct Source {
+    const std::string& file;  // the scene's: relative paths start at its folder
+    JsonPlaces& places;       // where its objects stand
+  };
+  SceneReader(const Json& value, const Source& source) : value_(&value), source_(source) {}
 
   template <class T>
-  static void read(const Json& value, const std::string& file, T& object, const Shorthand& shorthand = {}) {
-    SceneReader reader(value, file);
+  static void read(const Json& value, const Source& source, T& object, const Shorthand& shorthand = {}) {
+    SceneReader reader(value, source);
     if (shorthand && !value.is_object()) {
       if (!value.is_string()) value.fail("a string or an object", value.describe());
       reader.only_key_ = shorthand(value.string());
@@ -153,6 +156,7 @@ class SceneReader {
     }
     describe(reader, object);
     settle(value, object);
+    source.places.add(value);
   }
 
   template <class Member>  // double, or one that may be absent
@@ -182,7 +186,7 @@ class SceneReader {
     if (const Json* value = find(s)) x = names[one_of(*value, names)];
   }
   void path(const Setting& s, std::string& x) {
-    if (const Json* value = find(s)) x = resolve(*file_, *value);
+    if (const Json* value = find(s)) x = resolve(source_.file, *value);
   }
   template <class E>
   void name(const Setting& s, std::type_identity_t<Names<E>> names, E& x) {
@@ -223,7 +227,7 @@ class SceneReader {
     if (value == nullptr) return;
     for (const Json& one : value->array()) {
       T next = goes_on_from_the_last<T> && !x.empty() ? x.back() : T{};
-      read(one, *file_, next);
+      read(one, source_, next);
       x.push_back(std::move(next));
     }
     check_least(*value, least, "element");
@@ -235,7 +239,7 @@ class SceneReader {
     for (const auto& [key, one] : value->object()) {
       T next;
       next.*name = key;
-      read(one, *file_, next);
+      read(one, source_, next);
       x.push_back(std::move(next));
     }
   }
@@ -245,11 +249,11 @@ class SceneReader {
   }
   template <class T>
   void object(const Setting& s, T& x, const Shorthand& shorthand = {}) {
-    if (const Json* value = find(s)) read(*value, *file_, x, shorthand);
+    if (const Json* value = find(s)) read(*value, source_, x, shorthand);
   }
   template <class T>
   void object(const Setting& s, std::optional<T>& x, const Shorthand& shorthand = {}) {
-    if (const Json* value = find(s)) read(*value, *file_, x.emplace(), shorthand);
+    if (const Json* value = find(s)) read(*value, source_, x.emplace(), shorthand);
   }
   template <class Describe>
   void group(const Setting& s, const Describe& describe_members) {
@@ -258,7 +262,7 @@ class SceneReader {
     KeyVisitor keys;
     describe_members(keys);
     keys.check(*value);
-    SceneReader reader(*value, *file_);
+    SceneReader reader(*value, source_);
     describe_members(reader);
   }
   template <class Choose, class Describe>
@@ -282,7 +286,7 @@ class SceneReader {
     return value != nullptr && s.may_be_null && value->is_null() ? nullptr : value;
   }
   const Json* value_;
-  const std::string* file_;
+  Source source_;
   std::string_view only_key_;  // the object is written as the value of this key
 };
 

@@ -2,6 +2,7 @@
 #include "sim/setup.hpp"
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "io/mesh_file.hpp"
 #include "mesh/check.hpp"
 #include "sim/check_garment.hpp"
@@ -24,15 +25,23 @@ Index nearest_particle(std::span<const Vec3> x, const Vec3& p) {
   return static_cast<Index>(best);
 }
 
+std::string path_of_cloth(std::size_t k) { return "/cloth/" + std::to_string(k); }
+
+// Of what its mesh is made of, where that is no file of its own.
+std::string path_of_shape(const SceneCloth& cloth, std::size_t k) {
+  const std::string_view key = cloth.shape_key();
+  return key.empty() ? path_of_cloth(k) : path_of_cloth(k) + '/' + std::string(key);
+}
+
 // The pattern of the cloth, meshed and moved as `placement` says.
-GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& inputs,
-                         std::optional<double>& counted_edge_m, std::optional<Pattern>& as_read) {
+void load_garment(const SceneCloth& cloth, const TextSource& read, std::optional<double>& counted_edge_m,
+                  LoadedCloth& loaded) {
   const std::string text = read(cloth.pattern);
-  inputs.add_text(text);
+  loaded.input_hash = hash_of_text(text);
   const std::string file = printable(cloth.pattern);
-  as_read = parse_pattern(text, file);
-  const Pattern& pattern = *as_read;
-  GarmentMesh garment;
+  PatternFile as_read = read_pattern(text, file);
+  const Pattern& pattern = loaded.pattern.emplace(std::move(as_read.pattern));
+  GarmentMesh& garment = loaded.garment;
   try {
     if (cloth.vertices) {
       CountedGarment counted = mesh_garment_to_count(pattern, *cloth.vertices);
@@ -42,38 +51,38 @@ GarmentMesh load_garment(const SceneCloth& cloth, const TextSource& read, Hash& 
       garment = mesh_garment(pattern, cloth.resolution_m);
     }
   } catch (const InputError& error) {
-    throw_within(file, error);
+    throw as_read.places.complete(error).within(file);
   }
   if (!cloth.name.empty()) garment.name = cloth.name;
   if (is_set(cloth.translation_m) || is_set(cloth.rotation_deg)) {
     const Mat3 turn = rotation_from_degrees(cloth.rotation_deg);
     for (Vec3& x : garment.x) x = turn * x + cloth.translation_m;
   }
-  return garment;
 }
 
-// The shape of the cloth, or the refusal of one that has none, at its place in the scene.
-GarmentMesh load_shape(const SceneCloth& cloth, const TextSource& read, Hash& inputs,
-                       std::vector<std::string>& warnings) {
+// The shape of the cloth, or the refusal of one that has none.
+void load_shape(const SceneCloth& cloth, const TextSource& read, LoadedCloth& loaded) {
   if (!cloth.mesh.empty()) {
     const std::string text = read(cloth.mesh), file = printable(cloth.mesh);
-    inputs.add_text(text);
+    Hash bytes;
+    bytes.add_text(text);
     SceneCloth as_arrays = cloth;
-    const SurfaceMesh mesh = parse_mesh(text, cloth.mesh, [&](std::string_view beside) { inputs.add_text(beside); });
+    const SurfaceMesh mesh = parse_mesh(text, cloth.mesh, [&](std::string_view beside) { bytes.add_text(beside); });
+    loaded.input_hash = bytes.value();
     as_arrays.arrays = std::make_shared<const SceneClothArrays>(
-        arrays_of_mesh(mesh, file, metres_in(cloth.mesh_unit), cloth.rest_shape, warnings));
-    return cloth_of_arrays(as_arrays);
+        arrays_of_mesh(mesh, file, metres_in(cloth.mesh_unit), cloth.rest_shape, loaded.warnings));
+    loaded.garment = cloth_of_arrays(as_arrays);
+  } else if (cloth.arrays) {
+    loaded.input_hash = hash_of(*cloth.arrays);
+    loaded.garment = cloth_of_arrays(cloth);
+  } else {
+    loaded.garment = shaped_cloth(cloth);
+    check_areas("", loaded.garment.x, loaded.garment.mesh.triangles);
   }
-  if (cloth.arrays) {
-    add_to_hash(*cloth.arrays, inputs);
-    return cloth_of_arrays(cloth);
-  }
-  GarmentMesh shape = shaped_cloth(cloth);
-  check_areas("", shape.x, shape.mesh.triangles);
-  return shape;
 }
 
-std::vector<Fabric> fabrics_of(const Scene& scene, const SceneCloth& cloth, const ClothMesh& mesh) {
+std::vector<Fabric> fabrics_of(const Scene& scene, std::size_t k, const ClothMesh& mesh) {
+  const SceneCloth& cloth = scene.cloth[k];
   std::vector<Fabric> fabrics(mesh.panel_names.size(), cloth.fabric);
   for (std::size_t p = 0; p < mesh.panel_cloth.size(); ++p)
     if (!mesh.panel_cloth[p].fabric.empty()) fabrics[p] = fabric_preset(mesh.panel_cloth[p].fabric, "", "fabric");
@@ -82,9 +91,10 @@ std::vector<Fabric> fabrics_of(const Scene& scene, const SceneCloth& cloth, cons
     if (place == mesh.panel_names.end()) {
       const std::vector<std::string_view> names(mesh.panel_names.begin(), mesh.panel_names.end());
       throw InputError(
-          panel.where, panel.pointer,
+          "cloth: panels", "",
           "a panel of the cloth; nearest is \"" + printable(nearest_name(panel.name, names.data(), names.size())) + '"',
-          '"' + printable(panel.name) + '"');
+          '"' + printable(panel.name) + '"')
+          .of(path_of_cloth(k) + "/panels" + pointer_step(panel.name));
     }
     if (panel.fabric) fabrics[static_cast<std::size_t>(place - mesh.panel_names.begin())] = *panel.fabric;
   }
@@ -110,26 +120,32 @@ bool has_label(const GarmentMesh& garment, const std::string& label) {
                      [&](const LabelledEdge& edge) { return edge.label == label; });
 }
 
-void check_labels(const SceneCloth& cloth, const GarmentMesh& garment) {
+void check_labels(const SceneCloth& cloth, const GarmentMesh& garment, std::string_view path = {}) {
   for (const LabelHeight& height : cloth.label_heights)
     if (!has_label(garment, height.label))
-      throw InputError(cloth.shape_where, cloth.shape_pointer + "/label_heights_m",
-                       "a label that an edge of the pattern carries", '"' + printable(height.label) + '"');
+      throw InputError(printable(cloth.pattern), "/label_heights_m", "a label that an edge of the pattern carries",
+                       '"' + printable(height.label) + '"')
+          .of(path);
 }
 
-std::vector<TimedPin> pins_of(const SceneCloth& cloth, std::span<const Vec3> x) {
+std::vector<TimedPin> pins_of(const Scene& scene, std::size_t k, std::span<const Vec3> x) {
   std::vector<TimedPin> pins;
-  for (const PinnedParticle& pinned : pinned_particles(cloth, x))
-    pins.push_back(timed_pin(cloth.pins[pinned.pin], pinned.particle));
+  for (const PinnedParticle& pinned : pinned_particles(scene, k, x))
+    pins.push_back(timed_pin(scene.cloth[k].pins[pinned.pin], pinned.particle));
   return pins;
 }
 
 }  // namespace
 
-std::vector<PinnedParticle> pinned_particles(const SceneCloth& cloth, std::span<const Vec3> x) {
+std::vector<PinnedParticle> pinned_particles(const Scene& scene, std::size_t k, std::span<const Vec3> x) {
+  const SceneCloth& cloth = scene.cloth[k];
   std::vector<PinnedParticle> pinned;
-  for (std::size_t k = 0; k < cloth.pins.size(); ++k) {
-    const ScenePin& given = cloth.pins[k];
+  for (std::size_t p = 0; p < cloth.pins.size(); ++p) {
+    const ScenePin& given = cloth.pins[p];
+    const std::string path = path_of_cloth(k) + "/pins/" + std::to_string(p);
+    const auto refuse = [&](std::string_view expected, std::string_view got) {
+      throw InputError("pin " + std::to_string(p), "", expected, got).of(path);
+    };
     std::vector<Index> held;
     if (!given.in_box_m) {
       held = {nearest_particle(x, given.near_m)};
@@ -138,19 +154,19 @@ std::vector<PinnedParticle> pinned_particles(const SceneCloth& cloth, std::span<
       for (std::size_t i = 0; i < x.size(); ++i)
         if ((x[i].array() >= low.array()).all() && (x[i].array() <= high.array()).all())
           held.push_back(static_cast<Index>(i));
-      if (held.empty()) throw InputError(given.where, given.pointer, "a box with particles of the cloth in it", "none");
+      if (held.empty()) refuse("a box with particles of the cloth in it", "none");
     }
     double reach_m = 0;
     for (const Index i : held) {
       for (const PinnedParticle& other : pinned)
         if (other.particle == i && cloth.pins[other.pin].from_s < given.to_s &&
             given.from_s < cloth.pins[other.pin].to_s)
-          throw InputError(given.where, given.pointer, "pins that hold different particles",
-                           "particle " + std::to_string(i) + ", held by pin " + std::to_string(other.pin) + " already");
+          refuse("pins that hold different particles",
+                 "particle " + std::to_string(i) + ", held by pin " + std::to_string(other.pin) + " already");
       reach_m = std::max(reach_m, (x[at(i)] - given.moves.centre()).norm());
     }
-    check_speed(given.moves, reach_m, given.where, given.pointer);
-    for (const Index i : held) pinned.push_back({k, i});
+    check_speed(given.moves, reach_m, path);
+    for (const Index i : held) pinned.push_back({p, i});
   }
   return pinned;
 }
@@ -167,24 +183,27 @@ TimedPin timed_pin(const ScenePin& given, Index particle) {
   return timed;
 }
 
-LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read, Hash& inputs) {
+LoadedCloth load_cloth(const Scene& scene, std::size_t k, const TextSource& read) {
+  const SceneCloth& cloth = scene.cloth[k];
   LoadedCloth loaded;
   std::optional<double> counted_edge_m;
-  const std::string where = cloth.is_sewn()             ? printable(cloth.pattern)
-                            : !cloth.mesh.empty()       ? printable(cloth.mesh)
-                            : cloth.shape_where.empty() ? printable(cloth.name)
-                                                        : cloth.shape_where + ": " + cloth.shape_pointer;
+  const std::string shape_path = path_of_shape(cloth, k);
+  const std::string& file = cloth.is_sewn() ? cloth.pattern : cloth.mesh;
+  const std::string where = printable(file.empty() ? cloth.name : file);
   try {
-    loaded.garment = cloth.is_sewn() ? load_garment(cloth, read, inputs, counted_edge_m, loaded.pattern)
-                                     : load_shape(cloth, read, inputs, loaded.warnings);
+    if (cloth.is_sewn())
+      load_garment(cloth, read, counted_edge_m, loaded);
+    else
+      load_shape(cloth, read, loaded);
+    check_garment(where, loaded.garment);
   } catch (const InputError& error) {
-    throw_within(where, error);
+    if (!file.empty()) throw error.within(where);
+    throw error.within(where).of(shape_path);
   }
-  check_garment(where, loaded.garment);
-  check_labels(cloth, loaded.garment);
-  loaded.fabrics = fabrics_of(scene, cloth, loaded.garment.mesh);
+  check_labels(cloth, loaded.garment, shape_path);
+  loaded.fabrics = fabrics_of(scene, k, loaded.garment.mesh);
   loaded.rest_stretch = rest_stretch_of(cloth, loaded.garment.mesh);
-  if (!cloth.is_sewn()) loaded.pins = pins_of(cloth, loaded.garment.x);
+  if (!cloth.is_sewn()) loaded.pins = pins_of(scene, k, loaded.garment.x);
   for (const SceneDrag& given : cloth.drags) {
     TimedDrag drag;
     drag.near_m = given.near_m;

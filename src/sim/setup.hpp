@@ -1,7 +1,6 @@
 // sim/setup.hpp: from the words of a scene to cloth and body in memory, before anything moves.
 #pragma once
 #include "assembly/cloth_model.hpp"
-#include "core/hash.hpp"
 #include "dress/keyed.hpp"
 #include "dress/outfit.hpp"
 #include "dress/outfit_run.hpp"
@@ -11,6 +10,9 @@
 #include "sim/scene.hpp"
 #include "step/implicit_euler.hpp"
 
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace toile::internal {
@@ -27,20 +29,22 @@ struct LoadedCloth {
   std::vector<TimedStiffness> stiffness_paths;
   double edge_m = 0;  // that its triangles were asked to have
   std::vector<std::string> warnings;
+  std::uint64_t input_hash = 0;  // of the files or arrays that it was made of; 0: of none
 };
-// `read` gives the text of a pattern, which is added to `inputs`.  Errors of the mesher are given the name of the file, or the place of the
+// That of scene.cloth[k]; `read` gives the text of a pattern.  Errors of the mesher are given the name of the file, or are of the path of the
 // shape.  Throws InputError for a panel or a label that the cloth does not have, and for what check_garment refuses.
-LoadedCloth load_cloth(const Scene& scene, const SceneCloth& cloth, const TextSource& read, Hash& inputs);
+LoadedCloth load_cloth(const Scene& scene, std::size_t k, const TextSource& read);
 
 // All that a scene names, read.
 struct LoadedScene {
   std::vector<LoadedCloth> cloth;
   LoadedColliders colliders;
   std::optional<Outfit> start;     // how another run had draped the cloth, if this one begins there
+  std::uint64_t start_hash = 0;    // likewise, of that run
   double cloth_s = 0, body_s = 0;  // wall time, for the report
 };
-// Adds every byte that it reads to `inputs`.  Throws what load_cloth, load_colliders and start_from throw.
-LoadedScene load_scene(const Scene& scene, const TextSource& read, Hash& inputs);
+// Throws what load_cloth, load_colliders and start_from throw.
+LoadedScene load_scene(const Scene& scene, const TextSource& read);
 
 struct PinnedParticle {
   std::size_t pin = 0;  // of the cloth
@@ -50,8 +54,9 @@ struct PinnedParticle {
     archive(pin, particle);
   }
 };
-// Which particles the cloth's pins hold, by where they are.  Throws InputError for a box with none in it, and for one that two pins hold at once.
-std::vector<PinnedParticle> pinned_particles(const SceneCloth& cloth, std::span<const Vec3> x);
+// Which particles the pins of scene.cloth[k] hold, by where they are.  Throws InputError for a box with none in it, and for one that two pins
+// hold at once.
+std::vector<PinnedParticle> pinned_particles(const Scene& scene, std::size_t k, std::span<const Vec3> x);
 TimedPin timed_pin(const ScenePin& pin, Index particle);
 
 // Sheets, tubes and ribbons that hang where they are drawn.
@@ -69,7 +74,9 @@ StepOptions step_options(const Scene& scene, double edge_m);
 // Of what changes in time, as it begins.
 OutfitRunOptions run_options(const Scene& scene, const StepOptions& step, std::function<bool()> stop = {});
 
-// Every number of the scene that changes the result; not its name, output or number of threads.
-void add_to_hash(const Scene& scene, Hash& hash);
+// Of every setting of the scene that changes the result; not its name, output or number of threads.
+std::uint64_t settings_hash(const Scene& scene);
+// Of those settings and of all that was read for them: `input_hash` of a report.
+std::uint64_t input_hash(const Scene& scene, const LoadedScene& loaded);
 
 }  // namespace toile::internal

@@ -1,6 +1,7 @@
 #include "sim/simulate.hpp"
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "core/parallel.hpp"
 #include "io/run_folder.hpp"
 #include "sim/checkpoint.hpp"
@@ -78,7 +79,7 @@ Report Run::operator()() {
     simulation_->run();
     return finish();
   } catch (const IoError& error) {
-    throw Error(error.code(), std::string(error.what()) + "; " + std::to_string(writer_->cloth_frames()) +
+    throw Error(error.kind(), std::string(error.what()) + "; " + std::to_string(writer_->cloth_frames()) +
                                   " frames are kept in " + folder_->directory() + ": toile resume goes on from there");
   }
 }
@@ -93,10 +94,8 @@ void Run::open_folder() {
 
 void Run::load() {
   if (options_.progress) options_.progress({"meshing", 0, -1});
-  Hash hash;
-  add_to_hash(scene_, hash);
-  LoadedScene loaded = load_scene(scene_, options_.read, hash);
-  input_hash_ = hash.value();
+  LoadedScene loaded = load_scene(scene_, options_.read);
+  input_hash_ = input_hash(scene_, loaded);
   simulation_.emplace(
       scene_, std::move(loaded),
       SimulationOptions{options_.progress, options_.stop, options_.time_limit_s, options_.seconds_before, watch_},
@@ -108,7 +107,7 @@ void Run::load() {
         "the folder held a run that was interrupted; it is replaced, toile resume would have gone on with it");
   if (!options_.built_in) report.inputs = checksums_of_inputs(inputs_, folder_->directory());
   report.command = options_.command;
-  report.input_hash = hash.hex();
+  report.input_hash = hex_of(input_hash_);
   report.threads = available_threads();
 }
 
@@ -195,9 +194,9 @@ Report Run::finish() {
 
 Report simulate(const Scene& scene, const RunOptions& options) { return Run(scene, options)(); }
 
-ExitCode exit_code(const Report& report) {
-  if (report.ended == reason::interrupted) return ExitCode::interrupted;
-  return report.verdict.pass ? ExitCode::ok : ExitCode::simulation_failed;
+Outcome outcome(const Report& report) {
+  if (report.ended == reason::interrupted) return Outcome::interrupted;
+  return report.verdict.pass ? Outcome::passed : Outcome::failed;
 }
 
 }  // namespace toile::internal

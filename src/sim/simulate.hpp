@@ -41,7 +41,8 @@ struct RunOptions {
 // Throws InputError, IoError, Error(resource_limit) beyond `limits`, and Error(bad_start) with `strict_start`.  Writes report.json in every other case.
 Report simulate(const Scene& scene, const RunOptions& options);
 
-// ok, simulation_failed or interrupted.
-ExitCode exit_code(const Report& report);
+// How a run came to its end, in a word.
+enum class Outcome { passed, failed, interrupted };
+Outcome outcome(const Report& report);
 
 }  // namespace toile::internal

@@ -50,7 +50,7 @@ Events Simulation::events() {
     const Index particles = outfit_.parts[k].particles;
     if (!resumes())
       pinned_.push_back(pinned_particles(
-          scene_.cloth[k],
+          scene_, k,
           std::span(outfit_.state.x).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(particles))));
     for (const PinnedParticle& pinned : pinned_[k])
       events.pins.push_back(timed_pin(scene_.cloth[k].pins[pinned.pin], first + pinned.particle));

@@ -15,7 +15,7 @@ constexpr double most_waiting_s = 1;
 }  // namespace
 
 void Simulation::bad_start(const std::string& name, const std::string& what) {
-  if (scene_.strict_start) throw Error(ExitCode::bad_start, printable(name) + ": bad start: " + what);
+  if (scene_.strict_start) throw Error(ErrorKind::bad_start, printable(name) + ": bad start: " + what);
   report_.warnings.push_back("bad start: " + what);
 }
 
@@ -28,7 +28,7 @@ bool Simulation::free_start(bool sewn_now) {
   std::string what = std::to_string(found.cloth_cloth) + " edges of the cloth pass through it";
   if (body_) what += ", " + std::to_string(found.cloth_body) + " between cloth and body";
   if (scene_.strict_start && !sewn_now)
-    throw Error(ExitCode::bad_start, printable(outfit_.parts.front().name) + ": bad start: " + what);
+    throw Error(ErrorKind::bad_start, printable(outfit_.parts.front().name) + ": bad start: " + what);
   say("untangling", 0);
   const UntangledStart untangled = untangle_start(
       outfit_, body_triangles_, body_x_, held_now(sewn_now), [&] { return stopped(); }, sewn_now ? sewn_in_vain : 0);

@@ -2,6 +2,7 @@
 
 #include "contact/distance.hpp"
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "garment/garment_mesh.hpp"
 #include "io/file.hpp"
 #include "io/json.hpp"
@@ -141,13 +142,15 @@ void check_body(const std::filesystem::path& run, std::span<const Vec3> body_x) 
 
 }  // namespace
 
-void add_start(const std::string& directory, Hash& inputs) {
+std::uint64_t hash_of_start(const std::string& directory) {
   const std::filesystem::path run(directory);
   const std::string cache = (run / "cloth.pc2").string();
   draped_frame(run, std::numeric_limits<int>::max());  // a finished run, before anything large is read
-  inputs.add_text(read_file((run / "cloth.obj").string()));
+  Hash hash;
+  hash.add_text(read_file((run / "cloth.obj").string()));
   const Vec3s x = draped(run, cache, at(Pc2Reader(cache).points()));
-  inputs.add_counted(std::span<const Vec3>(x));
+  hash.add_counted(std::span<const Vec3>(x));
+  return hash.value();
 }
 
 Outfit start_from(const std::string& directory, std::span<const LoadedCloth> cloth, std::span<const Vec3> body_x) {

@@ -2,6 +2,7 @@
 #pragma once
 #include "sim/setup.hpp"
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -13,7 +14,7 @@ namespace toile::internal {
 // elsewhere than `body_x` begins.
 Outfit start_from(const std::string& directory, std::span<const LoadedCloth> cloth, std::span<const Vec3> body_x);
 
-// Adds what a start from `directory` is made of: drawing, and the positions in which it is draped.  Throws as above.
-void add_start(const std::string& directory, Hash& inputs);
+// Of what a start from `directory` is made of: drawing, and the positions in which it is draped.  Throws as above.
+std::uint64_t hash_of_start(const std::string& directory);
 
 }  // namespace toile::internal

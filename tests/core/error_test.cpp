@@ -15,7 +15,7 @@ std::string_view nearest(std::string_view name, const std::vector<std::string_vi
 TEST(InputError, ReadsAsFilePlaceExpectedGot) {
   const InputError error("scene.json:14:22", "/cloth/0/density_kg_per_m2", "a finite number > 0", "-0.2");
   EXPECT_STREQ(error.what(), "scene.json:14:22: /cloth/0/density_kg_per_m2: expected a finite number > 0, got -0.2");
-  EXPECT_EQ(error.code(), ExitCode::bad_input);
+  EXPECT_EQ(error.kind(), ErrorKind::bad_input);
 }
 
 TEST(InputError, LeavesOutWhatIsNotKnown) {
@@ -24,25 +24,28 @@ TEST(InputError, LeavesOutWhatIsNotKnown) {
   EXPECT_STREQ(InputError("", "", "a", "b").what(), "expected a, got b");
 }
 
+TEST(InputError, KnowsWhatOfTheModelItIsAboutAndSaysNoMoreOfIt) {
+  const InputError error = InputError("", "to_m", "a", "b").of("/solids/0");
+  EXPECT_STREQ(error.what(), "to_m: expected a, got b");
+  EXPECT_EQ(error.path(), "/solids/0");
+  EXPECT_EQ(error.place() + '|' + error.expected() + '|' + error.got(), "to_m|a|b");
+  EXPECT_EQ(error.within("sheet").path(), "/solids/0");
+}
+
+TEST(InputError, IsOfAFileThatItDoesNotNameItself) {
+  EXPECT_STREQ(InputError("", "uv_m", "a", "b").within("sheet").what(), "sheet: uv_m: expected a, got b");
+  EXPECT_STREQ(InputError("p.json:3:4", "/x", "a", "b").within("p.json").what(), "p.json:3:4: /x: expected a, got b");
+  EXPECT_EQ(InputError("", "uv_m", "a", "b").within("sheet").kind(), ErrorKind::bad_input);
+}
+
 TEST(IoError, NamesThePathAndTheReason) {
   const IoError error("out/cloth.pc2", "cannot write: No space left on device");
   EXPECT_STREQ(error.what(), "out/cloth.pc2: cannot write: No space left on device");
-  EXPECT_EQ(error.code(), ExitCode::io);
+  EXPECT_EQ(error.kind(), ErrorKind::io);
 }
 
 TEST(IoError, KeepsControlCharactersOfAPathOutOfTheLog) {
   EXPECT_STREQ(IoError("a\nb\x1b[31m.obj", "x").what(), "a?b?[31m.obj: x");
-}
-
-TEST(Error, ExitCodesAreTheContractWithScripts) {
-  EXPECT_EQ(static_cast<int>(ExitCode::usage), 2);
-  EXPECT_EQ(static_cast<int>(ExitCode::bad_input), 3);
-  EXPECT_EQ(static_cast<int>(ExitCode::bad_start), 4);
-  EXPECT_EQ(static_cast<int>(ExitCode::simulation_failed), 5);
-  EXPECT_EQ(static_cast<int>(ExitCode::io), 6);
-  EXPECT_EQ(static_cast<int>(ExitCode::resource_limit), 7);
-  EXPECT_EQ(static_cast<int>(ExitCode::interrupted), 8);
-  EXPECT_EQ(static_cast<int>(ExitCode::internal), 9);
 }
 
 TEST(Printable, ReplacesControlCharactersAndKeepsTheRest) {

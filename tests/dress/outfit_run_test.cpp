@@ -15,7 +15,6 @@ namespace {
 // A sheet of 20 cm that has just been welded, and hangs by two of its corners.
 struct Hanging {
   Scene scene;
-  Hash inputs;
   std::vector<LoadedCloth> cloth;
   Outfit outfit;
   std::optional<OutfitRun> run;
@@ -26,7 +25,7 @@ struct Hanging {
         "placement": {"rotation_deg": [-90, 0, 0]}}], "time": )" +
                             std::string(time) + R"(, "solver": {"tolerance": )" + tolerance + "}}",
                         "hanging.json");
-    cloth.push_back(load_cloth(scene, scene.cloth.front(), read_text_file, inputs));
+    cloth.push_back(load_cloth(scene, 0, read_text_file));
     outfit = outfit_of_shapes(cloth);
     run.emplace(run_options(scene, step_options(scene, cloth.front().edge_m)), outfit, nullptr);
     run->begin(waits ? within_growing(weightless) : after_weld(true, to_rest ? awaiting_rest : Pace{}));
@@ -126,10 +125,9 @@ TEST(OutfitRun, ContactsAreKnownFromPhaseToPhase) {
       "body": {"box": {"size_m": [1, 0.1, 1]}, "friction": 0.6},
       "world": {"gravity_m_per_s2": [3.4, -9.2, 0]}})",
                                   "slope.json");
-  Hash inputs;
-  const std::vector<LoadedCloth> cloth{load_cloth(scene, scene.cloth.front(), read_text_file, inputs)};
+  const std::vector<LoadedCloth> cloth{load_cloth(scene, 0, read_text_file)};
   const auto slid = [&](bool in_phases, bool anew) {
-    SolidMesh loaded = load_collider(scene.body, inputs).surface;
+    SolidMesh loaded = load_collider(scene.body).surface;
     BodySurface body(std::move(loaded.positions), std::move(loaded.triangles));
     Outfit outfit = outfit_of_shapes(cloth);
     const StepOptions step = step_options(scene, cloth.front().edge_m);

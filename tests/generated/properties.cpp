@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "exit_code.hpp"
 #include "generated/child.hpp"
 #include "sim/simulate.hpp"
 
@@ -114,11 +115,13 @@ class Checker {
         run.directory = name;
         run.command = "generated";
         ExitCode code = ExitCode::internal;
-        with_threads(threads, [&] { code = exit_code(simulate(parse_scene(text, name + ".json"), run)); });
+        const SceneFile scene = read_scene(text, name + ".json");
+        scene.places.complete_errors_of(
+            [&] { with_threads(threads, [&] { code = exit_code(outcome(simulate(scene.scene, run))); }); });
         return static_cast<int>(code);
       } catch (const Error& error) {
         std::fprintf(stderr, "%s\n", error.what());
-        return static_cast<int>(error.code());
+        return static_cast<int>(exit_code(error.kind()));
       } catch (const std::exception& error) {
         std::fprintf(stderr, "internal error: %s\n", error.what());
         return static_cast<int>(ExitCode::internal);

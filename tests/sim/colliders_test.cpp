@@ -16,9 +16,8 @@ namespace toile::internal {
 namespace {
 
 LoadedColliders load(const std::string& keys, const std::string& file = "s.json") {
-  const Scene scene = parse_scene(R"({"cloth": [{"grid": {}}], )" + keys + "}", file);
-  Hash unused;
-  return load_colliders(scene.body, scene.solids, unused);
+  const SceneFile read = read_scene(R"({"cloth": [{"grid": {}}], )" + keys + "}", file);
+  return read.places.complete_errors_of([&] { return load_colliders(read.scene.body, read.scene.solids); });
 }
 
 std::string refusal(const std::string& keys) {

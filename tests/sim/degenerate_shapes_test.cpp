@@ -16,13 +16,10 @@ namespace {
 // What a scene of one object is refused with; empty: it is a shape.
 std::string refusal(const std::string& scene_text) {
   try {
-    const Scene scene = parse_scene("\n" + scene_text, "s.json");
-    Hash unused;
-    for (const SceneCloth& cloth : scene.cloth) {
-      const LoadedCloth loaded = load_cloth(scene, cloth, read_text_file, unused);
-      check_cloth("accepted", loaded.garment.mesh, loaded.garment.x);
-    }
-    const SolidMesh solid = load_colliders(scene.body, scene.solids, unused).joined.surface;
+    const auto [scene, places] = read_scene("\n" + scene_text, "s.json");
+    const LoadedScene loaded = places.complete_errors_of([&, &s = scene] { return load_scene(s, read_text_file); });
+    for (const LoadedCloth& cloth : loaded.cloth) check_cloth("accepted", cloth.garment.mesh, cloth.garment.x);
+    const SolidMesh& solid = loaded.colliders.joined.surface;
     if (!solid.positions.empty()) check_closed("accepted", solid.positions, solid.triangles);
   } catch (const Error& error) {
     return error.what();

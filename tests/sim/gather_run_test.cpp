@@ -54,8 +54,7 @@ void expect_worn(const std::string& pattern_text, const std::string& what, doubl
   const Report report = simulate(scene, options);
   EXPECT_TRUE(report.verdict.pass) << what << ": " << report.ended;
 
-  Hash unused;
-  const GarmentMesh garment = load_cloth(scene, scene.cloth.front(), read_text_file, unused).garment;
+  const GarmentMesh garment = load_cloth(scene, 0, read_text_file).garment;
   const WeldedMesh welded = weld(garment);
   Pc2Reader frames(scratch / "out/cloth.pc2");
   Vec3s x;

@@ -1,9 +1,9 @@
 // What `input_hash` is made of besides the settings: the bytes of the files that a scene names.
+#include "core/hash.hpp"
 #include "io/scratch.hpp"
 #include "sim/scene_inputs.hpp"
 #include "sim/setup.hpp"
 #include "sim/simulate.hpp"
-#include "sim/start_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,15 +14,7 @@
 namespace toile::internal {
 namespace {
 
-// As simulate() makes it.
-std::string input_hash(const Scene& scene) {
-  Hash inputs;
-  add_to_hash(scene, inputs);
-  for (const SceneCloth& cloth : scene.cloth) load_cloth(scene, cloth, read_text_file, inputs);
-  load_colliders(scene.body, scene.solids, inputs);
-  if (!scene.start.empty()) add_start(scene.start, inputs);
-  return inputs.hex();
-}
+std::uint64_t input_hash(const Scene& scene) { return input_hash(scene, load_scene(scene, read_text_file)); }
 
 std::string box(double width) {
   std::string text;
@@ -43,6 +35,31 @@ TEST(InputHash, OfAFileItsBytesCountAndNotItsName) {
   };
   EXPECT_EQ(solid("a.obj"), solid("b.obj"));
   EXPECT_NE(solid("a.obj"), solid("c.obj"));
+}
+
+TEST(InputHash, OfFilesThatChangePlacesIsAnother) {
+  const Scratch scratch;
+  scratch.put("a.obj", box(1));
+  scratch.put("c.obj", box(1.25));
+  const auto solids = [&](const std::string& first, const std::string& second) {
+    return input_hash(parse_scene(R"({"cloth": [{"grid": {"edge_m": 0.2}}], "solids": [{"mesh": ")" + first +
+                                      R"("}, {"sphere": {"radius_m": 1}}, {"mesh": ")" + second + R"("}]})",
+                                  scratch / "s.json"));
+  };
+  EXPECT_NE(solids("a.obj", "c.obj"), solids("c.obj", "a.obj"));
+}
+
+TEST(InputHash, OfAColliderIsOfWhatWasReadForIt) {
+  const Scratch scratch;
+  scratch.put("a.obj", box(1));
+  const Scene scene = parse_scene(
+      R"({"cloth": [{"grid": {"edge_m": 0.2}}], "solids": [{"mesh": "a.obj"}, {"sphere": {"radius_m": 1}}]})",
+      scratch / "s.json");
+  const LoadedScene loaded = load_scene(scene, read_text_file);
+  EXPECT_EQ(loaded.cloth.front().input_hash, 0U) << "nothing";
+  ASSERT_EQ(loaded.colliders.input_hashes.size(), 2U);
+  EXPECT_EQ(loaded.colliders.input_hashes[0], hash_of_text(box(1)));
+  EXPECT_EQ(loaded.colliders.input_hashes[1], 0U);
 }
 
 // What `verify` compares: the files themselves, of a folder those that a scene reads from it.

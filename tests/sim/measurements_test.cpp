@@ -56,9 +56,8 @@ SceneCollider body_of(const Scratch& scratch) {
 SceneMesh& mesh_of(SceneCollider& body) { return std::get<SceneMesh>(body.shape); }
 
 std::string refusal(const SceneCollider& body) {
-  Hash inputs;
   try {
-    load_collider(body, inputs);
+    load_collider(body);
   } catch (const Error& error) {
     return error.what();
   }
@@ -69,21 +68,22 @@ TEST(Measurements, AreThoseBesideTheMeshOrThoseThatAreNamed) {
   const Scratch scratch;
   scratch.put("woman.obj", person().obj);
   SceneCollider body = body_of(scratch);
-  const auto load = [&](Hash& inputs) { return load_collider(body, inputs).measurements; };
-  Hash without, beside, other;
-  EXPECT_FALSE(load(without));
+  const Collider without = load_collider(body);
+  EXPECT_FALSE(without.measurements);
   EXPECT_EQ(measurements_path(mesh_of(body)), "");
   scratch.put("woman.yaml", tape(0));
-  EXPECT_NEAR(*load(beside)->waist_m(), person().waist_m, 1e-4);
-  EXPECT_NE(without.hex(), beside.hex());
+  const Collider beside = load_collider(body);
+  EXPECT_NEAR(*beside.measurements->waist_m(), person().waist_m, 1e-4);
+  EXPECT_NE(without.input_hash, beside.input_hash);
   Scene scene;
   scene.body = body;
   const std::vector<std::string> inputs = input_paths(scene);
   EXPECT_NE(std::find(inputs.begin(), inputs.end(), scratch / "woman.yaml"), inputs.end())
       << "`verify` compares it, too";
   mesh_of(body).measurements = scratch.put("other.yml", tape(0.05));
-  EXPECT_NEAR(*load(other)->waist_m(), person().waist_m - 0.05, 1e-4);
-  EXPECT_NE(other.hex(), beside.hex());
+  const Collider other = load_collider(body);
+  EXPECT_NEAR(*other.measurements->waist_m(), person().waist_m - 0.05, 1e-4);
+  EXPECT_NE(other.input_hash, beside.input_hash);
 }
 
 TEST(Measurements, OfAnotherBodyOrBrokenAreRefused) {
@@ -98,8 +98,7 @@ TEST(Measurements, OfAnotherBodyOrBrokenAreRefused) {
   scratch.put("woman.yaml", "body: [");
   EXPECT_NE(refusal(body).find("woman.yaml:1:"), std::string::npos) << refusal(body);
   scratch.put("woman.yaml", "samples: 4");
-  Hash inputs;
-  const Collider loaded = load_collider(body, inputs);
+  const Collider loaded = load_collider(body);
   EXPECT_FALSE(loaded.measurements);
   ASSERT_EQ(loaded.warnings.size(), 1U);
   EXPECT_NE(loaded.warnings[0].find("holds no measurements"), std::string::npos);

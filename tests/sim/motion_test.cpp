@@ -113,7 +113,7 @@ TEST(MovingBody, WhatSlidesDownItIsSaidToHaveSlidOff) {
   ASSERT_EQ(slid.verdict.reasons.size(), 1U);
   EXPECT_EQ(slid.verdict.reasons[0].code, "slid_off");
   EXPECT_NE(slid.verdict.reasons[0].detail.find("the edge of"), std::string::npos) << slid.verdict.reasons[0].detail;
-  EXPECT_EQ(exit_code(slid), ExitCode::simulation_failed);
+  EXPECT_EQ(outcome(slid), Outcome::failed);
   EXPECT_EQ(judge(verify_directory(scratch / "long")).reasons.at(0).detail, slid.verdict.reasons[0].detail);
   const Report short_one = hoop("0.0667", "short");
   EXPECT_TRUE(short_one.verdict.pass) << "3 cm are no slide";

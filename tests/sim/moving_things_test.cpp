@@ -32,7 +32,8 @@ Frames run(const std::string& scene) {
   options.directory = scratch / "out";
   options.command = "test";
   Frames frames;
-  frames.report = simulate(parse_scene(scene, "s.json"), options);
+  const SceneFile read = read_scene(scene, "s.json");
+  frames.report = read.places.complete_errors_of([&] { return simulate(read.scene, options); });
   frames.cloth = read_all(scratch / "out/cloth.pc2");
   if (scene.find("solids") != std::string::npos) frames.body = read_all(scratch / "out/body.pc2");
   return frames;

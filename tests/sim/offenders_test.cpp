@@ -70,7 +70,7 @@ TEST(Offenders, OfAStepThatCollapsedAreInAFile) {
   };
   const Report report = run("0.4");
   EXPECT_EQ(report.ended, "step_collapsed");
-  EXPECT_EQ(exit_code(report), ExitCode::simulation_failed);
+  EXPECT_EQ(outcome(report), Outcome::failed);
   ASSERT_FALSE(report.verdict.reasons.empty());
   const std::string& detail = report.verdict.reasons.front().detail;
   EXPECT_EQ(detail.rfind("in frame 4: the step collapsed", 0), 0u) << detail;

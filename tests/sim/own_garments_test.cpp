@@ -83,8 +83,7 @@ LoadedCloth loaded(const std::string& name, const std::string& more = "") {
   const Scene scene = parse_scene(
       R"({"cloth": [{"pattern": ")" + path + R"(", "resolution_cm": 3)" + more + R"(}], "body": {"mannequin": "man"}})",
       "s.json");
-  Hash inputs;
-  return load_cloth(scene, scene.cloth.front(), read_text_file, inputs);
+  return load_cloth(scene, 0, read_text_file);
 }
 
 bool is_waistband(const std::string& panel) { return panel.find("waistband") != std::string::npos; }

@@ -95,7 +95,7 @@ TEST(Run, LeavesFilesThatTheJudgeReadsAsTheReportSays) {
   const Scratch scratch;
   const Report report = run(scratch, falling_cloth());
   EXPECT_TRUE(report.verdict.pass) << (report.verdict.reasons.empty() ? "" : report.verdict.reasons.front().detail);
-  EXPECT_EQ(exit_code(report), ExitCode::ok);
+  EXPECT_EQ(outcome(report), Outcome::passed);
   EXPECT_EQ(report.frames, 9);
   const VerifyReport audit = verify_directory(scratch / "out");
   EXPECT_EQ(audit.frames, 9);
@@ -148,8 +148,7 @@ TEST(Run, APinFollowsItsPathAndAnotherStays) {
   std::vector<Vec3> first, last;
   frames.read(0, first);
   frames.read(frames.samples() - 1, last);
-  Hash inputs;
-  const std::vector<TimedPin> pins = load_cloth(scene, scene.cloth.front(), read_text_file, inputs).pins;
+  const std::vector<TimedPin> pins = load_cloth(scene, 0, read_text_file).pins;
   ASSERT_EQ(pins.size(), 2u);
   const auto fixed = static_cast<std::size_t>(pins[0].pin.particle),
              moved = static_cast<std::size_t>(pins[1].pin.particle);
@@ -162,7 +161,7 @@ TEST(Run, AStopEndsItWithAReportThatDoesNotPass) {
   int asked = 0;
   const Report report = run(scratch, falling_cloth(), [&] { return ++asked > 5; });
   EXPECT_EQ(asked, 6) << "asked before every step, and not again once it said yes";
-  EXPECT_EQ(exit_code(report), ExitCode::interrupted);
+  EXPECT_EQ(outcome(report), Outcome::interrupted);
   EXPECT_GT(report.frames, 1);
   EXPECT_LE(report.frames, 6) << "a frame that was not finished is not written";
   EXPECT_FALSE(report.verdict.pass);
@@ -181,7 +180,7 @@ TEST(Run, AStartInsideTheBodyIsWarnedOfOrRefused) {
     run(scratch, scene);
     ADD_FAILURE() << "accepted";
   } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_start);
+    EXPECT_EQ(error.kind(), ErrorKind::bad_start);
   }
   EXPECT_FALSE(std::filesystem::exists(scratch / "out/report.json"))
       << "neither the run nor the one before it looks finished";
@@ -382,7 +381,7 @@ TEST(Run, ASeamThatCannotCloseIsReportedByNameAndLeavesAMesh) {
   Scene scene = tube(scratch, 0.2);  // a quarter more round than the tube, which is of a cloth that does not give
   scene.cloth.front().fabric = fabric_preset("denim", "", "");
   const Report report = run(scratch, scene);
-  EXPECT_EQ(exit_code(report), ExitCode::simulation_failed);
+  EXPECT_EQ(outcome(report), Outcome::failed);
   EXPECT_EQ(report.ended, "seam_blocked");
   ASSERT_FALSE(report.verdict.reasons.empty());
   EXPECT_EQ(report.verdict.reasons.front().code, "seam_blocked");
@@ -414,7 +413,7 @@ TEST(Run, DressingEndsAtItsTimeLimitWithWhatThereIs) {
   options.directory = scratch / "out";
   options.time_limit_s = 1e-9;
   const Report report = simulate(tube(scratch, 0.1), options);
-  EXPECT_EQ(exit_code(report), ExitCode::simulation_failed);
+  EXPECT_EQ(outcome(report), Outcome::failed);
   EXPECT_EQ(report.ended, "time_limit");
   EXPECT_EQ(report.frames, 1);
   EXPECT_FALSE(report.open_seams.empty());

@@ -35,11 +35,7 @@ std::string refusal(const std::string& text) {
   return {};
 }
 
-std::string hash_of(const std::string& text) {
-  Hash hash;
-  add_to_hash(parse_scene(text, "s.json"), hash);
-  return hash.hex();
-}
+std::string hash_of(const std::string& text) { return hex_of(settings_hash(parse_scene(text, "s.json"))); }
 
 std::string text_of(double x) {
   JsonText text(0);
@@ -347,9 +343,9 @@ TEST(Settings, TheDefaultsOfTheLibraryAreThoseOfAScene) {
 }
 
 TEST(Settings, ThePlaceOfTheOutputIsKept) {
-  const Scene scene = parse_scene("{\"cloth\": [{\"grid\": {}}],\n \"output\": {\"dir\": \"../x\"}}", "s.json");
-  EXPECT_EQ(scene.output_dir_pointer, "/output/dir");
-  EXPECT_EQ(scene.output_dir_where.rfind("s.json:2:", 0), 0U) << scene.output_dir_where;
+  const SceneFile read = read_scene("{\"cloth\": [{\"grid\": {}}],\n \"output\": {\"dir\": \"../x\"}}", "s.json");
+  EXPECT_STREQ(read.places.complete(InputError("output.dir", "", "a", "b").of("/output/dir")).what(),
+               "s.json:2:20: /output/dir: expected a, got b");
 }
 
 }  // namespace

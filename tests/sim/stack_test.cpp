@@ -99,11 +99,10 @@ Rises rises_of_energy(int sheets, Under under, double step_max_s) {
   const Scratch scratch;
   Scene scene = stack(scratch, sheets, under, seconds, 0);
   scene.step_max_s = step_max_s;
-  Hash inputs;
   std::vector<LoadedCloth> cloth;
-  for (const SceneCloth& one : scene.cloth) cloth.push_back(load_cloth(scene, one, read_text_file, inputs));
+  for (std::size_t k = 0; k < scene.cloth.size(); ++k) cloth.push_back(load_cloth(scene, k, read_text_file));
   Outfit outfit = outfit_of_shapes(cloth);
-  SolidMesh loaded = load_collider(scene.body, inputs).surface;
+  SolidMesh loaded = load_collider(scene.body).surface;
   BodySurface body(std::move(loaded.positions), std::move(loaded.triangles));
   OutfitRun run(run_options(scene, step_options(scene, cloth.front().edge_m)), outfit, &body);
   Elements elements(run.model());
