@@ -31,7 +31,7 @@ const MeshWriter& writer_of(const ExportOptions& options) {
   // Programs go by the ending: a .glb that is called .gltf opens in few of them.
   if (!options.all && !options.out.empty() && !options.out.ends_with(writer->ending))
     throw Error(ErrorKind::usage, "export: expected a file that ends in " + std::string(writer->ending) + ", got " +
-                                     printable(options.out));
+                                      printable(options.out));
   return *writer;
 }
 

@@ -44,7 +44,7 @@ TEST(ScenePlaces, OfPanelsPinsAndShapes) {
 
   const Refusal pin = refusal(grid + "\"pins\": [\n  {\"near_m\": [0, 0, 0]}, {\"near_m\": [0, 0, 0]}]}]}");
   EXPECT_EQ(pin.of_a_file.rfind(
-                "s.json:3:28: /cloth/1/pins/1: expected pins that hold different particles, got particle ", 0),
+                "s.json:3:26: /cloth/1/pins/1: expected pins that hold different particles, got particle ", 0),
             0U)
       << pin.of_a_file;
   EXPECT_EQ(pin.of_a_model.rfind("pin 1: expected pins that hold different particles, got particle ", 0), 0U)
