@@ -1,6 +1,7 @@
 #include "sim/outfit_run.hpp"
 
 #include "garment/sewing.hpp"
+#include "sim/forces.hpp"
 #include "sim/setup.hpp"
 
 #include <algorithm>
@@ -42,6 +43,7 @@ OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, BodySurface* body, cons
       settling_(std::move(settling)),
       step_(step),
       gravity_m_per_s2_(scene.gravity_m_per_s2),
+      wind_m_per_s_(scene.air.wind_m_per_s),
       frame_s_(1 / scene.fps) {
   ModelOptions options;
   options.gravity_m_per_s2 = scene.gravity_m_per_s2;
@@ -50,7 +52,7 @@ OutfitRun::OutfitRun(const Scene& scene, Outfit& outfit, BodySurface* body, cons
   options.pair_friction = scene.friction_between;
   model_ = build_model(outfit.mesh, outfit.fabrics, options);
   world_.body = body;
-  world_.air = scene.air;
+  world_.forces = forces_of(*this);
   for (Index i = 0; i < settling_.held_particles; ++i) {
     Pin held;
     held.particle = i;
@@ -184,19 +186,20 @@ void OutfitRun::happen() {
   world_.drags.clear();
   for (const TimedDrag& timed : events_.drags)
     if (time_s() >= timed.from_s && time_s() < timed.to_s) world_.drags.push_back(timed.drag);
-  for (const TimedRestStretch& timed : events_.rest_stretch) {
-    const Vec2 b = along(timed.keys, &RestStretchKey::b, end_s);
-    Vec2& now = outfit_->rest_stretch[at(timed.panel)];
+  for (const auto& [panel, own] : events_.panels) {
+    if (own.rest_stretch_path.empty()) continue;
+    const Vec2 b = along(own.rest_stretch_path, &RestStretchKey::b, end_s);
+    Vec2& now = outfit_->rest_stretch[at(panel)];
     if (b == now) continue;
     now = b;
-    set_panel_rest_stretch(model_, timed.panel, b);
+    set_panel_rest_stretch(model_, panel, b);
   }
 }
 
 // Gravity, wind, friction and stiffness of the coming frame.
 void OutfitRun::change_in_time(double end_s) {
   if (!scene_->gravity_path.empty()) gravity_m_per_s2_ = along(scene_->gravity_path, &ScenePin::Key::x_m, end_s);
-  if (!scene_->wind_path.empty()) world_.air.wind_m_per_s = along(scene_->wind_path, &ScenePin::Key::x_m, end_s);
+  if (!scene_->wind_path.empty()) wind_m_per_s_ = along(scene_->wind_path, &ScenePin::Key::x_m, end_s);
   const auto friction = [&](const SceneCollider& collider, std::optional<Index> number) {
     if (!collider.friction_path.empty())
       set_friction(number, along(collider.friction_path, &FrictionKey::friction, end_s));
@@ -204,10 +207,11 @@ void OutfitRun::change_in_time(double end_s) {
   friction(scene_->body, {});
   const Index first = scene_->body.exists() ? 1 : 0;
   for (std::size_t k = 0; k < scene_->solids.size(); ++k) friction(scene_->solids[k], first + static_cast<Index>(k));
-  for (const TimedStiffness& timed : events_.stiffness)
-    if (const StiffnessShare share = share_of(along(timed.keys, &StiffnessKey::share, end_s));
-        model_.stiffness_share.empty() || model_.stiffness_share[at(timed.panel)] != share)
-      set_stiffness(timed.panel, share);
+  for (const auto& [panel, own] : events_.panels) {
+    if (own.stiffness_path.empty()) continue;
+    const StiffnessShare share = share_of(along(own.stiffness_path, &StiffnessKey::share, end_s));
+    if (model_.stiffness_share.empty() || model_.stiffness_share[at(panel)] != share) set_stiffness(panel, share);
+  }
 }
 
 FrameReport OutfitRun::frame(double length_s) {

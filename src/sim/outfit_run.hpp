@@ -40,19 +40,14 @@ struct TimedDrag {  // a hand that holds the cloth for a while
   double from_s = 0, to_s = 0;
   Vec3 near_m{0, 0, 0};  // it takes the particle nearest to this place
 };
-struct TimedRestStretch {
+struct OwnOfPanel {  // all that the scene says of one panel
   Index panel = 0;
-  std::vector<RestStretchKey> keys;
-};
-struct TimedStiffness {
-  Index panel = 0;
-  std::vector<StiffnessKey> keys;
+  ScenePanel own;
 };
 struct Events {  // times count from the first frame
   std::vector<TimedPin> pins;
   std::vector<TimedDrag> drags;
-  std::vector<TimedRestStretch> rest_stretch;
-  std::vector<TimedStiffness> stiffness;
+  std::vector<OwnOfPanel> panels;
 };
 
 class OutfitRun {
@@ -75,7 +70,11 @@ class OutfitRun {
   // Of one collider, or of all that have none of their own.
   void set_friction(std::optional<Index> collider, double friction);
   void set_stiffness(Index panel, const StiffnessShare& share);
-  void set_wind(const Vec3& m_per_s) { world_.air.wind_m_per_s = m_per_s; }
+  void set_wind(const Vec3& m_per_s) { wind_m_per_s_ = m_per_s; }
+  // What forces ask (sim/forces.hpp).
+  const Scene& scene() const { return *scene_; }
+  const Vec3& wind_m_per_s() const { return wind_m_per_s_; }  // of the frame
+  double grown() const { return ramped_; }  // share of elastic, and of whatever else grows after the weld
   // From the next frame on the body moves: at 0 s it is where it is now.
   void start_motion(BodyAt body_at);
   double motion_from_s() const { return motion_start_s_; }
@@ -98,8 +97,8 @@ class OutfitRun {
   void remember(Archive& archive) {
     std::vector<Vec2> b = panel_rest_stretch();
     archive.fixed(b);
-    archive(frames_, frames_from_s_, frame_s_, gravity_m_per_s2_, world_.air.wind_m_per_s, motion_start_s_,
-            without_room_, ramped_, *tangles_, *stepper_, changed_);
+    archive(frames_, frames_from_s_, frame_s_, gravity_m_per_s2_, wind_m_per_s_, motion_start_s_, without_room_,
+            ramped_, *tangles_, *stepper_, changed_);
     for (TimedPin& timed : events_.pins) archive(timed.pin.particle, timed.from, timed.pin.on_body);
     for (TimedDrag& timed : events_.drags) archive(timed.drag.particle, timed.drag.weight);
     if constexpr (Archive::reads) take_up(b);
@@ -142,7 +141,8 @@ class OutfitRun {
   Changed changed_;
   Events events_;
   Vec3 gravity_m_per_s2_{0, 0, 0};  // when it has grown to all of it
-  long frames_ = 0;                 // of one length, since
+  Vec3 wind_m_per_s_{0, 0, 0};
+  long frames_ = 0;  // of one length, since
   double frames_from_s_ = 0, frame_s_ = 0;
   std::optional<AdaptiveStep> stepper_;
 };

@@ -23,9 +23,8 @@ struct LoadedCloth {
   std::vector<Vec2> rest_stretch;  // [panel] (b_u, b_v)
   std::vector<TimedPin> pins;      // on the particles of `garment`, of a cloth that is not sewn
   std::vector<TimedDrag> drags;    // likewise
-  std::vector<TimedRestStretch> rest_stretch_paths;
-  std::vector<TimedStiffness> stiffness_paths;
-  double edge_m = 0;  // that its triangles were asked to have
+  std::vector<OwnOfPanel> panels;  // of `garment`
+  double edge_m = 0;               // that its triangles were asked to have
   std::vector<std::string> warnings;
 };
 // `read` gives the text of a pattern, which is added to `inputs`.  Errors of the mesher are given the name of the file, or the place of the
