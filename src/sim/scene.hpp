@@ -43,6 +43,12 @@ struct StiffnessKey {
   Vec3 share{1, 1, 1};
 };
 
+inline constexpr double most_pressure_Pa = 1e5;  // an atmosphere
+// On the panel, towards its right side, likewise.
+struct PressureKey {
+  double t_s = 0, Pa = 0;
+};
+
 struct ScenePanel {  // what one panel has of its own
   std::string name;
   std::optional<Fabric> fabric;
@@ -50,7 +56,9 @@ struct ScenePanel {  // what one panel has of its own
       rest_stretch_v;  // b of the warp and the weft, < 1 pulls together; absent: the pattern's
   std::vector<RestStretchKey> rest_stretch_path;
   std::vector<StiffnessKey> stiffness_path;
-  std::string where, pointer;  // in the file, for the message that there is no such panel
+  double pressure_Pa = 0;
+  std::vector<PressureKey> pressure_path;  // takes the constant's place
+  std::string where, pointer;              // in the file, for the message that there is no such panel
 };
 
 struct ScenePin {
