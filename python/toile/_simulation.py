@@ -343,6 +343,10 @@ class Simulation:
         """How stiff a panel is, as shares of its fabric, from now on; damping in the same shares.  Raises InputError."""
         self._core.set_stiffness(panel, stretch, shear, bend)
 
+    def set_pressure(self, Pa: float, *, panel: int = 0) -> None:
+        """On a panel's right side, from now on (Cloth.set_panel_pressure).  Raises InputError."""
+        self._core.set_pressure(panel, Pa)
+
     def set_gravity(self, m_per_s2: ArrayLike) -> None:
         """From now on."""
         self._core.set_gravity(_arrays.point(m_per_s2, "m_per_s2"))

@@ -12,7 +12,7 @@ namespace toile {
 namespace {
 
 constexpr std::string_view magic = "TOILESIM";
-constexpr std::uint32_t format = 2;
+constexpr std::uint32_t format = 3;
 constexpr std::size_t head_bytes = magic.size() + sizeof format + sizeof(std::uint64_t);
 
 template <class T>

@@ -1,5 +1,6 @@
 #include "sim/outfit_run.hpp"
 
+#include "core/error.hpp"
 #include "garment/sewing.hpp"
 #include "sim/forces.hpp"
 #include "sim/setup.hpp"
@@ -104,6 +105,8 @@ void OutfitRun::take_up(std::span<const Vec2> panel_rest_stretch) {
     if (const auto& own = changed.collider_friction[k]) set_friction(static_cast<Index>(k), *own);
   for (std::size_t p = 0; p < changed.stiffness.size(); ++p)
     if (const auto& own = changed.stiffness[p]) set_stiffness(static_cast<Index>(p), share_of(*own));
+  for (std::size_t p = 0; p < changed.pressure_Pa.size(); ++p)
+    if (const auto& own = changed.pressure_Pa[p]) set_pressure(static_cast<Index>(p), *own);
 }
 
 void OutfitRun::set_friction(std::optional<Index> collider, double friction) {
@@ -120,6 +123,19 @@ void OutfitRun::set_stiffness(Index panel, const StiffnessShare& share) {
   set_panel_stiffness(model_, panel, share);
   changed_.stiffness.resize(model_.mesh.panel_names.size());
   changed_.stiffness[at(panel)] = Vec3(share.stretch, share.shear, share.bend);
+}
+
+void OutfitRun::set_pressure(Index panel, double Pa) {
+  const std::size_t panels = model_.mesh.panel_names.size();
+  if (panel < 0 || at(panel) >= panels)
+    throw InputError("", "panel", "a number below " + std::to_string(panels), std::to_string(panel));
+  auto known =
+      std::find_if(events_.panels.begin(), events_.panels.end(), [&](const auto& of) { return of.panel == panel; });
+  if (known == events_.panels.end()) known = events_.panels.insert(known, OwnOfPanel{panel, {}});
+  known->own.pressure_Pa = Pa;
+  known->own.pressure_path.clear();
+  changed_.pressure_Pa.resize(panels);
+  changed_.pressure_Pa[at(panel)] = Pa;
 }
 
 void OutfitRun::settle() {

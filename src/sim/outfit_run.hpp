@@ -70,6 +70,7 @@ class OutfitRun {
   // Of one collider, or of all that have none of their own.
   void set_friction(std::optional<Index> collider, double friction);
   void set_stiffness(Index panel, const StiffnessShare& share);
+  void set_pressure(Index panel, double Pa);  // in place of what the scene says of it
   void set_wind(const Vec3& m_per_s) { wind_m_per_s_ = m_per_s; }
   // What forces ask (sim/forces.hpp).
   const Scene& scene() const { return *scene_; }
@@ -116,14 +117,15 @@ class OutfitRun {
   void change_in_time(double end_s);
   void take_and_let_go();
 
-  // What was set since the run began; of a panel that has its own stiffness, and of friction, absent: the scene's.
+  // What was set since the run began; absent: the scene's.
   struct Changed {
     std::optional<double> friction;
     std::vector<std::optional<double>> collider_friction;
-    std::vector<std::optional<Vec3>> stiffness;  // [panel]
+    std::vector<std::optional<Vec3>> stiffness;      // [panel]
+    std::vector<std::optional<double>> pressure_Pa;  // [panel]
     template <class Archive>
     void remember(Archive& archive) {
-      archive(friction, collider_friction, stiffness);
+      archive(friction, collider_friction, stiffness, pressure_Pa);
     }
   };
 

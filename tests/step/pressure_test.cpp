@@ -108,6 +108,9 @@ TEST(Pressure, ABagThatIsFilledAtOnceComesToRest) {
   }
   EXPECT_LT(run.fastest(), 5e-3);
   EXPECT_LE(steps, 33);
+  double widest = 0;
+  for (const Vec3& p : run.state.x) widest = std::max(widest, std::abs(p.z()));
+  EXPECT_GT(widest, 0.08) << "and is full";
 }
 
 }  // namespace
