@@ -16,6 +16,7 @@ from ._cloth import Cloth, FabricLike, as_cloths, as_fabric
 from ._errors import Error, InputError
 from ._frame import Frame
 from ._paths import Paths
+from ._pictures import VIEW, png_or_none, why_none
 from ._progress import ProgressCall, Shown
 from ._recipe import file_path
 from ._toile import Crossings, DressReport, State, StepReport
@@ -23,7 +24,7 @@ from ._toile import Crossings, DressReport, State, StepReport
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int32]
 
-_MOVES = ("positions_m", "velocities_m_per_s", "body_positions_m")
+_MOVES = ("positions_m", "velocities_m_per_s", "body_positions_m", "still")
 
 
 def _particles(given: ArrayLike) -> Integers:
@@ -242,6 +243,30 @@ class Simulation:
     def collider_positions_m(self, collider: int) -> Floats:
         """(c, 3) of the vertices of one: 0 is the body, or the first solid where there is none.  Raises InputError."""
         return self._core.collider_positions_m(collider)
+
+    def picture(
+        self, *, width: int = 480, height: int = 480, azimuth_deg: float = 25, elevation_deg: float = 10, samples: int = 8
+    ) -> bytes:
+        """A PNG of cloth and bodies as they are now, the cloth filling it: what a notebook shows of a simulation.
+
+        azimuth_deg  where it is seen from: 0 is the front (+z), 90 its left side (+x), 180 the back
+        samples      paths per pixel: 8 do, 24 are smooth
+
+        Raises Error where Toile was built without pictures.
+        """
+        return _toile.picture_of_simulation(self._core, width, height, azimuth_deg, elevation_deg, samples)
+
+    def _still(self) -> bytes:
+        drawn: bytes | None = self._read.get("still")
+        if drawn is None:
+            drawn = self._read["still"] = _toile.picture_of_simulation(self._core, **VIEW)
+        return drawn
+
+    def _repr_png_(self) -> bytes | None:
+        return png_or_none(self._still)
+
+    def _repr_html_(self) -> str | None:
+        return why_none(self, self._still)
 
     def crossings(self) -> Crossings:
         """How many edges pass through a triangle, by exact tests."""
