@@ -9,7 +9,7 @@ from types import TracebackType
 
 from . import _toile
 from ._errors import Error, InputError
-from ._pictures import VIEW, png_or_none, why_none
+from ._pictures import VIEW, ShowsItself
 from ._progress import ProgressCall, Shown
 from ._simulation import Simulation
 from ._toile import CheckReport, Verdict
@@ -17,7 +17,7 @@ from ._toile import CheckReport, Verdict
 Path = str | os.PathLike[str]
 
 
-class RunWriter:
+class RunWriter(ShowsItself):
     """Writes frames of a simulation as files that other programs read (docs/reports.md), in a `with` block:
 
         with toile.RunWriter("out/walk", sim, fps=30) as run:
@@ -78,11 +78,8 @@ class RunWriter:
             self._drawn = self.frames, _toile.picture_of_run(self._folder, **VIEW)
         return self._drawn[1]
 
-    def _repr_png_(self) -> bytes | None:
-        return png_or_none(self._still)
-
     def _repr_html_(self) -> str | None:
-        if (missing := why_none(self, self._still)) is not None:
+        if (missing := super()._repr_html_()) is not None:
             return missing
         told = repr(self) if self._verdict is None else self._verdict.explain()
         return f'<img src="data:image/png;base64,{base64.b64encode(self._still()).decode()}"><pre>{html.escape(told)}</pre>'

@@ -16,8 +16,9 @@ from ._cloth import Cloth, FabricLike, as_cloths, as_fabric
 from ._errors import Error, InputError
 from ._frame import Frame
 from ._paths import Paths
-from ._pictures import VIEW, png_or_none, why_none
+from ._pictures import VIEW, ShowsItself
 from ._progress import ProgressCall, Shown
+from ._reads import Changing, Reads
 from ._recipe import file_path
 from ._toile import Crossings, DressReport, State, StepReport
 
@@ -31,7 +32,7 @@ def _particles(given: ArrayLike) -> Integers:
     return _arrays.integers(np.atleast_1d(np.asarray(given)), "particles", ("particles",))
 
 
-class Simulation:
+class Simulation(ShowsItself):
     """Cloth on a body, or in the air.
 
     The same calls give the same bits, on any number of threads and in any process.  Arrays are read-only, and each is of the
@@ -108,7 +109,7 @@ class Simulation:
             self._core = _toile.Simulation(**own)
         self._recipe = recipe
         self._paths = Paths()
-        self._read: dict[str, Any] = {}  # since it last moved
+        self._read = Reads()
 
     # In time.
 
@@ -257,16 +258,7 @@ class Simulation:
         return _toile.picture_of_simulation(self._core, width, height, azimuth_deg, elevation_deg, samples)
 
     def _still(self) -> bytes:
-        drawn: bytes | None = self._read.get("still")
-        if drawn is None:
-            drawn = self._read["still"] = _toile.picture_of_simulation(self._core, **VIEW)
-        return drawn
-
-    def _repr_png_(self) -> bytes | None:
-        return png_or_none(self._still)
-
-    def _repr_html_(self) -> str | None:
-        return why_none(self, self._still)
+        return self._read.once("still", lambda: _toile.picture_of_simulation(self._core, **VIEW))
 
     def crossings(self) -> Crossings:
         """How many edges pass through a triangle, by exact tests."""
@@ -421,24 +413,7 @@ class Simulation:
         return f"<Simulation of {len(self.positions_m)} particles at {self.time_s:.3f} s>"
 
     def _seen(self, what: str) -> NDArray[Any]:
-        array: NDArray[Any] | None = self._read.get(what)
-        if array is None:
-            array = self._read[what] = getattr(self._core, what)()
-        return array
+        return self._read.once(what, getattr(self._core, what))
 
-    def _changing(self, *what: str) -> _Changing:
-        return _Changing(self._read, what)
-
-
-class _Changing:
-    """Around a call: what was read before it is old, whatever comes of it."""
-
-    def __init__(self, read: dict[str, Any], what: tuple[str, ...]) -> None:
-        self._read, self._what = read, what
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, *_: Any) -> None:
-        for what in self._what or tuple(self._read):
-            self._read.pop(what, None)
+    def _changing(self, *what: str) -> Changing:
+        return self._read.changing(what)
