@@ -62,9 +62,8 @@ StepSystem::StepSystem(Drape& drape, double h_s, ClothModel model)
 }
 
 void StepSystem::find_contacts(Drape& drape) {
-  StepWorld world;
+  StepWorld world;  // without forces: their part of the matrix is not measured
   world.body = drape.body();
-  world.air.density_kg_per_m3 = 0;  // its part of the matrix is not measured
   world.pins.assign(drape.pins().begin(), drape.pins().end());
   ImplicitEuler integrator(drape.model(), world, drape.step());
   integrator.prepare(*state_, 0, h_s_, h_s_);

@@ -63,6 +63,9 @@ class TOILE_EXPORT Cloth {
   Cloth& set_panel_fabric(std::string_view panel, const Fabric& fabric);
   // b of warp and weft, by which the panel's length at rest is multiplied: below 1 it is elastic.
   Cloth& set_panel_rest_stretch(std::string_view panel, double u, double v);
+  // Pa on its right side, outwards where the cloth is worn or closed: balloons, cushions.  From when everything is on; after a sewing it grows with
+  // gravity, for half a second.
+  Cloth& set_panel_pressure(std::string_view panel, double Pa);
   // x -> R x + t with R = Rz Ry Rx, about the origin.
   Cloth& place(const Point& translation_m, const Point& rotation_deg = {0, 0, 0});
 

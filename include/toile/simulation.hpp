@@ -156,6 +156,8 @@ class TOILE_EXPORT Simulation {
     double stretch = 1, shear = 1, bend = 1;
   };
   void set_stiffness(std::int32_t panel, const Stiffness& share);
+  // Of a panel, Pa, from now on.
+  void set_pressure(std::int32_t panel, double Pa);
   void set_gravity(const Point& m_per_s2);
   void set_wind(const Point& m_per_s);
 

@@ -69,6 +69,9 @@ void bind_cloth(nb::module_& module) {
           [](Cloth& self, std::string_view panel, double u, double v) { self.set_panel_rest_stretch(panel, u, v); },
           "panel"_a, "u"_a, "v"_a)
       .def(
+          "set_panel_pressure",
+          [](Cloth& self, std::string_view panel, double Pa) { self.set_panel_pressure(panel, Pa); }, "panel"_a, "Pa"_a)
+      .def(
           "place",
           [](Cloth& self, const Point& translation_m, const Point& rotation_deg) {
             self.place(translation_m, rotation_deg);

@@ -15,4 +15,5 @@ NB_MODULE(_toile, module) {
   bind_reports(module);
   bind_simulation(module);
   bind_runs(module);
+  bind_pictures(module);
 }

@@ -12,5 +12,6 @@ void bind_reports(nanobind::module_& module);
 void bind_simulation(nanobind::module_& module);
 void bind_verdicts(nanobind::module_& module);
 void bind_runs(nanobind::module_& module);
+void bind_pictures(nanobind::module_& module);
 
 }  // namespace toile::python

@@ -136,6 +136,9 @@ void bind_simulation(nb::module_& module) {
           },
           "panel"_a, "stretch"_a, "shear"_a, "bend"_a)
       .def(
+          "set_pressure", [](Working& self, std::int32_t panel, double Pa) { self.touch().set_pressure(panel, Pa); },
+          "panel"_a, "Pa"_a)
+      .def(
           "set_gravity", [](Working& self, const Point& m_per_s2) { self.touch().set_gravity(m_per_s2); }, "m_per_s2"_a)
       .def(
           "set_wind", [](Working& self, const Point& m_per_s) { self.touch().set_wind(m_per_s); }, "m_per_s"_a)

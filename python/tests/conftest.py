@@ -19,6 +19,14 @@ def one_core() -> None:
         os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
 
 
+def has_pictures() -> bool:
+    """Whether this build draws."""
+    try:
+        return bool(level_sheet().picture(width=8, height=8, samples=1))
+    except toile.Error:
+        return False
+
+
 def sheet_arrays(cells: int = 8, edge_m: float = 0.04):
     """A level square of cloth, its middle at the origin."""
     line = (np.arange(cells + 1) - cells / 2) * edge_m

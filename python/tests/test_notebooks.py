@@ -4,7 +4,7 @@ import json
 import os
 
 import pytest
-from conftest import one_core, root
+from conftest import has_pictures, one_core, root
 
 notebooks = sorted((root / "python/notebooks").glob("*.ipynb"))
 
@@ -40,3 +40,6 @@ def test_a_notebook_runs_and_is_stored_without_outputs(path, tmp_path, monkeypat
         os.sched_setaffinity(0, cores)
     drawn = [o for cell in notebook.cells for o in cell.get("outputs", []) if "image/png" in o.get("data", {})]
     assert drawn, "no cell drew anything"
+    if path.stem == "1-quick-start" and has_pictures():
+        shown = [o for o in drawn if o.output_type == "execute_result" and "<Simulation of" in o["data"]["text/plain"]]
+        assert len(shown) == 2, "a simulation shows itself"

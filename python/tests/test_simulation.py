@@ -355,6 +355,21 @@ def test_solids_have_their_own_friction_motion_and_place():
         toile.Simulation(carried, solids=["ball"])
 
 
+def test_pressure_carries_a_sheet_and_changes_between_frames():
+    weight_Pa = 9.81 * toile.fabric("cotton").density_kg_per_m2
+    cloth = toile.Cloth(*sheet_arrays(), name="sheet").set_panel_pressure("sheet", weight_Pa)
+    sim = toile.Simulation(cloth, "cotton")
+    advance(sim, 15)
+    assert np.allclose(sim.positions_m[:, 1], 0, atol=1e-6)
+    sim.set_pressure(2 * weight_Pa)
+    advance(sim, 15)
+    assert sim.positions_m[:, 1].min() > 0.2
+    with pytest.raises(toile.InputError, match="panel"):
+        sim.set_pressure(1, panel=1)
+    with pytest.raises(toile.InputError, match="Pa"):
+        cloth.set_panel_pressure("sheet", float("nan"))
+
+
 def test_what_is_attached_goes_with_the_body_and_friction_and_stiffness_change():
     pole = toile.Body.box((0.04, 0.4, 0.04)).set_moves([{"t_s": 0}, {"t_s": 1, "rotation_deg": (0, 90, 0)}])
     flag = toile.Cloth.grid(width_m=0.2, height_m=0.2, edge_m=0.04).place((0.13, 0, 0))

@@ -127,6 +127,13 @@ class Cloth(Made):
         """By what a panel's length at rest is multiplied along warp and weft: below 1 it is elastic."""
         return self._change("set_panel_rest_stretch", panel=panel, u=u, v=v)
 
+    def set_panel_pressure(self, panel: str, Pa: float) -> Cloth:
+        """On a panel's right side, outwards where the cloth is worn or closed: balloons, cushions.
+
+        From when everything is on; after a sewing it grows with gravity, for half a second.
+        """
+        return self._change("set_panel_pressure", panel=panel, Pa=Pa)
+
     def place(self, translation_m: ArrayLike = (0, 0, 0), *, rotation_deg: ArrayLike = (0, 0, 0)) -> Cloth:
         """x -> R x + t with R = Rz Ry Rx, about the origin."""
         return self._change(

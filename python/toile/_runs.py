@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import base64
+import html
 import os
 from types import TracebackType
 
 from . import _toile
 from ._errors import Error, InputError
+from ._pictures import VIEW, ShowsItself
 from ._progress import ProgressCall, Shown
 from ._simulation import Simulation
 from ._toile import CheckReport, Verdict
@@ -14,7 +17,7 @@ from ._toile import CheckReport, Verdict
 Path = str | os.PathLike[str]
 
 
-class RunWriter:
+class RunWriter(ShowsItself):
     """Writes frames of a simulation as files that other programs read (docs/reports.md), in a `with` block:
 
         with toile.RunWriter("out/walk", sim, fps=30) as run:
@@ -22,7 +25,8 @@ class RunWriter:
                 run.add()
         print(run.verdict.explain())
 
-    A folder that was left by an exception says that it is not finished, and is no pass.
+    A folder that was left by an exception says that it is not finished, and is no pass.  In a notebook it shows its last frame, and its verdict once
+    it has one.
     """
 
     def __init__(self, folder: Path, simulation: Simulation, *, fps: float = 30) -> None:
@@ -31,6 +35,8 @@ class RunWriter:
         Raises IoError for files there that are not Toile's, and when another process writes there.
         """
         self._simulation = simulation
+        self._folder = os.fspath(folder)
+        self._drawn: tuple[int, bytes] = (0, b"")  # of how many frames the last one, as a PNG
         self._core: _toile.RunWriter | None = _toile.RunWriter(os.fspath(folder), simulation._core, fps)
         self._frames = 0  # of a run that is finished
         self._verdict: Verdict | None = None
@@ -63,6 +69,20 @@ class RunWriter:
     def verdict(self) -> Verdict | None:
         """What finish() returned; None before."""
         return self._verdict
+
+    def __repr__(self) -> str:
+        return f"<RunWriter of {self._folder}, {self.frames} frames>"
+
+    def _still(self) -> bytes:
+        if self._drawn[0] != self.frames:
+            self._drawn = self.frames, _toile.picture_of_run(self._folder, **VIEW)
+        return self._drawn[1]
+
+    def _repr_html_(self) -> str | None:
+        if (missing := super()._repr_html_()) is not None:
+            return missing
+        told = repr(self) if self._verdict is None else self._verdict.explain()
+        return f'<img src="data:image/png;base64,{base64.b64encode(self._still()).decode()}"><pre>{html.escape(told)}</pre>'
 
     def __enter__(self) -> RunWriter:
         return self

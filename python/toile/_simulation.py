@@ -16,21 +16,23 @@ from ._cloth import Cloth, FabricLike, as_cloths, as_fabric
 from ._errors import Error, InputError
 from ._frame import Frame
 from ._paths import Paths
+from ._pictures import VIEW, ShowsItself
 from ._progress import ProgressCall, Shown
+from ._reads import Changing, Reads
 from ._recipe import file_path
 from ._toile import Crossings, DressReport, State, StepReport
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int32]
 
-_MOVES = ("positions_m", "velocities_m_per_s", "body_positions_m")
+_MOVES = ("positions_m", "velocities_m_per_s", "body_positions_m", "still")
 
 
 def _particles(given: ArrayLike) -> Integers:
     return _arrays.integers(np.atleast_1d(np.asarray(given)), "particles", ("particles",))
 
 
-class Simulation:
+class Simulation(ShowsItself):
     """Cloth on a body, or in the air.
 
     The same calls give the same bits, on any number of threads and in any process.  Arrays are read-only, and each is of the
@@ -107,7 +109,7 @@ class Simulation:
             self._core = _toile.Simulation(**own)
         self._recipe = recipe
         self._paths = Paths()
-        self._read: dict[str, Any] = {}  # since it last moved
+        self._read = Reads()
 
     # In time.
 
@@ -243,6 +245,21 @@ class Simulation:
         """(c, 3) of the vertices of one: 0 is the body, or the first solid where there is none.  Raises InputError."""
         return self._core.collider_positions_m(collider)
 
+    def picture(
+        self, *, width: int = 480, height: int = 480, azimuth_deg: float = 25, elevation_deg: float = 10, samples: int = 8
+    ) -> bytes:
+        """A PNG of cloth and bodies as they are now, the cloth filling it: what a notebook shows of a simulation.
+
+        azimuth_deg  where it is seen from: 0 is the front (+z), 90 its left side (+x), 180 the back
+        samples      paths per pixel: 8 do, 24 are smooth
+
+        Raises Error where Toile was built without pictures.
+        """
+        return _toile.picture_of_simulation(self._core, width, height, azimuth_deg, elevation_deg, samples)
+
+    def _still(self) -> bytes:
+        return self._read.once("still", lambda: _toile.picture_of_simulation(self._core, **VIEW))
+
     def crossings(self) -> Crossings:
         """How many edges pass through a triangle, by exact tests."""
         return self._core.crossings()
@@ -343,6 +360,10 @@ class Simulation:
         """How stiff a panel is, as shares of its fabric, from now on; damping in the same shares.  Raises InputError."""
         self._core.set_stiffness(panel, stretch, shear, bend)
 
+    def set_pressure(self, Pa: float, *, panel: int = 0) -> None:
+        """On a panel's right side, from now on (Cloth.set_panel_pressure).  Raises InputError."""
+        self._core.set_pressure(panel, Pa)
+
     def set_gravity(self, m_per_s2: ArrayLike) -> None:
         """From now on."""
         self._core.set_gravity(_arrays.point(m_per_s2, "m_per_s2"))
@@ -392,24 +413,7 @@ class Simulation:
         return f"<Simulation of {len(self.positions_m)} particles at {self.time_s:.3f} s>"
 
     def _seen(self, what: str) -> NDArray[Any]:
-        array: NDArray[Any] | None = self._read.get(what)
-        if array is None:
-            array = self._read[what] = getattr(self._core, what)()
-        return array
+        return self._read.once(what, getattr(self._core, what))
 
-    def _changing(self, *what: str) -> _Changing:
-        return _Changing(self._read, what)
-
-
-class _Changing:
-    """Around a call: what was read before it is old, whatever comes of it."""
-
-    def __init__(self, read: dict[str, Any], what: tuple[str, ...]) -> None:
-        self._read, self._what = read, what
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, *_: Any) -> None:
-        for what in self._what or tuple(self._read):
-            self._read.pop(what, None)
+    def _changing(self, *what: str) -> Changing:
+        return self._read.changing(what)

@@ -115,6 +115,13 @@ Cloth& Cloth::set_panel_rest_stretch(std::string_view panel, double u, double v)
   return *this;
 }
 
+Cloth& Cloth::set_panel_pressure(std::string_view panel, double Pa) {
+  translated([&] { require_pressure("Pa", Pa); });
+  internal::ScenePanel& own = panel_of(parts_->cloth, panel);
+  own.pressure_Pa = Pa;
+  return *this;
+}
+
 Cloth& Cloth::place(const Point& translation_m, const Point& rotation_deg) {
   translated([&] {
     require_finite("translation_m", translation_m);

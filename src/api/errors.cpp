@@ -44,6 +44,11 @@ void require_at_least_zero(const char* what, double value) {
     throw internal::InputError("", what, "a finite number that is not below zero", std::to_string(value));
 }
 
+void require_pressure(const char* what, double Pa) {
+  if (!(std::abs(Pa) <= internal::most_pressure_Pa))
+    throw internal::InputError("", what, "a number of at most 1e5 on either side of zero", std::to_string(Pa));
+}
+
 void throw_translated() {
   try {
     throw;

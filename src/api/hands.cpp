@@ -269,6 +269,13 @@ void Simulation::set_stiffness(std::int32_t panel, const Stiffness& share) {
   });
 }
 
+void Simulation::set_pressure(std::int32_t panel, double Pa) {
+  translated([&] {
+    require_pressure("Pa", Pa);
+    implementation_->live("set_pressure").set_pressure(panel, Pa);
+  });
+}
+
 void Simulation::set_gravity(const Point& m_per_s2) {
   translated([&] {
     require_finite("m_per_s2", m_per_s2);

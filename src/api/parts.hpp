@@ -38,6 +38,7 @@ decltype(auto) translated(Work&& work) {
 void require_finite(const char* what, const Point& p);
 void require_above_zero(const char* what, double value);     // and finite
 void require_at_least_zero(const char* what, double value);  // likewise
+void require_pressure(const char* what, double Pa);          // as in a scene
 
 internal::Fabric engine_fabric(const Fabric& fabric);
 

@@ -12,8 +12,10 @@ constexpr std::size_t grain = 512;  // triangles per block of work
 
 }  // namespace
 
-Air::Air(const ClothModel& model, const BlockPattern& pattern)
-    : triangles_(model.mesh.triangles), force_(triangles_.size(), Vec3::Zero()), B_(triangles_.size(), Mat3::Zero()) {
+void Air::prepare(const ClothModel& model, const BlockPattern& pattern) {
+  triangles_ = model.mesh.triangles;
+  force_.assign(triangles_.size(), Vec3::Zero());
+  B_.assign(triangles_.size(), Mat3::Zero());
   std::vector<std::pair<Index, Index>> sides, corners;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -26,7 +28,8 @@ Air::Air(const ClothModel& model, const BlockPattern& pattern)
   at_particles_.sort(corners, static_cast<std::size_t>(pattern.rows()));
 }
 
-void Air::evaluate(const AirOptions& options, const Vec3& wind_m_per_s, const ClothState& state) {
+void Air::evaluate(const ClothState& state, double end_s) {
+  const Vec3 wind_m_per_s = wind_ ? wind_(end_s) : options_.wind_m_per_s;
   parallel_for(triangles_.size(), grain, [&](std::size_t t) {
     force_[t].setZero();
     B_[t].setZero();
@@ -40,8 +43,8 @@ void Air::evaluate(const AirOptions& options, const Vec3& wind_m_per_s, const Cl
     const double u_n = n.dot(u);
     const Vec3 u_t = u - u_n * n;
     const double slip = u_t.norm();
-    const double half = 0.25 * options.density_kg_per_m3 * twice_area;  // rho a/2
-    const double c_n = half * options.normal_coefficient, c_t = half * options.tangential_coefficient;
+    const double half = 0.25 * options_.density_kg_per_m3 * twice_area;  // rho a/2
+    const double c_n = half * options_.normal_coefficient, c_t = half * options_.tangential_coefficient;
     force_[t] = -(c_n * std::abs(u_n) * u_n) * n - (c_t * slip) * u_t;
     const Mat3 nn = n * n.transpose();
     B_[t] = (2 * c_n * std::abs(u_n)) * nn + (c_t * slip) * (Mat3::Identity() - nn);
@@ -64,7 +67,7 @@ void Air::add_damping(std::span<const Vec3> u, std::span<Vec3> f) const {
 }
 
 template <class T>
-void Air::assemble(double h_s, BlockMatrix<T>& A) const {
+void Air::add_to(BlockMatrix<T>& A, double h_s) const {
   const double ninth = h_s / 9;
   parallel_for(A.blocks().size(), grain, [&](std::size_t s) {
     for (const Index side : at_slots_.bucket(s)) {
@@ -79,7 +82,7 @@ void Air::assemble(double h_s, BlockMatrix<T>& A) const {
   A.update_diagonal();
 }
 
-template void Air::assemble(double, BlockMatrix<float>&) const;
-template void Air::assemble(double, BlockMatrix<double>&) const;
+void Air::assemble(double h_s, BlockMatrix<float>& A) const { add_to(A, h_s); }
+void Air::assemble(double h_s, BlockMatrix<double>& A) const { add_to(A, h_s); }
 
 }  // namespace toile::internal

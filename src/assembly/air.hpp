@@ -10,10 +10,10 @@
 // Easily got wrong: this acts on the motion of a triangle's centroid.  Air does not damp a flutter of the corners about
 // it; damping of bend and stretch does.
 #pragma once
-#include "assembly/block_matrix.hpp"
-#include "assembly/cloth_model.hpp"
+#include "assembly/force.hpp"
 #include "core/bucket_order.hpp"
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,29 +26,30 @@ struct AirOptions {
   double tangential_coefficient = 0.02;  // c_t: both sides of a plate along it
 };
 
-class Air {
+class Air final : public Force {
  public:
-  Air(const ClothModel& model, const BlockPattern& pattern);
+  // `wind`: in a step that ends at t_s; empty: the options' at all times.
+  explicit Air(const AirOptions& options, std::function<Vec3(double t_s)> wind = {})
+      : options_(options), wind_(std::move(wind)) {}
 
-  // Evaluates forces and derivatives at x, v.
-  void evaluate(const AirOptions& options, const Vec3& wind_m_per_s, const ClothState& state);
-
-  // f_i += F/3 of the triangles around i.
-  void add_forces(std::span<Vec3> f) const;
-  // f_i += sum_j (B/9) u_j: the linearised force at v less that at v + u.
-  void add_damping(std::span<const Vec3> u, std::span<Vec3> f) const;
-  // A += h D_air.  The diagonal is updated.
-  template <class T>
-  void assemble(double h_s, BlockMatrix<T>& A) const;
+  bool acts(double) override { return options_.density_kg_per_m3 > 0; }
+  void prepare(const ClothModel& model, const BlockPattern& pattern) override;
+  void evaluate(const ClothState& state, double end_s) override;
+  void add_forces(std::span<Vec3> f) const override;
+  void add_damping(std::span<const Vec3> u, std::span<Vec3> f) const override;
+  void assemble(double h_s, BlockMatrix<float>& A) const override;
+  void assemble(double h_s, BlockMatrix<double>& A) const override;
 
  private:
+  template <class T>
+  void add_to(BlockMatrix<T>& A, double h_s) const;
+
+  AirOptions options_;
+  std::function<Vec3(double t_s)> wind_;
   std::vector<Triangle> triangles_;
   BucketOrder at_slots_, at_particles_;  // sides and corners, numbered three per triangle
   std::vector<Vec3> force_;              // [triangle]
   std::vector<Mat3> B_;                  // [triangle]
 };
-
-extern template void Air::assemble(double, BlockMatrix<float>&) const;
-extern template void Air::assemble(double, BlockMatrix<double>&) const;
 
 }  // namespace toile::internal

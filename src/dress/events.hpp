@@ -23,13 +23,15 @@ struct TimedDrag {  // a hand that holds the cloth for a while
   double from_s = 0, to_s = 0;
   Vec3 near_m{0, 0, 0};  // it takes the particle nearest to this place
 };
-struct TimedRestStretch {
-  Index panel = 0;
-  std::vector<RestStretchKey> keys;
+struct PanelInTime {
+  std::vector<RestStretchKey> rest_stretch_path;
+  std::vector<StiffnessKey> stiffness_path;
+  double pressure_Pa = 0;
+  std::vector<PressureKey> pressure_path;  // takes the constant's place
 };
-struct TimedStiffness {
+struct TimedPanel {
   Index panel = 0;
-  std::vector<StiffnessKey> keys;
+  PanelInTime own;
 };
 struct TimedFriction {
   std::optional<Index> collider;  // absent: of all that have none of their own
@@ -38,8 +40,7 @@ struct TimedFriction {
 struct Events {
   std::vector<TimedPin> pins;
   std::vector<TimedDrag> drags;
-  std::vector<TimedRestStretch> rest_stretch;
-  std::vector<TimedStiffness> stiffness;
+  std::vector<TimedPanel> panels;
   std::vector<TimedFriction> friction;
   std::vector<VectorKey> gravity, wind;  // m/s^2, m/s; empty: constant
 };

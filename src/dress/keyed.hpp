@@ -24,6 +24,11 @@ struct StiffnessKey {  // shares of the stretch, shear and bend of a panel's fab
   Vec3 share{1, 1, 1};
 };
 
+inline constexpr double most_pressure_Pa = 1e5;  // an atmosphere
+struct PressureKey {  // on a panel, towards its right side
+  double t_s = 0, Pa = 0;
+};
+
 template <class Value>
 Value between(const Value& from, const Value& to, double share) {
   return (1 - share) * from + share * to;

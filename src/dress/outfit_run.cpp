@@ -1,5 +1,7 @@
 #include "dress/outfit_run.hpp"
 
+#include "core/error.hpp"
+#include "dress/forces.hpp"
 #include "dress/sewing.hpp"
 
 #include <algorithm>
@@ -29,9 +31,10 @@ OutfitRun::OutfitRun(const OutfitRunOptions& options, Outfit& outfit, BodySurfac
       garment_(std::move(garment)),
       model_(build_model(outfit.mesh, outfit.fabrics, options.model)),
       gravity_m_per_s2_(options.model.gravity_m_per_s2),
+      wind_m_per_s_(options.air.wind_m_per_s),
       frame_s_(1 / options.fps) {
   world_.body = body;
-  world_.air = options.air;
+  world_.forces = forces_of(*this);
   for (Index i = 0; i < garment_.worn_before; ++i) {
     Pin held;
     held.particle = i;
@@ -93,6 +96,8 @@ void OutfitRun::take_up(std::span<const Vec2> panel_rest_stretch) {
     if (const auto& own = changed.collider_friction[k]) set_friction(static_cast<Index>(k), *own);
   for (std::size_t p = 0; p < changed.stiffness.size(); ++p)
     if (const auto& own = changed.stiffness[p]) set_stiffness(static_cast<Index>(p), share_of(*own));
+  for (std::size_t p = 0; p < changed.pressure_Pa.size(); ++p)
+    if (const auto& own = changed.pressure_Pa[p]) set_pressure(static_cast<Index>(p), *own);
 }
 
 void OutfitRun::set_friction(std::optional<Index> collider, double friction) {
@@ -109,6 +114,19 @@ void OutfitRun::set_stiffness(Index panel, const StiffnessShare& share) {
   set_panel_stiffness(model_, panel, share);
   changed_.stiffness.resize(model_.mesh.panel_names.size());
   changed_.stiffness[at(panel)] = Vec3(share.stretch, share.shear, share.bend);
+}
+
+void OutfitRun::set_pressure(Index panel, double Pa) {
+  const std::size_t panels = model_.mesh.panel_names.size();
+  if (panel < 0 || at(panel) >= panels)
+    throw InputError("", "panel", "a number below " + std::to_string(panels), std::to_string(panel));
+  auto known =
+      std::find_if(events_.panels.begin(), events_.panels.end(), [&](const auto& of) { return of.panel == panel; });
+  if (known == events_.panels.end()) known = events_.panels.insert(known, TimedPanel{panel, {}});
+  known->own.pressure_Pa = Pa;
+  known->own.pressure_path.clear();
+  changed_.pressure_Pa.resize(panels);
+  changed_.pressure_Pa[at(panel)] = Pa;
 }
 
 // What the phase leaves of gravity, elastic, friction and labels.
@@ -170,25 +188,27 @@ void OutfitRun::happen() {
   world_.drags.clear();
   for (const TimedDrag& timed : events_.drags)
     if (time_s() >= timed.from_s && time_s() < timed.to_s) world_.drags.push_back(timed.drag);
-  for (const TimedRestStretch& timed : events_.rest_stretch) {
-    const Vec2 b = along(timed.keys, &RestStretchKey::b, end_s);
-    Vec2& now = outfit_->rest_stretch[at(timed.panel)];
+  for (const auto& [panel, own] : events_.panels) {
+    if (own.rest_stretch_path.empty()) continue;
+    const Vec2 b = along(own.rest_stretch_path, &RestStretchKey::b, end_s);
+    Vec2& now = outfit_->rest_stretch[at(panel)];
     if (b == now) continue;
     now = b;
-    set_panel_rest_stretch(model_, timed.panel, b);
+    set_panel_rest_stretch(model_, panel, b);
   }
 }
 
 // Gravity, wind, friction and stiffness of the coming frame.
 void OutfitRun::change_in_time(double end_s) {
   if (!events_.gravity.empty()) gravity_m_per_s2_ = along(events_.gravity, &VectorKey::x, end_s);
-  if (!events_.wind.empty()) world_.air.wind_m_per_s = along(events_.wind, &VectorKey::x, end_s);
+  if (!events_.wind.empty()) wind_m_per_s_ = along(events_.wind, &VectorKey::x, end_s);
   for (const TimedFriction& timed : events_.friction)
     set_friction(timed.collider, along(timed.keys, &FrictionKey::friction, end_s));
-  for (const TimedStiffness& timed : events_.stiffness)
-    if (const StiffnessShare share = share_of(along(timed.keys, &StiffnessKey::share, end_s));
-        model_.stiffness_share.empty() || model_.stiffness_share[at(timed.panel)] != share)
-      set_stiffness(timed.panel, share);
+  for (const auto& [panel, own] : events_.panels) {
+    if (own.stiffness_path.empty()) continue;
+    const StiffnessShare share = share_of(along(own.stiffness_path, &StiffnessKey::share, end_s));
+    if (model_.stiffness_share.empty() || model_.stiffness_share[at(panel)] != share) set_stiffness(panel, share);
+  }
 }
 
 FrameReport OutfitRun::frame(double length_s) {

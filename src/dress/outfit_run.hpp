@@ -49,7 +49,12 @@ class OutfitRun {
   // Of one collider, or of all that have none of their own.
   void set_friction(std::optional<Index> collider, double friction);
   void set_stiffness(Index panel, const StiffnessShare& share);
-  void set_wind(const Vec3& m_per_s) { world_.air.wind_m_per_s = m_per_s; }
+  void set_pressure(Index panel, double Pa);  // in place of what the events say of it
+  void set_wind(const Vec3& m_per_s) { wind_m_per_s_ = m_per_s; }
+  // What forces ask (dress/forces.hpp).
+  const OutfitRunOptions& options() const { return options_; }
+  const Vec3& wind_m_per_s() const { return wind_m_per_s_; }  // of the frame
+  double grown() const { return ramped_; }  // share of elastic, and of whatever else grows after the weld
   // From the next frame on the body moves: at 0 s it is where it is now.  Rest is not awaited any more.
   void start_motion(BodyAt body_at);
   double motion_from_s() const { return motion_start_s_; }
@@ -73,8 +78,8 @@ class OutfitRun {
   void remember(Archive& archive) {
     std::vector<Vec2> b = panel_rest_stretch();
     archive.fixed(b);
-    archive(frames_, frames_from_s_, frame_s_, gravity_m_per_s2_, world_.air.wind_m_per_s, motion_start_s_,
-            without_room_, ramped_, seconds_before_, *tangles_, *stepper_, changed_);
+    archive(frames_, frames_from_s_, frame_s_, gravity_m_per_s2_, wind_m_per_s_, motion_start_s_, without_room_,
+            ramped_, seconds_before_, *tangles_, *stepper_, changed_);
     for (TimedPin& timed : events_.pins) archive(timed.pin.particle, timed.from, timed.pin.on_body);
     for (TimedDrag& timed : events_.drags) archive(timed.drag.particle, timed.drag.weight);
     if constexpr (Archive::reads) take_up(b);
@@ -92,14 +97,15 @@ class OutfitRun {
   void change_in_time(double end_s);
   void take_and_let_go();
 
-  // What was set since the run began; of a panel that has its own stiffness, and of friction, absent: as it was.
+  // What was set since the run began; absent: as it was.
   struct Changed {
     std::optional<double> friction;
     std::vector<std::optional<double>> collider_friction;
-    std::vector<std::optional<Vec3>> stiffness;  // [panel]
+    std::vector<std::optional<Vec3>> stiffness;      // [panel]
+    std::vector<std::optional<double>> pressure_Pa;  // [panel]
     template <class Archive>
     void remember(Archive& archive) {
-      archive(friction, collider_friction, stiffness);
+      archive(friction, collider_friction, stiffness, pressure_Pa);
     }
   };
 
@@ -118,7 +124,8 @@ class OutfitRun {
   Changed changed_;
   Events events_;
   Vec3 gravity_m_per_s2_{0, 0, 0};  // when it has grown to all of it
-  long frames_ = 0;                 // of one length, since
+  Vec3 wind_m_per_s_{0, 0, 0};
+  long frames_ = 0;  // of one length, since
   double frames_from_s_ = 0, frame_s_ = 0;
   std::optional<AdaptiveStep> stepper_;
 };

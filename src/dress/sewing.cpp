@@ -79,7 +79,6 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
   best_gap_m_ = longest_m_;
   mean_edge_m_ = mesh_quality(garment.mesh).mean_edge_m;
   world_.body = body;
-  world_.air.density_kg_per_m3 = 0;  // `drag_per_s` brakes loose panels
   world_.merged_particle = garment.merged;
   for (Index i = 0; i < options.held_particles; ++i) {
     Pin held;

@@ -72,7 +72,6 @@ class Untangler {
         push_(topology_, all_, start_of(x)),
         eased_(model_.bend.size(), 0) {
     if (!body.empty()) surface_.emplace(body_x, std::vector<Triangle>(body.begin(), body.end()));
-    world_.air.density_kg_per_m3 = 0;  // nothing falls
     for (const Index i : held) world_.pins.emplace_back().particle = i;
     world_.springs = [this](const ClothState&, double, double, std::vector<LinearSpring>& springs) {
       springs.insert(springs.end(), springs_.begin(), springs_.end());

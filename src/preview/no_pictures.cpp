@@ -1,6 +1,7 @@
 // preview/no_pictures.cpp: stands for ray_scene.cpp and png.cpp where Toile is built without Embree and libpng.  Nothing here draws: whoever asks
 // for a picture is told why there is none.
 #include "core/error.hpp"
+#include "preview/png.hpp"
 #include "preview/ray_scene.hpp"
 
 namespace toile::internal {
@@ -13,6 +14,10 @@ void require_pictures() {
               "Toile was built");
 }
 
+std::string png_of(const Image&, const std::string&) {
+  require_pictures();
+  return {};
+}
 void write_png(const std::string&, const Image&) { require_pictures(); }
 
 struct RayScene::Device {};

@@ -1,15 +1,15 @@
 // preview/png.cpp: pictures as PNG files, through libpng.
 //
 // Mind: libpng's simplified interface reports errors as values; the classic one jumps out of its callbacks, past destructors.
+#include "preview/png.hpp"
 #include "core/error.hpp"
 #include "io/file.hpp"
-#include "preview/preview.hpp"
 
 #include <png.h>
 
 namespace toile::internal {
 
-void write_png(const std::string& path, const Image& image) {
+std::string png_of(const Image& image, const std::string& path) {
   const auto pixels =
       static_cast<std::size_t>(std::max(image.width, 0)) * static_cast<std::size_t>(std::max(image.height, 0));
   if (pixels == 0 || image.rgb.size() != 3 * pixels) {
@@ -29,9 +29,14 @@ void write_png(const std::string& path, const Image& image) {
   const std::string reason = header.message;
   png_image_free(&header);
   if (written == 0) throw IoError(path, "cannot encode the picture: " + reason);
+  bytes.resize(size);
+  return bytes;
+}
 
+void write_png(const std::string& path, const Image& image) {
+  const std::string bytes = png_of(image, path);
   AtomicFile file(path);
-  file.write(bytes.data(), size);
+  file.write(bytes);
   file.commit();
 }
 

@@ -6,6 +6,7 @@
 #include "io/pc2.hpp"
 #include "io/run_folder.hpp"
 #include "preview/preview.hpp"
+#include "sim/picture_state.hpp"
 #include "verify/crossings.hpp"
 
 #include <algorithm>
@@ -121,9 +122,13 @@ void add_shots(const Take& take, int first, int last, int count, std::vector<Sho
         {&take, count > 1 ? first + static_cast<int>(std::lround(double(k) * (last - first) / (count - 1))) : last});
 }
 
-// Every garment of the run in a colour of its own.
-const std::array<Vec3, 4> garment_colours{Vec3(0.35, 0.45, 0.62), Vec3(0.62, 0.40, 0.34), Vec3(0.42, 0.56, 0.40),
-                                          Vec3(0.60, 0.55, 0.38)};
+// Of the take at those positions.
+std::vector<PreviewCloth> cloths_of(const Take& take, const Vec3s& x) {
+  std::vector<PreviewCloth> cloths;
+  for (std::size_t k = 0; k < take.pieces.size(); ++k)
+    cloths.push_back({take.pieces[k].triangles, take.pieces[k].uv, x, garment_colours[k % garment_colours.size()]});
+  return cloths;
+}
 
 // The first frame in which the body is about to move, from report.json; -1: it never does.
 struct Timing {
@@ -171,10 +176,7 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   const auto show = [&](const Shot& shot) {
     shot.take->frames->read(shot.frame, x);
     if (dressed && shot.take == &cloth) body.frames->read(std::min(shot.frame, body.frames->samples() - 1), body_x);
-    const auto& pieces = shot.take->pieces;
-    scene.cloths.resize(pieces.size());
-    for (std::size_t k = 0; k < pieces.size(); ++k)
-      scene.cloths[k] = {pieces[k].triangles, pieces[k].uv, x, garment_colours[k % garment_colours.size()]};
+    scene.cloths = cloths_of(*shot.take, x);
     scene.body_positions = shot.take == &sewing ? sewn_around : body_x;
   };
   std::array<Vec3, 2> box{Vec3::Constant(1e30), Vec3::Constant(-1e30)};
@@ -258,6 +260,24 @@ void picture_run(const std::string& directory, const PictureOptions& options,
     return image;
   };
   write_mp4((folder / "preview.mp4").string(), static_cast<int>(shots.size()), options.film_fps, picture, stop);
+}
+
+std::string picture_last_frame(const std::string& directory, const StillOptions& options) {
+  require_pictures();
+  const std::filesystem::path folder(directory);
+  Take cloth, body;
+  if (!cloth.open(folder, "cloth"))
+    throw IoError((folder / "cloth.obj").string(), "no such file: this directory holds no run");
+  Vec3s x, body_x;
+  cloth.frames->read(cloth.frames->samples() - 1, x);
+  PreviewScene scene;
+  if (body.open(folder, "body")) {
+    body.frames->read(std::min(cloth.frames->samples(), body.frames->samples()) - 1, body_x);
+    scene.body_triangles = body.obj.triangles;
+    scene.body_positions = body_x;
+  }
+  scene.cloths = cloths_of(cloth, x);
+  return still_of(std::move(scene), options);
 }
 
 void picture_crossings(const std::string& directory, int frame, const std::string& png) {

@@ -10,9 +10,8 @@
 // that runs has been obeyed in every word.
 #pragma once
 #include "assembly/air.hpp"
-#include "dress/keyed.hpp"
+#include "dress/events.hpp"
 #include "dress/label_springs.hpp"
-#include "dress/rigid_path.hpp"
 #include "io/json_places.hpp"
 #include "material/fabric.hpp"
 #include "material/membrane.hpp"
@@ -32,13 +31,11 @@
 
 namespace toile::internal {
 
-struct ScenePanel {  // what one panel has of its own
+struct ScenePanel : PanelInTime {  // what one panel has of its own
   std::string name;
   std::optional<Fabric> fabric;
   std::optional<double> rest_stretch_u,
       rest_stretch_v;  // b of the warp and the weft, < 1 pulls together; absent: the pattern's
-  std::vector<RestStretchKey> rest_stretch_path;
-  std::vector<StiffnessKey> stiffness_path;
 };
 
 struct ScenePin {

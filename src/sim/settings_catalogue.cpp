@@ -171,6 +171,7 @@ std::string unit_of(std::string_view key) {
                                                                             {"_N_per_m", "N/m"},
                                                                             {"_N_m", "N m"},
                                                                             {"_N", "N"},
+                                                                            {"_Pa", "Pa"},
                                                                             {"_deg", "degrees"},
                                                                             {"_mm", "mm"},
                                                                             {"_cm", "cm"},

@@ -124,6 +124,15 @@ void describe(V& v, ScenePanel& panel) {
            row.column("shear", stiffer_or_not, key.share.y());
            row.column("bend", stiffer_or_not, key.share.z());
          });
+  constexpr Range of_any_pump{-most_pressure_Pa, most_pressure_Pa};
+  v.at_most_one({"pressure_Pa", "pressure_path"});
+  v.number({"pressure_Pa", "on it, towards its right side: of a garment outwards ([pressure](#pressure))"}, of_any_pump,
+           panel.pressure_Pa);
+  v.rows({"pressure_path", "in time, Pa, instead of the constant", "constant"}, Rows{1, true}, panel.pressure_path,
+         [=](auto& row, PressureKey& key) {
+           row.column("t_s", within_a_run, key.t_s);
+           row.column("Pa", of_any_pump, key.Pa);
+         });
 }
 
 template <class V>

@@ -218,8 +218,7 @@ LoadedCloth load_cloth(const Scene& scene, std::size_t k, const TextSource& read
   const std::vector<std::string>& names = loaded.garment.mesh.panel_names;
   for (const ScenePanel& panel : cloth.panels) {
     const auto number = static_cast<Index>(std::find(names.begin(), names.end(), panel.name) - names.begin());
-    if (!panel.rest_stretch_path.empty()) loaded.rest_stretch_paths.push_back({number, panel.rest_stretch_path});
-    if (!panel.stiffness_path.empty()) loaded.stiffness_paths.push_back({number, panel.stiffness_path});
+    loaded.panels.push_back({number, panel});
   }
   loaded.edge_m =
       cloth.arrays ? mesh_quality(loaded.garment.mesh).mean_edge_m : counted_edge_m.value_or(cloth.edge_m());
@@ -256,13 +255,9 @@ Events events_of(const Scene& scene, const Outfit& outfit, std::span<const Loade
       drag.drag.particle[0] = first + nearest_particle(x, drag.near_m);
       events.drags.push_back(std::move(drag));
     }
-    for (TimedRestStretch path : cloth[k].rest_stretch_paths) {
-      path.panel += part.first_panel;
-      events.rest_stretch.push_back(std::move(path));
-    }
-    for (TimedStiffness path : cloth[k].stiffness_paths) {
-      path.panel += part.first_panel;
-      events.stiffness.push_back(std::move(path));
+    for (TimedPanel panel : cloth[k].panels) {
+      panel.panel += part.first_panel;
+      events.panels.push_back(std::move(panel));
     }
     first += part.particles;
   }

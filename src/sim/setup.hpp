@@ -25,9 +25,8 @@ struct LoadedCloth {
   std::vector<Vec2> rest_stretch;  // [panel] (b_u, b_v)
   std::vector<TimedPin> pins;      // on the particles of `garment`, of a cloth that is not sewn
   std::vector<TimedDrag> drags;    // likewise
-  std::vector<TimedRestStretch> rest_stretch_paths;
-  std::vector<TimedStiffness> stiffness_paths;
-  double edge_m = 0;  // that its triangles were asked to have
+  std::vector<TimedPanel> panels;  // of `garment`
+  double edge_m = 0;               // that its triangles were asked to have
   std::vector<std::string> warnings;
   std::uint64_t input_hash = 0;  // of the files or arrays that it was made of; 0: of none
 };

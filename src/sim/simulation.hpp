@@ -211,7 +211,6 @@ class Simulation {
   void close();
   int frames_in_motion() const;
   void watch_falling();
-  bool in_wind() const;
   bool lost();
   bool goes_on();
   void judge_end();

@@ -1,5 +1,6 @@
 // sim/simulation_live.cpp: from the first written frame to the last: the drape, then the motion.
 #include "body/arms.hpp"
+#include "dress/forces.hpp"
 #include "sim/simulation.hpp"
 
 #include <fmt/printf.h>
@@ -61,8 +62,8 @@ Events Simulation::events() {
 
 void Simulation::show_first() {
   std::vector<Vec2> rest_stretch = outfit_.rest_stretch;  // at the end
-  for (const TimedRestStretch& timed : run_->events().rest_stretch)
-    rest_stretch[static_cast<std::size_t>(timed.panel)] = timed.keys.back().b;
+  for (const auto& [panel, own] : run_->events().panels)
+    if (!own.rest_stretch_path.empty()) rest_stretch[at(panel)] = own.rest_stretch_path.back().b;
   for (std::size_t p = 0; p < rest_stretch.size(); ++p) {
     const Vec2& b = rest_stretch[p];
     if (b != Vec2(1, 1)) report_.rest_stretch.push_back({outfit_.mesh.panel_names[p], {b.y(), b.x()}});
@@ -119,10 +120,6 @@ void Simulation::watch_falling() {
                       motion_ ? frames_in_motion() * frame_s() : 0, frame_s());
 }
 
-bool Simulation::in_wind() const {
-  return scene_.air.density_kg_per_m3 > 0 && (!scene_.air.wind_m_per_s.isZero(0) || !scene_.wind_path.empty());
-}
-
 bool Simulation::lost() {
   const std::optional<LostGarment> lost = fall_watch_->find(outfit_.parts, outfit_.state, body_x_);
   if (!lost) return false;
@@ -135,7 +132,7 @@ bool Simulation::lost() {
 }
 
 bool Simulation::goes_on() {
-  if (!fall_watch_ || !run_->settled() || in_wind()) return true;
+  if (!fall_watch_ || !run_->settled() || may_lift(*run_)) return true;
   return !lost() && !(place_.phase == RunPhase::drape && slid_down(beyond_return));
 }
 
@@ -145,7 +142,7 @@ void Simulation::judge_end() {
     failure_.push_back({std::string(reason::not_settled),
                         fmt::sprintf("it ended %.3g s after the weld; gravity and elastic are full after %.3g s",
                                      run_->time_s(), settling_s)});
-  else if (fall_watch_ && in_wind())
+  else if (fall_watch_ && may_lift(*run_))
     lost();
 }
 

@@ -123,19 +123,26 @@ void ImplicitEuler::hold_pins(const ClothState& state, double t_s, const StepFor
   }
 }
 
+void ImplicitEuler::evaluate_forces(const ClothState& at, double end_s) {
+  force_is_prepared_.resize(world_->forces.size(), 0);
+  acting_.clear();
+  for (std::size_t k = 0; k < world_->forces.size(); ++k) {
+    Force& force = *world_->forces[k];
+    if (!force.acts(end_s)) continue;
+    if (!std::exchange(force_is_prepared_[k], 1)) force.prepare(*model_, *elements_.pattern());
+    force.evaluate(at, end_s);
+    acting_.push_back(&force);
+  }
+}
+
 void ImplicitEuler::assemble(const ClothState& at, double t_s, const StepFormula& step) {
   const double H = step.weight_s;
-  const bool in_air = world_->air.density_kg_per_m3 > 0;
-  if (in_air) {
-    const double end_s = t_s + step.h_s;
-    if (!air_) air_.emplace(*model_, *elements_.pattern());
-    air_->evaluate(world_->air, world_->wind ? world_->wind(end_s) : world_->air.wind_m_per_s, at);
-  }
+  evaluate_forces(at, t_s + step.h_s);
   solver_.assemble([&](auto& A) {
     for (std::size_t i = 0; i < force_.size(); ++i)
       A.grounded(static_cast<Index>(i)) = model_->mass_kg[i] * (1 + H * model_->drag_per_s) * Mat3::Identity();
     elements_.assemble(H, A);
-    if (in_air) air_->assemble(H, A);
+    for (const Force* force : acting_) force->assemble(H, A);
   });
 }
 
@@ -153,7 +160,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     assemble(state, t_s, step);
     linearised_is_old_ = true;
     force_linearised_ = force_;
-    if (world_->air.density_kg_per_m3 > 0) air_->add_forces(force_linearised_);
+    for (const Force* force : acting_) force->add_forces(force_linearised_);
     x_linearised_ = state.x;
     for (std::size_t i = 0; i < n; ++i) {
       reference_[i] = (step.weight_s * model_->mass_kg[i]) * model_->gravity_m_per_s2;
@@ -243,9 +250,9 @@ void ImplicitEuler::relinearise(const ClothState& state, double t_s, const StepF
   for (std::size_t i = 0; i < force_linearised_.size(); ++i)
     force_linearised_[i] += model_->mass_kg[i] * (model_->gravity_m_per_s2 - model_->drag_per_s * state.v[i]);
   assemble(candidate, t_s, step);
-  if (world_->air.density_kg_per_m3 > 0) {  // F(v') = F(v^k) - B (v' - v^k) = F(v^k) + B (v^k - v) - B dv
-    air_->add_forces(force_linearised_);
-    air_->add_damping(dv_, force_linearised_);
+  for (const Force* force : acting_) {  // F(v') = F(v^k) - B (v' - v^k) = F(v^k) + B (v^k - v) - B dv
+    force->add_forces(force_linearised_);
+    force->add_damping(dv_, force_linearised_);
   }
 }
 

@@ -11,8 +11,8 @@
 //                        relinearised about the end found so far while a thread stretches too much there
 //                     -> candidate -> safe filter
 #pragma once
-#include "assembly/air.hpp"
 #include "assembly/elements.hpp"
+#include "assembly/force.hpp"
 #include "solver/step_solver.hpp"
 #include "step/body_at.hpp"
 #include "step/body_attachment.hpp"
@@ -25,7 +25,9 @@
 #include "step/swallowed.hpp"
 
 #include <functional>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace toile::internal {
@@ -81,9 +83,8 @@ struct StepWorld {
   std::vector<Drag> drags;
   // Appends extra springs (sewing, attachments) at a state, for a step of h_s that ends at end_s.
   std::function<void(const ClothState&, double end_s, double h_s, std::vector<LinearSpring>&)> springs;
-  AirOptions air;                        // density 0: none
-  std::function<Vec3(double t_s)> wind;  // m/s, at the end of a step; empty: air.wind_m_per_s at all times
-  std::vector<Index> merged_particle;    // open seams: contact/proximity.hpp
+  std::vector<std::unique_ptr<Force>> forces;  // in the order in which they are added; the same from the first step on
+  std::vector<Index> merged_particle;          // open seams: contact/proximity.hpp
 };
 
 class ImplicitEuler {
@@ -137,6 +138,7 @@ class ImplicitEuler {
  private:
   void move_body(double t_s, double h_s);
   void hold_pins(const ClothState& state, double t_s, const StepFormula& step);
+  void evaluate_forces(const ClothState& at, double end_s);
   void assemble(const ClothState& at, double t_s, const StepFormula& step);
   void relinearise(const ClothState& state, double t_s, const StepFormula& step, const ClothState& candidate);
   bool solve_with_contacts(const ClothState& state, double t_s, const StepFormula& step, int iteration,
@@ -158,7 +160,8 @@ class ImplicitEuler {
   StepOptions options_;
   Elements elements_;
   StretchChanges stretch_;
-  std::optional<Air> air_;  // from the first step in air on
+  std::vector<char> force_is_prepared_;  // [force of the world]
+  std::vector<Force*> acting_;           // in the step at hand, evaluated
   StepSolver solver_;
   ParticleConstraints constraints_;
   BodyConstraints body_;

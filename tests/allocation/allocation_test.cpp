@@ -1,5 +1,7 @@
 // A step allocates nothing once its buffers have grown to the contacts at hand, and all of it together is not too much.  Counted at
 // malloc, below operator new, because Eigen's matrices call malloc themselves.  One thread: what TBB takes for its own tasks is not ours.
+#include "assembly/air.hpp"
+#include "assembly/pressure.hpp"
 #include "support/bodies.hpp"
 #include "support/run_cloth.hpp"
 
@@ -105,6 +107,22 @@ TEST(Allocation, NoneAfterTheFirstStepOfASheetLyingOnABody) {
   const std::vector<long> counts = allocations_of_frames(run, 30);
   EXPECT_GT(run.stepper->integrator().body_constraints().touching(), 50);
   EXPECT_EQ(sum(counts, 1), 0);
+}
+
+TEST(Allocation, AStepUnderForcesTakesNoMemory) {
+  ClothRun run(test::equilateral_sheet(0.4, 0.4, 0.02), Fabric{});
+  run.step.rows.cloth_cloth = false;
+  run.add_force<Air>(AirOptions{Vec3(2, 0, 1)});
+  run.add_force<Pressure>([](double end_s, std::span<double> panel_Pa) { panel_Pa[0] = end_s > 0.5 ? 0.5 : 0; },
+                          std::size_t{1});
+  run.pin(0);
+  run.pin(20);
+  run.start();
+  const std::vector<long> counts = allocations_of_frames(run, 30);
+  EXPECT_GT(counts[0], 0);
+  const auto takes = [](long count) { return count > 0; };
+  EXPECT_LE(std::count_if(counts.begin() + 1, counts.end(), takes), 1) << "but the first under pressure";
+  EXPECT_EQ(sum(counts, 20), 0);
 }
 
 // Contacts come and go for good while the sheet folds over the ball: buffers double, so that their growth ends.

@@ -92,6 +92,42 @@ TEST(Changes, APanelThatSoftensHangsLonger) {
   EXPECT_THROW(sim.set_stiffness(0, {.bend = 0}), InputError);
 }
 
+// What lifts a sheet, and what a state knows of it.
+TEST(Changes, PressureBetweenFrames) {
+  const Arrays arrays = test::level_sheet(6, 0.03, 0);
+  Cloth cloth = Cloth::from_arrays({.vertices_m = arrays.vertices_m, .faces = arrays.faces});
+  cloth.set_name("sheet");
+  Fabric fabric = toile::fabric("cotton");
+  fabric.density_kg_per_m2 = 0.2;
+  cloth.set_fabric(fabric).set_panel_pressure("sheet", 0.2 * 9.81);
+  SimulationOptions options;
+  options.air_density_kg_per_m3 = 0;
+  Simulation sim(cloth, Body::none(), options);
+  const auto height = [](const Simulation& of) {
+    double mean = 0;
+    for (const Point& p : of.positions_m()) mean += p[1] / static_cast<double>(of.positions_m().size());
+    return mean;
+  };
+  for (int k = 0; k < 15; ++k) ASSERT_TRUE(sim.advance(1.0 / 30).ok());
+  EXPECT_NEAR(height(sim), 0, 1e-6) << "it carries the weight";
+  sim.set_pressure(0, 2 * 0.2 * 9.81);
+  const State changed = sim.state();
+  for (int k = 0; k < 15; ++k) ASSERT_TRUE(sim.advance(1.0 / 30).ok());
+  EXPECT_NEAR(height(sim), 0.5 * 9.81 * 0.25, 0.1) << "as much again lifts it";
+  Simulation other(cloth, Body::none(), options);
+  other.set_state(changed);
+  for (int k = 0; k < 15; ++k) ASSERT_TRUE(other.advance(1.0 / 30).ok());
+  EXPECT_EQ(other.state_hash(), sim.state_hash()) << "a state knows the pressure";
+  sim.reset();
+  for (int k = 0; k < 15; ++k) ASSERT_TRUE(sim.advance(1.0 / 30).ok());
+  EXPECT_NEAR(height(sim), 0, 1e-6) << "as it was made";
+  EXPECT_THROW(sim.set_pressure(1, 5), InputError);
+  EXPECT_THROW(sim.set_pressure(0, std::nan("")), InputError);
+  EXPECT_THROW(cloth.set_panel_pressure("sheet", 1e6), InputError);
+  cloth.set_panel_pressure("other", 5);
+  EXPECT_THROW(Simulation(cloth, Body::none(), options), InputError) << "no such panel";
+}
+
 // A flag on a pole that turns once around.
 TEST(Changes, WhatIsAttachedGoesWithTheBodyUntilItIsReleased) {
   const Cloth cloth = [] {

@@ -20,19 +20,24 @@ struct Blown {
     const Fabric fabric;
     model = build_model(sheet.mesh, {&fabric, 1});
     elements.emplace(model);
-    air.emplace(model, *elements->pattern());
     state.x = test::crumpled(sheet.x, crumple_m, seed);
     test::Random random(seed + 1);
     for (std::size_t i = 0; i < state.x.size(); ++i) state.v.push_back(random.vector(2));
   }
+  void evaluate(const Vec3& wind) {
+    air.emplace(thick_air, [=](double) { return wind; });
+    ASSERT_TRUE(air->acts(0));
+    air->prepare(model, *elements->pattern());
+    air->evaluate(state, 0);
+  }
   Vec3s forces(const Vec3& wind) {
-    air->evaluate(thick_air, wind, state);
+    evaluate(wind);
     Vec3s f(state.x.size(), Vec3::Zero());
     air->add_forces(f);
     return f;
   }
   Eigen::MatrixXd damping(const Vec3& wind) {  // h D for h = 1
-    air->evaluate(thick_air, wind, state);
+    evaluate(wind);
     BlockMatrix<double> A(elements->pattern());
     air->assemble(1, A);
     return A.to_dense();

@@ -149,7 +149,7 @@ TEST(Fold, ClothFoldsItselfToTheAngleAndRestsThere) {
     options.drag_per_s = 5;
     ClothModel model = build_model(garment.mesh, {&fabric, 1}, options);
     ClothState state{garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
-    StepWorld world = test::vacuum();
+    StepWorld world;
     AdaptiveStep stepper(model, world, test::bare_step(), AdaptiveOptions{});
     for (int frame = 0; frame < 60; ++frame) {
       set_folds(model, std::min(1.0, frame / 20.0));

@@ -95,8 +95,13 @@ void ClothPart::set_panels(Object& cloth, const std::string& panel) const {
     what.set("rest_stretch_u", "0.95").set("rest_stretch_v", number(draw_.between("rest stretch", 0.8, 1.1)));
   if (is("panel", "rest_stretch_path"))
     what.set("rest_stretch_path", list({list({"0", "1", "1"}), list({number(seconds_), "0.93", "0.97"})}));
+  if (is("panel", "pressure")) what.set("pressure_Pa", number(draw_.between("pressure", -1, 3)));
+  if (is("panel", "pressure_path"))
+    what.set("pressure_path",
+             list({list({"0", "0"}), list({number(seconds_), number(draw_.between("pumped", -1, 3))})}));
   if (variant_.defaults) {
     what.set_if_absent("fabric", fabric());
+    if (!is("panel", "pressure_path")) what.set_if_absent("pressure_Pa", "0");
     what.set_if_absent("rest_stretch_u", "1").set_if_absent("rest_stretch_v", "1");
   }
   if (!what.empty()) cloth.set("panels", Object().set(panel, what.text()).text());

@@ -11,7 +11,7 @@ const Space& scene_space() {
           {"placed", {"in front", "lying above", "turned", "as drawn", "through", "around the body"}},
           {"labels", {"free", "held"}},
           {"fabric", {"default", "silk", "wool", "denim", "knit", "numbers", "limited", "bare"}},
-          {"panel", {"none", "fabric", "rest_stretch", "rest_stretch_path"}},
+          {"panel", {"none", "fabric", "rest_stretch", "rest_stretch_path", "pressure", "pressure_path"}},
           {"pins", {"none", "near", "box", "path", "moves", "box moves", "let go", "taken later"}},
           {"drags", {"none", "one", "stiff", "two"}},
           {"body", {"none", "mannequin", "mesh", "mesh in cm", "cylinder"}},

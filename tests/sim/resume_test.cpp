@@ -80,7 +80,7 @@ TEST(Resume, OfShapesThatAreLedAndPulled) {
   compare(parse_scene(R"({"cloth": [
       {"name": "flag", "grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.05}, "placement": {"translation_m": [0, 0.3, 0], "rotation_deg": [-90, 0, 0]},
        "pins": [{"near_m": [-0.15, 0.3, -0.15], "to_s": 0.2}, {"in_box_m": [[0.14, 0.2, -0.2], [0.2, 0.4, 0.2]], "hold": "moves", "from_s": 0.1, "moves": [{"t_s": 0.1}, {"t_s": 0.4, "shift_m": [0.1, 0, 0], "rotation_deg": [0, 30, 0]}]}],
-       "panels": {"flag": {"rest_stretch_path": [[0.1, 1, 1], [0.4, 0.9, 0.95]]}}},
+       "panels": {"flag": {"rest_stretch_path": [[0.1, 1, 1], [0.4, 0.9, 0.95]], "pressure_path": [[0.2, 0], [0.4, 3]]}}},
       {"name": "other", "grid": {"width_m": 0.3, "height_m": 0.2, "edge_m": 0.05}, "placement": {"translation_m": [0, 0.26, 0], "rotation_deg": [-90, 0, 0]},
        "drags": [{"near_m": [0.1, 0.26, 0.1], "path_m": [[0, 0.1, 0.3, 0.1], [0.3, 0.2, 0.4, 0.1]]}]}],
       "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.4, "top_m": [0, 0.2, 0]}},

@@ -1,4 +1,5 @@
 // Cloth in air: falling against closed forms, and in wind.
+#include "assembly/air.hpp"
 #include "support/run_cloth.hpp"
 
 namespace toile::internal {
@@ -20,9 +21,9 @@ TEST(Air, AFallingSheetApproachesItsTerminalVelocityAsTheClosedFormSays) {
   Fabric fabric = test::linear_cotton();
   fabric.density_kg_per_m2 = 0.15;
   ClothRun run(test::equilateral_sheet(0.2, 0.2, 0.02), fabric);
-  run.world.air.density_kg_per_m3 = 1.2;
+  run.add_force<Air>(AirOptions{});
   run.adaptive.step_max_s = 1.0 / 480;
-  const double terminal = std::sqrt(2 * 0.15 * gravity / (1.2 * run.world.air.normal_coefficient));
+  const double terminal = std::sqrt(2 * 0.15 * gravity / (1.2 * AirOptions{}.normal_coefficient));
   for (int f = 0; f < 30; ++f) {
     run.frame();
     const double exact = terminal * std::tanh(gravity * run.time_s / terminal);
@@ -47,9 +48,10 @@ TEST(Air, AFlagReachesOutInWindAsPressureAndWeightSay) {
     Fabric silk = fabric_preset("silk", "", "");
     silk.compression_ratio = 1;
     ClothRun run(sheet, silk);
-    run.world.air.density_kg_per_m3 = 1.2;
-    run.world.air.tangential_coefficient = 0;
-    run.world.air.wind_m_per_s = Vec3(wind, 0, 0);
+    AirOptions air;
+    air.tangential_coefficient = 0;
+    air.wind_m_per_s = Vec3(wind, 0, 0);
+    run.add_force<Air>(air);
     for (std::size_t i = 0; i < sheet.x.size(); ++i) {
       if (sheet.x[i].y() > -1e-9) run.pin(static_cast<Index>(i));
     }
@@ -65,7 +67,7 @@ TEST(Air, AFlagReachesOutInWindAsPressureAndWeightSay) {
       }
     }
     EXPECT_LT(speed, newton_iterations == 1 ? 0.05 : 1e-3) << wind << " m/s";
-    const double ratio = 1.2 * run.world.air.normal_coefficient * wind * wind / (2 * 0.07 * gravity);
+    const double ratio = 1.2 * air.normal_coefficient * wind * wind / (2 * 0.07 * gravity);
     double low = 0, high = 1;  // of sin(theta)
     for (int k = 0; k < 60; ++k) {
       const double s = 0.5 * (low + high);
@@ -79,8 +81,7 @@ TEST(Air, WindMayChangeWithTime) {
   ModelOptions weightless;
   weightless.gravity_m_per_s2.setZero();
   ClothRun run(test::equilateral_sheet(0.1, 0.1, 0.02), Fabric{}, weightless);
-  run.world.air.density_kg_per_m3 = 1.2;
-  run.world.wind = [](double t_s) -> Vec3 { return t_s > 0.5 + 1e-9 ? Vec3(0, 2, 0) : Vec3(0, 0, 0); };
+  run.add_force<Air>(AirOptions{}, [](double t_s) -> Vec3 { return t_s > 0.5 + 1e-9 ? Vec3(0, 2, 0) : Vec3(0, 0, 0); });
   run.run(15);
   EXPECT_LT(run.fastest(), 1e-12);
   run.frame();
@@ -95,9 +96,11 @@ TEST(Air, HoweverThickItBrakesWithoutReversing) {
   ModelOptions weightless;
   weightless.gravity_m_per_s2.setZero();
   ClothRun run(test::equilateral_sheet(0.1, 0.1, 0.02), Fabric{}, weightless);
-  run.world.air.density_kg_per_m3 = 1000;
+  AirOptions thick;
+  thick.density_kg_per_m3 = 1000;
+  run.add_force<Air>(thick);
   for (Vec3& v : run.state.v) v = Vec3(0, 2, 0);
-  const double c = 0.5 * 1000 * run.world.air.normal_coefficient;
+  const double c = 0.5 * 1000 * thick.normal_coefficient;
   double u = 2;
   for (int f = 0; f < 4; ++f) {
     const FrameReport report = run.frame();
@@ -110,7 +113,7 @@ TEST(Air, HoweverThickItBrakesWithoutReversing) {
 TEST(Air, WithoutDensityThereIsNone) {
   ClothRun still(test::equilateral_sheet(0.1, 0.1, 0.02), Fabric{}),
       windy(test::equilateral_sheet(0.1, 0.1, 0.02), Fabric{});
-  windy.world.air.wind_m_per_s = Vec3(20, 0, 0);
+  windy.add_force<Air>(AirOptions{Vec3(20, 0, 0), 0});
   for (ClothRun* run : {&still, &windy}) {
     run->pin(0);
     run->run(10);

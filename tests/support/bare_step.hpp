@@ -1,5 +1,5 @@
 // tests/support/bare_step.hpp: the step as the paper has it, for tests that look at one thing alone.  What a scene gets when it says
-// nothing (StepOptions{}, AirOptions{}) solves again where threads stretch too much, holds what the body pinches, and has air.
+// nothing solves again where threads stretch too much and holds what the body pinches (StepOptions{}), and has air (AirOptions{}).
 #pragma once
 #include "step/implicit_euler.hpp"
 
@@ -12,12 +12,6 @@ inline StepOptions bare_step() {
   options.flypaper = false;
   options.body.friction = 0.4;
   return options;
-}
-
-inline StepWorld vacuum() {
-  StepWorld world;
-  world.air.density_kg_per_m3 = 0;
-  return world;
 }
 
 }  // namespace toile::internal::test

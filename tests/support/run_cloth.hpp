@@ -30,6 +30,10 @@ struct ClothRun {
     pin.particle = particle;
     world.pins.push_back(pin);
   }
+  template <class F, class... Arguments>
+  void add_force(Arguments&&... arguments) {
+    world.forces.push_back(std::make_unique<F>(std::forward<Arguments>(arguments)...));
+  }
   void start() { stepper.emplace(model, world, step, adaptive); }
   FrameReport frame(double frame_s = 1.0 / 30) {
     if (!stepper) start();
@@ -47,7 +51,7 @@ struct ClothRun {
     return speed;
   }
   ClothModel model;
-  StepWorld world = vacuum();
+  StepWorld world;
   StepOptions step = bare_step();
   AdaptiveOptions adaptive;
   ClothState state;

@@ -1,0 +1,45 @@
+// assembly/force.hpp: a force on the cloth from outside, and its part of the implicit step.                  [BW98 4.4]
+//
+//   F(x, v)       a force on every particle, N
+//   B             minus its derivative by velocity, or what of it is fit for A;  in A: h B
+//
+// The step walks through a list of forces in their order and knows none of them.  One call serves the whole cloth, and from the second step on
+// none takes memory.  Adding one: docs/howto/add-a-force.md.
+//
+// What a force may add to A: symmetric; positive semidefinite, or conjugate gradients fail; on blocks that the pattern has, those of the edges of
+// triangles.  What of the derivative is not so is left out, and the force's header says what, and why the step bears it: F is then that of the state
+// which the step is linearised about, its start or the end that was found so far.  Where cloth is at rest nothing of that is left.
+//
+// Easily got wrong: parallel sums.  Bits must not depend on the number of threads: gather by particle and by block, or add in the order of triangles.
+#pragma once
+#include "assembly/block_matrix.hpp"
+#include "assembly/cloth_model.hpp"
+
+#include <span>
+
+namespace toile::internal {
+
+class Force {
+ public:
+  Force() = default;
+  virtual ~Force() = default;
+  Force(const Force&) = delete;  // a list holds it by its base
+  Force& operator=(const Force&) = delete;
+
+  // Whether there is any in a step that ends at end_s.  If not, nothing else is called.
+  virtual bool acts(double end_s) = 0;
+  // Before the first step in which it acts.  The model's mesh stays as it is.
+  virtual void prepare(const ClothModel& model, const BlockPattern& pattern) = 0;
+  // F and B at this state, for a step that ends at end_s.
+  virtual void evaluate(const ClothState& state, double end_s) = 0;
+
+  // f_i += F_i.
+  virtual void add_forces(std::span<Vec3> f) const = 0;
+  // f_i += sum_j B_ij u_j: the linearised force at v less that at v + u.  Of a force without B, nothing.
+  virtual void add_damping(std::span<const Vec3> /*u*/, std::span<Vec3> /*f*/) const {}
+  // A += h B.  The diagonal is updated.
+  virtual void assemble(double /*h_s*/, BlockMatrix<float>& /*A*/) const {}
+  virtual void assemble(double /*h_s*/, BlockMatrix<double>& /*A*/) const {}
+};
+
+}  // namespace toile::internal
