@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-headers = ["version", "types", "error", "fabric", "cloth", "body", "simulation", "verify", "run", "picture"]
+headers = ["version", "types", "error", "fabric", "cloth", "body", "simulation", "verify", "run"]
 head = """# Reference
 
 Made by `tools/api_reference.py` (`make api-reference`) from `include/toile` and `python/toile`; do not edit. To begin with: [C++](howto/cpp.md),

@@ -2,7 +2,7 @@
 #include "module.hpp"
 #include "working.hpp"
 
-#include <toile/picture.hpp>
+#include <toile/run.hpp>
 
 #include <nanobind/stl/string.h>
 

@@ -1,7 +1,6 @@
-#include "toile/picture.hpp"
-
 #include "api/implementation.hpp"
 #include "sim/picture_state.hpp"
+#include "toile/run.hpp"
 
 namespace toile {
 

@@ -25,7 +25,7 @@ struct StiffnessKey {  // shares of the stretch, shear and bend of a panel's fab
 };
 
 inline constexpr double most_pressure_Pa = 1e5;  // an atmosphere
-struct PressureKey {  // on a panel, towards its right side
+struct PressureKey {                             // on a panel, towards its right side
   double t_s = 0, Pa = 0;
 };
 

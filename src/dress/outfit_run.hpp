@@ -1,6 +1,7 @@
 // dress/outfit_run.hpp: an outfit in time, from the weld of its last garment on: phase after phase (dress/phase.hpp) on one integrator, which keeps
 // what it knows of contacts and where friction holds them.  The next garment makes another mesh of it, and another run.
 #pragma once
+#include "assembly/air.hpp"
 #include "dress/events.hpp"
 #include "dress/label_springs.hpp"
 #include "dress/outfit.hpp"

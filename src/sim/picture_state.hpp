@@ -1,8 +1,8 @@
 // sim/picture_state.hpp: a still of cloth and body in memory.
 #pragma once
+#include "dress/outfit.hpp"
 #include "mesh/cloth_mesh.hpp"
 #include "preview/preview.hpp"
-#include "sim/outfit.hpp"
 
 #include <array>
 #include <span>

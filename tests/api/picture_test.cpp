@@ -1,6 +1,4 @@
 // Stills in memory.
-#include "toile/picture.hpp"
-
 #include "arrays.hpp"
 #include "io/scratch.hpp"
 #include "preview/preview.hpp"

@@ -3,7 +3,9 @@
 
 #include "arrays.hpp"
 #include "io/scratch.hpp"
+#include "message_of.hpp"
 #include "sim/simulate.hpp"
+#include "support/tube_pattern.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +15,7 @@ namespace toile {
 namespace {
 
 using Scratch = internal::Scratch;
+using test::message_of;
 
 std::string scene_text() {
   return R"({"name": "drop", "cloth": [{"grid": {"width_m": 0.4, "height_m": 0.4, "edge_m": 0.04},
@@ -144,6 +147,27 @@ TEST(Scene, ADressThatThrowsLeavesItAsItWas) {
     EXPECT_EQ(sim.state_hash(), before);
     EXPECT_TRUE(sim.warnings().empty()) << sim.warnings().front();
   }
+}
+
+// What is found only when the scene is loaded, or when the cloth is on; without a file there is no line to name.
+TEST(Scene, IsRefusedByFileAndLine) {
+  const Scratch scratch;
+  const std::string bad = scratch.put("bad.json", R"({"cloth": [{"grid": {"edge_m": 0.2}}], "solids": [
+  {"capsule": {"radius_m": 0.1, "from_m": [1, 0, 0], "to_m": [1, 0, 0]}}]})");
+  const std::string refused = "to_m: expected another place than from_m, got the same: that is a sphere";
+  EXPECT_EQ(message_of<InputError>([&] { Simulation::from_scene(bad); }), bad + ":2:3: /solids/0: " + refused);
+  EXPECT_EQ(message_of<InputError>([&] { run_scene(bad, scratch / "run"); }), bad + ":2:3: /solids/0: " + refused);
+  const Cloth sheet = Cloth::grid({.width_m = 1, .height_m = 1, .edge_m = 0.2});
+  const Body point = Body::capsule(0.1, {1, 0, 0}, {1, 0, 0});
+  EXPECT_EQ(message_of<InputError>([&] { Simulation(sheet, point); }), refused);
+
+  scratch.put("tube.json", internal::test::tube_pattern_text);
+  const std::string pinned =
+      scratch.put("pinned.json", R"({"cloth": [{"pattern": "tube.json", "resolution_cm": 5, "pins": [
+    {"in_box_m": [[5, 5, 5], [6, 6, 6]]}]}], "body": {"cylinder": {"radius_m": 0.1, "height_m": 1, "top_m": [0, 0.6, 0]}}})");
+  Simulation sewn = Simulation::from_scene(pinned);
+  EXPECT_EQ(message_of<InputError>([&] { sewn.dress(0.1); }),
+            pinned + ":2:5: /cloth/0/pins/0: expected a box with particles of the cloth in it, got none");
 }
 
 TEST(Fabric, ADefaultOneIsCottonInEveryNumber) {

@@ -1,6 +1,5 @@
 // Against a libtoile that was built without pictures: asking for one is an error, which comes out of the library as what it is.
 #include <toile/error.hpp>
-#include <toile/picture.hpp>
 #include <toile/run.hpp>
 
 #include <cstdio>

@@ -1,8 +1,8 @@
 // Pressure in scenes: a balloon, pressure in time, a cushion that is sewn, and refusals.
+#include "dress/forces.hpp"
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
 #include "io/scratch.hpp"
-#include "dress/forces.hpp"
 #include "sim/setup.hpp"
 #include "sim/simulate.hpp"
 #include "support/bodies.hpp"
