@@ -135,13 +135,18 @@ TEST(PressureInScenes, ACushionIsFilledOnceItIsSewn) {
 }
 
 TEST(PressureInScenes, MayLift) {
-  const auto scene = [](const std::string& of_sheet) {
-    return parse_scene(R"({"cloth": [{"name": "sheet", "grid": {}, "panels": {"sheet": )" + of_sheet + "}}]}",
-                       "s.json");
+  const auto lifts = [](const std::string& of_sheet) {
+    const Scene scene =
+        parse_scene(R"({"cloth": [{"name": "sheet", "grid": {}, "panels": {"sheet": )" + of_sheet + "}}]}", "s.json");
+    const std::vector<LoadedCloth> cloth{load_cloth(scene, 0, read_text_file)};
+    Outfit outfit = outfit_of_shapes(cloth);
+    OutfitRun run(run_options(scene, step_options(scene, cloth.front().edge_m)), outfit, nullptr);
+    run.set_events(events_of(scene, outfit, cloth));
+    return may_lift(run);
   };
-  EXPECT_FALSE(may_lift(scene("{}")));
-  EXPECT_TRUE(may_lift(scene(R"({"pressure_Pa": 3})")));
-  EXPECT_TRUE(may_lift(scene(R"({"pressure_path": [[0, 1]]})")));
+  EXPECT_FALSE(lifts("{}"));
+  EXPECT_TRUE(lifts(R"({"pressure_Pa": 3})"));
+  EXPECT_TRUE(lifts(R"({"pressure_path": [[0, 1]]})"));
 }
 
 }  // namespace
