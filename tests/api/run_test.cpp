@@ -3,8 +3,8 @@
 
 #include "arrays.hpp"
 #include "io/scratch.hpp"
-#include "message_of.hpp"
 #include "sim/simulate.hpp"
+#include "support/message_of.hpp"
 #include "support/tube_pattern.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "toile/simulation.hpp"
 
 #include "arrays.hpp"
-#include "message_of.hpp"
+#include "support/message_of.hpp"
 #include "toile/version.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Several colliders: friction, offset and motion of each; which of them the caller leads.
 #include "arrays.hpp"
-#include "message_of.hpp"
+#include "support/message_of.hpp"
 #include "toile/simulation.hpp"
 
 #include <gtest/gtest.h>

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "io/scratch.hpp"
 #include "preview/preview.hpp"
+#include "support/message_of.hpp"
 
 namespace toile::internal {
 namespace {
@@ -51,14 +52,7 @@ void fake_ffmpeg(const Scratch& scratch, const std::string& script) {
   std::filesystem::permissions(scratch / "ffmpeg", std::filesystem::perms::owner_all);
 }
 
-std::string message_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const IoError& e) {
-    return e.what();
-  }
-  return "nothing was thrown";
-}
+using toile::test::message_of;
 
 TEST(Film, HoldsEveryPictureInOrder) {
   if (!have("ffmpeg") || !have("ffprobe")) GTEST_SKIP() << "needs ffmpeg and ffprobe in PATH";
@@ -103,7 +97,7 @@ TEST(Film, SaysHowToGetFfmpegWhenItIsNotThereAndDrawsNoPicture) {
   const Scratch scratch;
   for (const std::string& path : {std::string(), scratch.directory()}) {
     const Path empty(path);
-    const std::string message = message_of([&] {
+    const std::string message = message_of<IoError>([&] {
       write_mp4(scratch / "a.mp4", 3, 30, [](int) -> Image {
         ADD_FAILURE() << "a picture was asked for";
         return grey(0);
@@ -144,7 +138,7 @@ TEST(Film, PassesOnTheLastLineOfAnEncoderThatDies) {
   fake_ffmpeg(scratch, "echo 'first trouble' >&2\necho 'disk is on fire' >&2\nexit 3\n");
   const Path path(scratch.directory());
   const std::string message =
-      message_of([&] { write_mp4(scratch / "a.mp4", 50, 30, [](int i) { return grey(i % 20, 640, 480); }); });
+      message_of<IoError>([&] { write_mp4(scratch / "a.mp4", 50, 30, [](int i) { return grey(i % 20, 640, 480); }); });
   EXPECT_NE(message.find("a.mp4"), std::string::npos) << message;
   EXPECT_NE(message.find("disk is on fire"), std::string::npos) << message;
   EXPECT_EQ(message.find("first trouble"), std::string::npos) << message;
@@ -161,7 +155,9 @@ TEST(Film, DoesNotWaitForeverForAnEncoderThatTalksALot) {
               "for i in 1 2 3 4 5 6 7 8 9 10 11 12; do t=$t$t; done\n"
               "echo \"$t\" >&2\necho 'fifty of them' >&2\nread x\nexit 1\n");
   const Path path(scratch.directory());
-  EXPECT_NE(message_of([&] { write_mp4(film, 20, 30, [](int i) { return grey(i, 320, 240); }); }).find("fifty of them"),
+  EXPECT_NE(message_of<IoError>([&] {
+              write_mp4(film, 20, 30, [](int i) { return grey(i, 320, 240); });
+            }).find("fifty of them"),
             std::string::npos);
 }
 
@@ -170,7 +166,7 @@ TEST(Film, AnEncoderThatIsKilledIsAFailure) {
   const std::string film = scratch / "a.mp4";
   fake_ffmpeg(scratch, "kill -9 $$\n");
   const Path path(scratch.directory());
-  EXPECT_NE(message_of([&] { write_mp4(film, 2, 30, [](int i) { return grey(i); }); }).find("signal 9"),
+  EXPECT_NE(message_of<IoError>([&] { write_mp4(film, 2, 30, [](int i) { return grey(i); }); }).find("signal 9"),
             std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(film));
 }
@@ -178,7 +174,7 @@ TEST(Film, AnEncoderThatIsKilledIsAFailure) {
 TEST(Film, AFolderThatIsNotThereIsToldBeforeTheFirstPicture) {
   if (!have("ffmpeg")) GTEST_SKIP() << "needs ffmpeg in PATH";
   const Scratch scratch;
-  const std::string message = message_of([&] {
+  const std::string message = message_of<IoError>([&] {
     write_mp4(scratch / "missing/a.mp4", 3, 30, [](int i) {
       ADD_FAILURE() << "a picture was asked for";
       return grey(i);

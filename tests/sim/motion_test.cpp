@@ -3,7 +3,7 @@
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
 #include "io/scratch.hpp"
-#include "sim/simulate.hpp"
+#include "support/run_into.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,13 +13,6 @@
 
 namespace toile::internal {
 namespace {
-
-Report run(const std::string& directory, const Scene& scene) {
-  RunOptions options;
-  options.directory = directory;
-  options.command = "test";
-  return simulate(scene, options);
-}
 
 // A kerchief on the head of a mannequin that moves.
 Scene kerchief(const std::string& motion, const std::string& edge_m = "0.03") {
@@ -46,7 +39,7 @@ double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 
 TEST(MovingBody, StandsWhileTheClothDrapesAndThenMoves) {
   const Scratch scratch;
-  const Report report = run(scratch / "out", kerchief("twist"));
+  const Report report = test::run_into(scratch / "out", kerchief("twist"));
   EXPECT_EQ(report.ended, "time");
   EXPECT_EQ(report.motion_name, "twist");
   EXPECT_EQ(report.motion.frames, 12);
@@ -63,10 +56,10 @@ TEST(MovingBody, StandsWhileTheClothDrapesAndThenMoves) {
 TEST(MovingBody, OfAMotionThatStandsStillChangesNothing) {
   const Scratch scratch;
   Scene scene = kerchief("stand");
-  const Report moving = run(scratch / "moving", scene);
+  const Report moving = test::run_into(scratch / "moving", scene);
   scene.body.motion.reset();
   scene.seconds = 0.5 + 0.4;
-  const Report still = run(scratch / "still", scene);
+  const Report still = test::run_into(scratch / "still", scene);
   EXPECT_EQ(moving.state_hash, still.state_hash);
 }
 
@@ -85,7 +78,7 @@ TEST(MovingBody, APersonGivenAsAMeshSwaysByName) {
   Scene scene = kerchief("sway");
   scene.body.shape = SceneMesh{scratch / "woman.obj", LengthUnit::automatic, ""};
   scene.seconds = 1;
-  const Report report = run(scratch / "out", scene);
+  const Report report = test::run_into(scratch / "out", scene);
   EXPECT_EQ(report.motion_name, "sway");
   EXPECT_EQ(report.motion.frames, 30);
   const std::string body = scratch / "out/body.pc2";
@@ -96,18 +89,18 @@ TEST(MovingBody, APersonGivenAsAMeshSwaysByName) {
   const VerifyReport audit = verify_directory(scratch / "out");
   EXPECT_EQ(audit.slip.first_frame, report.audit.slip.first_frame);
   scene.body.motion->name = "walk";
-  EXPECT_THROW(run(scratch / "walks", scene), InputError);
+  EXPECT_THROW(test::run_into(scratch / "walks", scene), InputError);
 }
 
 // A hoop wider than the waist: nothing presses it on, so no friction holds it.
 TEST(MovingBody, WhatSlidesDownItIsSaidToHaveSlidOff) {
   const Scratch scratch;
   const auto hoop = [&](const std::string& seconds, const std::string& name) {
-    return run(scratch / name, parse_scene(R"({"cloth": [{"name": "hoop",
+    return test::run_into(scratch / name, parse_scene(R"({"cloth": [{"name": "hoop",
       "tube": {"radius_m": 0.15, "length_m": 0.1, "edge_m": 0.03}, "placement": {"translation_m": [0, 1.1, 0]}}],
       "body": {"mannequin": "woman", "motion": "sway"}, "time": {"drape_seconds": 0, "seconds": )" +
-                                               seconds + "}}",
-                                           "s.json"));
+                                                          seconds + "}}",
+                                                      "s.json"));
   };
   const Report slid = hoop("0.3", "long");
   ASSERT_EQ(slid.verdict.reasons.size(), 1U);
@@ -122,21 +115,21 @@ TEST(MovingBody, WhatSlidesDownItIsSaidToHaveSlidOff) {
 
 TEST(StartRun, TakesUpADrapeWhereTheBodyBeganToMove) {
   const Scratch scratch;
-  run(scratch / "first", kerchief("twist"));
+  test::run_into(scratch / "first", kerchief("twist"));
   Scene scene = kerchief("sway");
   scene.start = scratch / "first";
   scene.drape_seconds = 0;
-  const Report report = run(scratch / "second", scene);
+  const Report report = test::run_into(scratch / "second", scene);
   EXPECT_EQ(report.motion_first_frame, 0);
   EXPECT_LT(farthest(sample(scratch / "first/cloth.pc2", 14), sample(scratch / "second/cloth.pc2", 0)), 1e-6);
 }
 
 TEST(StartRun, CarriesADrapeOverToAFinerMesh) {
   const Scratch scratch;
-  run(scratch / "coarse", kerchief("stand", "0.04"));
+  test::run_into(scratch / "coarse", kerchief("stand", "0.04"));
   Scene scene = kerchief("stand", "0.02");
   scene.start = scratch / "coarse";
-  const Report report = run(scratch / "fine", scene);
+  const Report report = test::run_into(scratch / "fine", scene);
   EXPECT_LT(report.audit.stretch.p99, 0.02);
   EXPECT_EQ(report.audit.cloth_body_edges.last, 0);
   // The fine cloth starts on the coarse one: no particle is farther from its triangles than float32 rounds.
@@ -163,26 +156,26 @@ TEST(StartRun, RefusesWhatDoesNotFit) {
   };
   Scene scene = on_cylinder("kerchief", "0.3", "0.1");
   scene.start = scratch / "nothing";
-  EXPECT_THROW(run(scratch / "out", scene), IoError);
+  EXPECT_THROW(test::run_into(scratch / "out", scene), IoError);
   scene.start.clear();
-  run(scratch / "first", scene);
+  test::run_into(scratch / "first", scene);
   scene.start = scratch / "first";
-  EXPECT_EQ(run(scratch / "out", scene).ended, "time");
+  EXPECT_EQ(test::run_into(scratch / "out", scene).ended, "time");
 
   scene = on_cylinder("scarf", "0.3", "0.1");
   scene.start = scratch / "first";
   try {
-    run(scratch / "out", scene);
+    test::run_into(scratch / "out", scene);
     ADD_FAILURE() << "another panel was taken";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("a group \"scarf\""), std::string::npos) << error.what();
   }
   scene = on_cylinder("kerchief", "0.6", "0.1");
   scene.start = scratch / "first";
-  EXPECT_THROW(run(scratch / "out", scene), InputError);  // another drawing
+  EXPECT_THROW(test::run_into(scratch / "out", scene), InputError);  // another drawing
   scene = on_cylinder("kerchief", "0.3", "0.11");
   scene.start = scratch / "first";
-  EXPECT_THROW(run(scratch / "out", scene), InputError);  // another body
+  EXPECT_THROW(test::run_into(scratch / "out", scene), InputError);  // another body
 }
 
 TEST(SeveralCloths, LieOnEachOtherAndAreObjectsOfOneFile) {
@@ -195,7 +188,7 @@ TEST(SeveralCloths, LieOnEachOtherAndAreObjectsOfOneFile) {
      "pins": [{"near_m": [0.1, 0.02, 0.1]}]}],
     "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.5}}, "time": {"seconds": 1}})",
                                   "s.json");
-  const Report report = run(scratch / "out", scene);
+  const Report report = test::run_into(scratch / "out", scene);
   EXPECT_EQ(report.ended, "time");
   EXPECT_EQ(report.panels, 2);
   EXPECT_EQ(report.audit.cloth_cloth_edges.max, 0);
@@ -226,8 +219,9 @@ TEST(Events, AHandPullsTheClothAndLetsGo) {
                            drags + R"(}], "time": {"seconds": 1.5}})",
                        "s.json");
   };
-  run(scratch / "free", scene(""));
-  run(scratch / "pulled",
+  test::run_into(scratch / "free", scene(""));
+  test::run_into(
+      scratch / "pulled",
       scene(
           R"(, "drags": [{"near_m": [0, 0.9, 0], "path_m": [[0, 0, 0.9, 0], [0.3, 0, 0.95, 0.15], [0.6, 0, 0.95, 0.15]],
                "stiffness_N_per_m": 200, "damping_N_s_per_m": 1}])"));
@@ -244,11 +238,11 @@ TEST(Events, AHandPullsTheClothAndLetsGo) {
 
 TEST(Events, AClothThatShrinksDuringTheRunIsJudgedByWhatItBecame) {
   const Scratch scratch;
-  const Report report = run(scratch / "out", parse_scene(R"({"cloth": [{"name": "cloth",
+  const Report report = test::run_into(scratch / "out", parse_scene(R"({"cloth": [{"name": "cloth",
       "grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.03}, "placement": {"translation_m": [0, 1, 0]},
       "panels": {"cloth": {"rest_stretch_path": [[0.2, 1, 1], [0.8, 1, 0.8]]}},
       "pins": [{"near_m": [0, 1.15, 0]}]}], "time": {"seconds": 2}})",
-                                                         "s.json"));
+                                                                    "s.json"));
   EXPECT_EQ(report.ended, "time");
   const auto width = [&](int frame) {
     double low = 9, high = -9;

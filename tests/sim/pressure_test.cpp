@@ -4,8 +4,8 @@
 #include "io/pc2.hpp"
 #include "io/scratch.hpp"
 #include "sim/setup.hpp"
-#include "sim/simulate.hpp"
 #include "support/bodies.hpp"
+#include "support/run_into.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,13 +15,6 @@
 
 namespace toile::internal {
 namespace {
-
-Report run(const std::string& directory, const Scene& scene) {
-  RunOptions options;
-  options.directory = directory;
-  options.command = "test";
-  return simulate(scene, options);
-}
 
 void write_ball(const std::string& path, double radius_m, int levels) {
   const BodySurface ball = test::sphere(Vec3::Zero(), radius_m, levels);
@@ -53,12 +46,13 @@ TEST(PressureInScenes, ABalloonIsAsWideAsItsThreadsSayAndStaysWhereItIs) {
   const double k = 1000;
   for (const double Pa : {300.0, 1500.0}) {
     const std::string file = scratch / "s.json";
-    const Report report = run(scratch / "out", parse_scene(R"({"cloth": [{"mesh": "ball.obj", "rest_shape": "start",
+    const Report report =
+        test::run_into(scratch / "out", parse_scene(R"({"cloth": [{"mesh": "ball.obj", "rest_shape": "start",
         "fabric": {"base": "cotton", "stretch_u_N_per_m": 1000, "stretch_v_N_per_m": 1000, "strain_limit": 0},
         "panels": {"ball": {"pressure_Pa": )" + std::to_string(Pa) +
-                                                               R"(}}}],
+                                                        R"(}}}],
         "world": {"gravity_m_per_s2": [0, 0, 0]}, "time": {"seconds": 3}})",
-                                                           file));
+                                                    file));
     EXPECT_EQ(report.ended, "time");
     EXPECT_LT(report.audit.still_mm_per_s_p99, 5);
     const std::vector<Vec3> x = last_frame(scratch / "out/cloth.pc2");
@@ -73,11 +67,11 @@ TEST(PressureInScenes, ABalloonIsAsWideAsItsThreadsSayAndStaysWhereItIs) {
 // A loose sheet without weight goes up as fast as what was pumped says: v = integral of p / sigma.
 TEST(PressureInScenes, ChangesInTime) {
   const Scratch scratch;
-  run(scratch / "out",
-      parse_scene(R"({"cloth": [{"name": "sheet", "grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.04},
+  test::run_into(scratch / "out",
+                 parse_scene(R"({"cloth": [{"name": "sheet", "grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.04},
       "fabric": {"base": "cotton", "density_kg_per_m2": 0.2}, "panels": {"sheet": {"pressure_path": [[0.2, 0], [0.6, 1], [1, 0]]}}}],
       "world": {"gravity_m_per_s2": [0, 0, 0], "air_density_kg_per_m3": 0}, "time": {"seconds": 1.2, "fps": 60}})",
-                  "s.json"));
+                             "s.json"));
   Pc2Reader reader(scratch / "out/cloth.pc2");
   std::vector<Vec3> x, before;
   reader.read(12, before);
@@ -125,9 +119,9 @@ TEST(PressureInScenes, ACushionIsFilledOnceItIsSewn) {
     }
     return high - low;
   };
-  run(scratch / "out", cushion("0.17"));
+  test::run_into(scratch / "out", cushion("0.17"));
   EXPECT_LT(thickness(), 0.05) << "just sewn: gravity and pressure come later";
-  const Report report = run(scratch / "out", cushion("2"));
+  const Report report = test::run_into(scratch / "out", cushion("2"));
   EXPECT_EQ(report.ended, "time");
   EXPECT_EQ(report.audit.cloth_cloth_edges.last, 0);
   // A foil balloon of two discs of radius a is 0.914 a thick [Paulsen 1994]; silk gives along its bias.

@@ -1,6 +1,8 @@
 // The reader of scenes: defaults, every refusal with its place, and the shape that the documentation shows.
 #include "sim/scene.hpp"
 
+#include "sim/setup.hpp"
+
 #include <gtest/gtest.h>
 
 namespace toile::internal {
@@ -194,6 +196,21 @@ TEST(Scene, NamesThePlaceOfEveryRefusal) {
 TEST(Scene, TakesTheLineOfTheValueThatIsWrong) {
   EXPECT_EQ(refusal("{\"cloth\": [{\"grid\": {},\n\"fabric\": {\n\"bend_u_N_m\": -1e-5}}]}").rfind("dir/s.json:3:", 0),
             0u);
+}
+
+// Times of events count from the first frame: what comes before it, inner drapes and growth, has what the paths begin with.
+TEST(Scene, BeginsWithTheFirstGravityAndWindOfTheirPaths) {
+  const auto options = [](const std::string& world) {
+    const std::string text = R"({"cloth": [{"grid": {}}], "world": )" + world + "}";
+    return run_options(parse_scene(text, "s.json"), StepOptions{});
+  };
+  const OutfitRunOptions in_time =
+      options(R"({"gravity_path": [[1, 0, -1, 0], [2, 0, -2, 0]], "wind_path": [[0, 3, 0, 0], [1, 0, 0, 0]]})");
+  EXPECT_EQ(in_time.model.gravity_m_per_s2, Vec3(0, -1, 0));
+  EXPECT_EQ(in_time.air.wind_m_per_s, Vec3(3, 0, 0));
+  const OutfitRunOptions constant = options(R"({"gravity_m_per_s2": [0, -5, 0], "wind_m_per_s": [1, 0, 0]})");
+  EXPECT_EQ(constant.model.gravity_m_per_s2, Vec3(0, -5, 0));
+  EXPECT_EQ(constant.air.wind_m_per_s, Vec3(1, 0, 0));
 }
 
 }  // namespace

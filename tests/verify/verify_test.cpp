@@ -7,6 +7,7 @@
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
 #include "io/run_folder.hpp"
+#include "support/message_of.hpp"
 #include "verify/verdict.hpp"
 
 #include <gtest/gtest.h>
@@ -147,17 +148,7 @@ class RunDirectory {
   std::filesystem::path path_;
 };
 
-// The message of the exception; the test fails when there is none.
-template <class Exception>
-std::string message_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Exception& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no exception";
-  return "";
-}
+using toile::test::message_of;
 #define EXPECT_CONTAINS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 TEST(VerifyDirectory, PassesACleanRun) {

@@ -1,4 +1,4 @@
-// What an error of the library says.
+// tests/support/message_of.hpp: what an error says.
 #pragma once
 #include <gtest/gtest.h>
 
