@@ -144,5 +144,16 @@ TEST(OutfitRun, ContactsAreKnownFromPhaseToPhase) {
   EXPECT_NE(slid(true, true), whole);
 }
 
+TEST(OutfitRun, CountsTimeAndSecondsByPhase) {
+  Hanging hanging(false);
+  for (int frame = 0; frame < 3; ++frame) hanging.run->frame();
+  EXPECT_DOUBLE_EQ(hanging.run->time_s(), 0.1);
+  EXPECT_GT(hanging.run->seconds().eval, 0);
+  hanging.run->begin(after_weld(true, Pace{}));
+  EXPECT_EQ(hanging.run->time_s(), 0);
+  EXPECT_EQ(hanging.run->seconds().eval, 0);
+  EXPECT_EQ(hanging.run->seconds().cg, 0);
+}
+
 }  // namespace
 }  // namespace toile::internal
