@@ -1,11 +1,14 @@
 #include "verify/gauge.hpp"
 
+#include "body/measure.hpp"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -46,6 +49,8 @@ class Walk {
     add(start, ring);
     ring.closed = follow(start.ends[1].edge, ring);
     if (!ring.closed) follow(start.ends[0].edge, ring);
+    if (ring.worn_m > 0) ring.middle_m /= ring.worn_m;
+    ring.normal = normal_;
     return ring;
   }
 
@@ -69,7 +74,9 @@ class Walk {
   }
 
   static void add(const Cut& cut, ClothRing& ring) {
-    ring.worn_m += (cut.ends[1].worn - cut.ends[0].worn).norm();
+    const double worn_m = (cut.ends[1].worn - cut.ends[0].worn).norm();
+    ring.worn_m += worn_m;
+    ring.middle_m += 0.5 * worn_m * (cut.ends[0].worn + cut.ends[1].worn);
     ring.cut_m += (cut.ends[1].drawn - cut.ends[0].drawn).norm();
   }
 
@@ -140,6 +147,19 @@ std::vector<double> gauge_stretch(const ClothMesh& mesh, std::span<const double>
 ClothRing cloth_ring(const ClothMesh& mesh, std::span<const Vec3> x, Index triangle, const Vec3& normal) {
   if (!(normal.norm() > 0)) return {};
   return Walk(mesh, x, triangle, normal).ring();
+}
+
+double girth_within_m(const ClothRing& ring, std::span<const Vec3> body_x, std::span<const Triangle> body) {
+  if (!ring.closed) return 0;
+  const double radius_m = ring.worn_m / (2 * std::numbers::pi);
+  double girth = 0;
+  for (const std::vector<Vec3>& curve : section(body_x, body, ring.middle_m, ring.normal)) {
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& p : curve) middle += p / static_cast<double>(curve.size());
+    // The trunk beside an arm is cut by the plane of a sleeve, too.
+    if ((middle - ring.middle_m).norm() < radius_m) girth = std::max(girth, girth_m(curve, ring.normal));
+  }
+  return girth;
 }
 
 }  // namespace toile::internal

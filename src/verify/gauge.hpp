@@ -24,8 +24,13 @@ std::vector<double> gauge_stretch(const ClothMesh& mesh, std::span<const double>
 struct ClothRing {
   double worn_m = 0, cut_m = 0;  // 0: there is none
   bool closed = false;           // it comes round to where it began; otherwise it ends at a hem
+  Vec3 middle_m{0, 0, 0};        // of its length, as worn
+  Vec3 normal{0, 0, 0};          // of its plane
 };
 // Through the middle of a triangle, along the plane with this normal.  Follows the cloth over its seams.
 ClothRing cloth_ring(const ClothMesh& mesh, std::span<const Vec3> x, Index triangle, const Vec3& normal);
+
+// What a tape would measure of the body within a closed ring, in the ring's plane, m; 0: there is no body in it.
+double girth_within_m(const ClothRing& ring, std::span<const Vec3> body_x, std::span<const Triangle> body);
 
 }  // namespace toile::internal

@@ -33,6 +33,7 @@ struct StretchStatistics {
   Index gauge_worst_triangle = -1;
   Vec3 gauge_worst_m{0, 0, 0};  // its middle
   ClothRing ring;               // the cloth along the stretched thread there
+  double body_girth_m = 0;      // of the body within it; 0: there is none
   Index elastic_triangles = 0;  // with b other than (1, 1)
 };
 

@@ -34,15 +34,18 @@ std::string first_of(const std::vector<std::string>& all) {
 // Written so that NaN is an excess.
 bool within(double value, double limit) { return value <= limit; }
 
-// What is too long and where, and how long the cloth is there as cut and as worn.
+// What is too long and where, and how long the cloth is there as cut and as worn, around which girth of the body.
 std::string misfit(const StretchStatistics& s, const Limits& limits) {
   std::string text;
+  if (s.ring.cut_m < s.body_girth_m)
+    text = fmt::sprintf("too narrow by %.1f cm: ", 100 * (s.body_girth_m - s.ring.cut_m));
   if (s.ring.cut_m > 0)
-    text = fmt::sprintf(s.ring.closed ? "the garment is %.1f cm round and worn at %.1f cm"
-                                      : "the cloth is %.1f cm long from hem to hem and worn at %.1f cm",
-                        100 * s.ring.cut_m, 100 * s.ring.worn_m) +
-           " near (" + number(s.gauge_worst_m.x()) + ", " + number(s.gauge_worst_m.y()) + ", " +
-           number(s.gauge_worst_m.z()) + ") m, where it is stretched most; ";
+    text += fmt::sprintf(s.ring.closed ? "the garment is %.1f cm round and worn at %.1f cm"
+                                       : "the cloth is %.1f cm long from hem to hem and worn at %.1f cm",
+                         100 * s.ring.cut_m, 100 * s.ring.worn_m) +
+            (s.body_girth_m > 0 ? fmt::sprintf(", around %.1f cm of body,", 100 * s.body_girth_m) : "") + " near (" +
+            number(s.gauge_worst_m.x()) + ", " + number(s.gauge_worst_m.y()) + ", " + number(s.gauge_worst_m.z()) +
+            ") m, where it is stretched most; ";
   return text + fmt::sprintf("over %.3g mm of cloth p99 ", 1e3 * gauge_m) + percent(s.gauge_p99) + ", limit " +
          percent(limits.stretch_p99) + "; max " + percent(s.gauge_max) + ", limit " + percent(limits.stretch_max);
 }

@@ -150,6 +150,8 @@ VerifyReport RunAudit::report() const {
   result.slip = slip_.statistics();
   if (!last_is_finite_) return result;
   result.stretch = measure_stretch(run_.mesh, last_x_, run_.b);
+  if (result.has_body)
+    result.stretch.body_girth_m = girth_within_m(result.stretch.ring, last_body_x_, run_.body_triangles);
   if (result.has_body) result.gap = measure_gap(last_x_, run_.body_triangles, last_body_x_);
   const auto second = std::max<std::size_t>(1, static_cast<std::size_t>(std::min(std::round(run_.fps), 1e9)));
   const std::size_t pairs = std::min(speed_p99_.size(), second);

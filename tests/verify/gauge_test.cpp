@@ -1,6 +1,7 @@
 // tests/verify/gauge_test.cpp: stretch over a gauge length, and rings of cloth.
 #include "verify/gauge.hpp"
 
+#include "body/solid_shapes.hpp"
 #include "verify/statistics.hpp"
 
 #include <gtest/gtest.h>
@@ -83,6 +84,18 @@ TEST(Gauge, TheRingOfATubeComesRoundAndIsItsGirth) {
   EXPECT_NEAR(ring.cut_m, around * 0.02, 1e-9);
   EXPECT_NEAR(ring.worn_m, 1.1 * around * 0.02, 5e-3);
   EXPECT_EQ(cloth_ring(s.mesh, s.x, 50, Vec3::Zero()).cut_m, 0);
+
+  const auto block_at = [&](const Vec3& middle) {
+    SolidMesh body = block({0.1, 1, 0.12});
+    for (Vec3& p : body.positions) p += middle;
+    return body;
+  };
+  const SolidMesh within = block_at({0.01, 0, 0}), beside = block_at({0.3, 0, 0});
+  EXPECT_NEAR(girth_within_m(ring, within.positions, within.triangles), 0.44, 1e-9);
+  EXPECT_EQ(girth_within_m(ring, beside.positions, beside.triangles), 0) << "a trunk beside a sleeve";
+  ClothRing open = ring;
+  open.closed = false;
+  EXPECT_EQ(girth_within_m(open, within.positions, within.triangles), 0) << "a cape goes round nothing";
 }
 
 }  // namespace

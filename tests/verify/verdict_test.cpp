@@ -62,6 +62,18 @@ TEST(Verdict, GivesOneCodeForEachExcess) {
   EXPECT_EQ(codes(report), Codes{"unfinished"});
 }
 
+TEST(Verdict, SaysOfAMisfitWhichGirthIsAroundWhichGirthOfTheBody) {
+  VerifyReport report = good();
+  report.stretch.gauge_p99 = 0.15;
+  report.stretch.ring = {.worn_m = 0.254, .cut_m = 0.221, .closed = true};
+  const auto detail = [&] { return judge(report, {}).reasons.at(0).detail; };
+  EXPECT_TRUE(detail().starts_with("the garment is 22.1 cm round and worn at 25.4 cm near")) << detail();
+  report.stretch.body_girth_m = 0.239;
+  EXPECT_TRUE(detail().starts_with(
+      "too narrow by 1.8 cm: the garment is 22.1 cm round and worn at 25.4 cm, around 23.9 cm of body, near"))
+      << detail();
+}
+
 TEST(Verdict, SaysWhatSlidOffABodyThatMoved) {
   VerifyReport report = good();
   report.slip.first_frame = 3;
