@@ -152,14 +152,14 @@ ClothRing cloth_ring(const ClothMesh& mesh, std::span<const Vec3> x, Index trian
 double girth_within_m(const ClothRing& ring, std::span<const Vec3> body_x, std::span<const Triangle> body) {
   if (!ring.closed) return 0;
   const double radius_m = ring.worn_m / (2 * std::numbers::pi);
-  double girth = 0;
+  std::vector<Vec3> within;
   for (const std::vector<Vec3>& curve : section(body_x, body, ring.middle_m, ring.normal)) {
     Vec3 middle = Vec3::Zero();
     for (const Vec3& p : curve) middle += p / static_cast<double>(curve.size());
     // The trunk beside an arm is cut by the plane of a sleeve, too.
-    if ((middle - ring.middle_m).norm() < radius_m) girth = std::max(girth, girth_m(curve, ring.normal));
+    if ((middle - ring.middle_m).norm() < radius_m) within.insert(within.end(), curve.begin(), curve.end());
   }
-  return girth;
+  return within.empty() ? 0 : girth_m(within, ring.normal);
 }
 
 }  // namespace toile::internal

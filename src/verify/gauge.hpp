@@ -30,7 +30,7 @@ struct ClothRing {
 // Through the middle of a triangle, along the plane with this normal.  Follows the cloth over its seams.
 ClothRing cloth_ring(const ClothMesh& mesh, std::span<const Vec3> x, Index triangle, const Vec3& normal);
 
-// What a tape would measure of the body within a closed ring, in the ring's plane, m; 0: there is no body in it.
+// What a tape would measure around all of the body within a closed ring, in the ring's plane, m: around both legs in a skirt.  0: there is none.
 double girth_within_m(const ClothRing& ring, std::span<const Vec3> body_x, std::span<const Triangle> body);
 
 }  // namespace toile::internal

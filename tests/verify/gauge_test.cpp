@@ -93,6 +93,14 @@ TEST(Gauge, TheRingOfATubeComesRoundAndIsItsGirth) {
   const SolidMesh within = block_at({0.01, 0, 0}), beside = block_at({0.3, 0, 0});
   EXPECT_NEAR(girth_within_m(ring, within.positions, within.triangles), 0.44, 1e-9);
   EXPECT_EQ(girth_within_m(ring, beside.positions, beside.triangles), 0) << "a trunk beside a sleeve";
+  SolidMesh legs;
+  for (const double aside : {-0.05, 0.05}) {
+    const SolidMesh leg = block({0.04, 1, 0.12});
+    const auto first = static_cast<Index>(legs.positions.size());
+    for (const Vec3& p : leg.positions) legs.positions.push_back(p + Vec3(aside, 0, 0));
+    for (const auto& [i, j, k] : leg.triangles) legs.triangles.push_back({i + first, j + first, k + first});
+  }
+  EXPECT_NEAR(girth_within_m(ring, legs.positions, legs.triangles), 2 * (0.14 + 0.12), 1e-9);
   ClothRing open = ring;
   open.closed = false;
   EXPECT_EQ(girth_within_m(open, within.positions, within.triangles), 0) << "a cape goes round nothing";
