@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
 #include <numeric>
 
@@ -46,31 +46,39 @@ std::vector<Sheet> sheets_of(const GarmentMesh& garment, const Vec3& middle) {
   return panels;
 }
 
-// Whether a particle of `one`, seen along the normal, lies on `other`, not only beside it.
-bool lies_on(const GarmentMesh& garment, const Sheet& one, const Sheet& other) {
+// How far two triangles of one plane must be moved in it to lie beside each other; negative where they do.     [separating axes]
+double overlap_m(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, const Vec3& normal) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::array<Vec3, 3>* of : {&a, &b}) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 across = normal.cross((*of)[(k + 1) % 3] - (*of)[k]).normalized();
+      const auto [a_low, a_high] = std::minmax({across.dot(a[0]), across.dot(a[1]), across.dot(a[2])});
+      const auto [b_low, b_high] = std::minmax({across.dot(b[0]), across.dot(b[1]), across.dot(b[2])});
+      least = std::min(least, std::min(a_high, b_high) - std::max(a_low, b_low));
+    }
+  }
+  return least;
+}
+
+// Whether `one`, seen along the normal, covers some of `other`: by corners, or only where their edges cross, as the flared legs of trousers do.
+bool cover(const GarmentMesh& garment, const Sheet& one, const Sheet& other) {
   const TriangleTree tree(garment.x, other.triangles);
   const Vec3& n = other.outward;
   std::vector<Index> near;
-  for (const Index i : one.particles) {
-    const Vec3 p = garment.x[at(i)] + (other.along_m - n.dot(garment.x[at(i)])) * n;
-    tree.overlapping({p, p}, near);
-    for (const Index t : near) {
-      const Triangle& corners = other.triangles[at(t)];
-      double inside_m = std::numeric_limits<double>::infinity();
-      Vec3 area = (garment.x[at(corners[1])] - garment.x[at(corners[0])])
-                      .cross(garment.x[at(corners[2])] - garment.x[at(corners[0])]);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 &a = garment.x[at(corners[k])], &b = garment.x[at(corners[(k + 1) % 3])];
-        inside_m = std::min(inside_m, area.normalized().dot((b - a).normalized().cross(p - a)));
-      }
-      if (inside_m > beside_m) return true;
+  for (const Triangle& t : one.triangles) {
+    std::array<Vec3, 3> shown;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& p = garment.x[at(t[k])];
+      shown[k] = p + (other.along_m - n.dot(p)) * n;
+    }
+    tree.overlapping({shown[0].cwiseMin(shown[1]).cwiseMin(shown[2]), shown[0].cwiseMax(shown[1]).cwiseMax(shown[2])},
+                     near);
+    for (const Index i : near) {
+      const Triangle& u = other.triangles[at(i)];
+      if (overlap_m(shown, {garment.x[at(u[0])], garment.x[at(u[1])], garment.x[at(u[2])]}, n) > beside_m) return true;
     }
   }
   return false;
-}
-
-bool cover(const GarmentMesh& garment, const Sheet& a, const Sheet& b) {
-  return lies_on(garment, a, b) || lies_on(garment, b, a);
 }
 
 }  // namespace

@@ -65,6 +65,18 @@ TEST(Layers, APanelWithinTheOpeningOfAnotherStaysWhereItIs) {
   EXPECT_EQ(z_of(over, 1), 0.2);
 }
 
+TEST(Layers, FlaredLegsWhoseHemsCrossLieOneOverTheOther) {
+  // Each a triangle with a corner below the other's, and its hem along the other's hem: no corner of one lies within the other.
+  const auto leg = [](double side) {
+    return test::straight_panel("leg", side > 0 ? std::vector<Vec2>{{-0.02, 0}, {0.4, 0}, {0.2, 0.5}}
+                                                : std::vector<Vec2>{{-0.4, 0}, {0.02, 0}, {-0.2, 0.5}},
+                                Vec3(0, 0, 0.2));
+  };
+  const GarmentMesh garment = separated({leg(-1), leg(1)});
+  EXPECT_EQ(z_of(garment, 0), 0.2);
+  EXPECT_NEAR(z_of(garment, 1), 0.2 + layer_gap_m, 1e-12);
+}
+
 TEST(Layers, WhatIsDrawnInAnOrderKeepsIt) {
   const auto tier = [](double y, double z) { return test::front_rectangle(0.3, 0.2, Vec3(0, y, z)); };
   const GarmentMesh inside = separated({tier(0, 0.2), tier(-0.1, 0.2 - 1.1 * layer_gap_m)});
