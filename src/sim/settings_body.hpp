@@ -80,9 +80,11 @@ void describe(V& v, SceneCollider& collider) {
            row.column("t_s", within_a_run, key.t_s);
            row.column("friction", Range{0, 100}, key.friction);
          });
-  v.number({"offset_mm", "how far above it cloth rests; edges cut corners of it, so longer ones need more",
-            collider.worn ? "0.2 of the edge length, between 1.5 and 2.5" : "the body's"},
-           {0.1, 100, 1e-3}, collider.contact.offset_m);
+  v.number(
+      {"offset_mm", "how far above it cloth rests; edges cut corners of it, so longer ones need more",
+       collider.worn ? "between 1.5 and 2.5: of a person 1.5 for edges up to 2 cm, of a shape 0.2 of the edge length"
+                     : "the body's, if it has one; else as a shape's, of a mannequin as a person's"},
+      {0.1, 100, 1e-3}, collider.contact.offset_m);
 }
 
 }  // namespace toile::internal

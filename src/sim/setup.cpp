@@ -284,7 +284,12 @@ std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const Garment
   return heights;
 }
 
-double default_offset_m(double edge_m) { return std::clamp(0.2 * edge_m, 1.5e-3, 2.5e-3); }
+double default_offset_m(const SceneCollider& collider, double edge_m) {
+  constexpr double limb_m = 0.033;   // radius of a thin forearm
+  constexpr double rim_share = 0.2;  // of an edge that lies over a rim
+  const bool skin = collider.as<SceneMannequin>() != nullptr || (collider.worn && collider.is_person());
+  return std::clamp(skin ? edge_m * edge_m / (8 * limb_m) : rim_share * edge_m, 1.5e-3, 2.5e-3);
+}
 
 OutfitRunOptions run_options(const Scene& scene, const StepOptions& step, std::function<bool()> stop) {
   OutfitRunOptions options;
@@ -311,10 +316,13 @@ StepOptions step_options(const Scene& scene, double edge_m) {
   step.relinearisations = scene.relinearisations;
   step.rows.cloth_cloth = scene.self_contact;
   step.flypaper = scene.flypaper;
-  step.body.offset_m = scene.body.contact.offset_m.value_or(default_offset_m(edge_m));
+  step.body.offset_m = scene.body.contact.offset_m.value_or(default_offset_m(scene.body, edge_m));
   step.body.friction = scene.body.contact.friction;
   if (scene.body.exists()) step.body.colliders.emplace_back();
-  for (const SceneCollider& solid : scene.solids) step.body.colliders.push_back(solid.contact);
+  for (const SceneCollider& solid : scene.solids) {
+    ColliderContact& contact = step.body.colliders.emplace_back(solid.contact);
+    if (!contact.offset_m && !scene.body.contact.offset_m) contact.offset_m = default_offset_m(solid, edge_m);
+  }
   return step;
 }
 

@@ -67,8 +67,9 @@ Events events_of(const Scene& scene, const Outfit& outfit, std::span<const Loade
 // the cloth says (docs/theory/sewing.md#collars-and-strapless-tops); those that nobody knows are named in a warning.  Throws InputError for a height of a label that no edge carries.
 std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment, bool on_shoulders,
                                           const BodyFigures& body, std::vector<std::string>& warnings);
-// How far above the body cloth of this edge length rests when nobody says: edges cut corners of the body, by e^2 / 8R.
-double default_offset_m(double edge_m);
+// How far above a collider cloth of this edge length rests where the scene does not say: edges cut corners, those of skin by e^2 / 8R, and rims
+// of solids are crossed by more.
+double default_offset_m(const SceneCollider& collider, double edge_m);
 StepOptions step_options(const Scene& scene, double edge_m);
 // Of what changes in time, as it begins.
 OutfitRunOptions run_options(const Scene& scene, const StepOptions& step, std::function<bool()> stop = {});

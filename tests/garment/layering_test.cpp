@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -66,15 +67,20 @@ TEST(Layers, APanelWithinTheOpeningOfAnotherStaysWhereItIs) {
 }
 
 TEST(Layers, FlaredLegsWhoseHemsCrossLieOneOverTheOther) {
-  // Each a triangle with a corner below the other's, and its hem along the other's hem: no corner of one lies within the other.
-  const auto leg = [](double side) {
-    return test::straight_panel("leg", side > 0 ? std::vector<Vec2>{{-0.02, 0}, {0.4, 0}, {0.2, 0.5}}
-                                                : std::vector<Vec2>{{-0.4, 0}, {0.02, 0}, {-0.2, 0.5}},
-                                Vec3(0, 0, 0.2));
+  // No corner of one lies within the other.  The hem of 2 mm is a cuff of trousers that somebody drew.
+  const auto leg = [](double side, double high) {
+    std::vector<Vec2> outline{{-0.02, 0}, {0.4, 0}, {0.4, high}, {0.36 * high - 0.02, high}};
+    if (side < 0) {
+      std::reverse(outline.begin(), outline.end());
+      for (Vec2& p : outline) p.x() = -p.x();
+    }
+    return test::straight_panel("leg", outline, Vec3(0, 0, 0.2));
   };
-  const GarmentMesh garment = separated({leg(-1), leg(1)});
-  EXPECT_EQ(z_of(garment, 0), 0.2);
-  EXPECT_NEAR(z_of(garment, 1), 0.2 + layer_gap_m, 1e-12);
+  for (const double high : {0.5, 0.002}) {
+    const GarmentMesh garment = separated({leg(-1, high), leg(1, high)});
+    EXPECT_EQ(z_of(garment, 0), 0.2);
+    EXPECT_NEAR(z_of(garment, 1), 0.2 + layer_gap_m, 1e-12) << high;
+  }
 }
 
 TEST(Layers, WhatIsDrawnInAnOrderKeepsIt) {
