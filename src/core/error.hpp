@@ -1,8 +1,8 @@
-// core/error.hpp: what is thrown when the caller asked for something that cannot be meant.
+// core/error.hpp: the exceptions, for invalid input and usage.
 //
-// Three kinds of trouble and no fourth:
+// There are three kinds of failure:
 //   1. bad input, output or usage        an exception from this file
-//   2. physics that goes badly           a status in a report, never an exception
+//   2. a simulation that fails           a status in a report, never an exception
 //   3. a bug of ours                     TOILE_ASSERT, on unless NDEBUG
 #pragma once
 #include <cassert>
