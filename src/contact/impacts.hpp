@@ -40,7 +40,7 @@ struct ImpactWorkspace {
   ParticleBoxes boxes;
 };
 
-// Number of impacts above which a motion is not worth correcting: its cause threw cloth through cloth, or the body.
+// Number of impacts above which a motion is not worth correcting: cloth was thrown through cloth, or through the body.
 inline constexpr std::size_t few_impacts = 20'000;
 inline std::size_t most_impacts(std::size_t particles) { return few_impacts + 4 * particles; }
 // A task of cloth with cloth stops at a number of its own: a hundred tasks going on to most_impacts would fill the
