@@ -1,4 +1,4 @@
-// body/body_motion.cpp: where a moving body comes from.
+// body/body_motion.cpp: the sources of a moving body.
 #include "body/body_motion.hpp"
 
 #include "body/body_samples.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 std::size_t z(Index i) { return static_cast<std::size_t>(i); }
 
-// Moves as a motion by name says.
+// Moves by a named motion.
 class ByName : public BodyMotion::Source {
  public:
   explicit ByName(const Motion& motion) : motion_(motion) {}
@@ -59,7 +59,7 @@ class MovingPerson : public ByName {
   MiddleLine line_;
 };
 
-// The triangles of the body must be where they were in its file.
+// The triangles of the body must match those of its file.
 void check_triangles(std::string_view file, std::size_t frame, const SurfaceMesh& mesh, const CollisionBody& body) {
   const std::string place = "frame " + std::to_string(frame);
   const bool known = !body.source_triangle.empty();

@@ -1,7 +1,7 @@
-// body/body_motion.hpp: a body that moves: fixed triangles, and where their vertices are at any time.
+// body/body_motion.hpp: a moving body: fixed triangles, and the positions of the vertices as a function of time.
 //
-// Sources: a mannequin with a Motion, or any upright person with one that needs no skeleton, evaluated exactly at every t; or samples at a fixed rate from a PC2 file or from
-// numbered OBJ files.  Between samples p_i and p_i+1, u = (tau - tau_i) / dt:
+// Sources: a mannequin with a Motion, or any upright person with one that needs no skeleton, evaluated exactly at every t; or samples
+// at a fixed rate from a PC2 file or numbered OBJ files.  Between samples p_i and p_i+1, u = (tau - tau_i) / dt:
 //   x = (1 + 2u)(1 - u)^2 p_i + u(1 - u)^2 dt m_i + u^2 (3 - 2u) p_i+1 + u^2 (u - 1) dt m_i+1,
 //   m_i = (p_i+1 - p_i-1) / 2 dt, one-sided at both ends                                            [Catmull & Rom 1974]
 // so that velocities are continuous; through samples of a straight uniform path it goes exactly.  After the last sample
