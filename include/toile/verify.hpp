@@ -11,7 +11,7 @@ namespace toile {
 
 struct Reason {
   std::string code;    // one word of docs/reason-codes.md
-  std::string detail;  // what was measured, and where
+  std::string detail;  // the measured value, and its place
 };
 
 struct Crossings {

@@ -36,8 +36,8 @@ class BodyMotion {
   // Starts in the A-pose, as the mannequin is made.  Throws InputError for a motion of another kind of mannequin.
   static BodyMotion of_mannequin(const Mannequin& mannequin, const Motion& motion);
 
-  // A person as a mesh, who stands at 0 s as the body does.  Throws InputError, with `file` as its place, for a motion that needs a skeleton, and for
-  // what is no person (body/middle_line.hpp).
+  // A person as a mesh, standing like the body at 0 s.  Throws InputError, with `file` as its place, for a motion that needs a skeleton, and for a
+  // body that is no person (body/middle_line.hpp).
   static BodyMotion of_person(std::string_view file, const CollisionBody& body, const Motion& motion);
 
   // A point cache of all vertices of the file that `body` was read from, or of the kept ones only.
@@ -67,7 +67,7 @@ class BodyMotion {
 
   // Until the body holds still; infinite for motions by name.
   double duration_s() const { return source_->duration_s(); }
-  // What was put before the motion, 0 when the first sample is the drape pose.
+  // Length of the lead-in; 0 when the first sample is the drape pose.
   double lead_in_s() const { return source_->lead_in_s(); }
 
   // Everything that decides the positions.

@@ -6,8 +6,8 @@
 //
 // A pelvis that followed the soles would have a corner whenever they take turns on the floor.  The walking one goes by the
 // mean of that height and its part of twice per stride; soles stay within a centimetre of the floor.  On the way into the
-// walk, with s = share of the motion, angles go with s but the pitch of a foot with s^2, as what bent legs lose in height
-// does: then the pelvis' height goes with s^2 too.
+// walk, with s = share of the motion, angles go with s but the pitch of a foot with s^2, as does the height that bent legs
+// lose: then the pelvis' height goes with s^2 too.
 //
 // Mind: walking is on a treadmill, the pelvis stays over the origin and the standing foot slides backwards.
 //                                                                                                      docs/motions.md

@@ -37,7 +37,7 @@ std::vector<RigidTransform> joint_transforms(std::span<const Joint> joints, cons
 
 class SkinnedBody {
  public:
-  // Copies what it needs of the mannequin.
+  // Copies the data of the mannequin that it needs.
   explicit SkinnedBody(const Mannequin& mannequin);
 
   std::size_t vertex_count() const { return rest_.size(); }

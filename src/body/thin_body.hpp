@@ -2,7 +2,7 @@
 //
 //   conformalised mean curvature flow   (M_k + dt L_0) x_{k+1} = M_k x_k        [Kazhdan, Solomon & Ben-Chen 2012]
 //
-// with L_0 the cotangents of the full body and M_k the vertex areas of the present shape.  Keeping L_0 is what makes the flow stable: limbs
+// with L_0 the cotangents of the full body and M_k the vertex areas of the present shape.  Keeping L_0 makes the flow stable: limbs
 // become tubes of two centimetres round their own axes, hands and feet draw in along them, and no part is pinched off.  Vertices
 // and triangles stay the same, so growing back is a motion of the same mesh.
 //

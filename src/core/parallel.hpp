@@ -1,4 +1,4 @@
-// core/parallel.hpp: loops on several threads whose result does not depend on how many.
+// core/parallel.hpp: parallel loops whose result does not depend on the number of threads.
 //
 // Work is cut into blocks of a fixed size, never into "as many parts as threads".  A body that writes
 // only to its own indices, and reductions that add the blocks in order, give the same bits on 1 or 64 threads.

@@ -11,7 +11,7 @@ namespace toile::internal {
 namespace {
 
 // Faster cloth is not about to rest, and is solved no better than elsewhere.  A dress of five gathered tiers takes half the
-// iterations while it falls; at 0.01, 0.05 and 0.2 m/s four garments take 89, 95 and 89 % of what they took until they rest.
+// iterations while it falls; at 0.01, 0.05 and 0.2 m/s four garments take 89, 95 and 89 % of the iterations until rest.
 constexpr double slow_m_per_s = 0.05;
 constexpr double slow_share = 0.99;  // of the particles that are slower: as rest is judged
 

@@ -1,5 +1,5 @@
-// garment/triangulate.hpp: near-equilateral triangles inside a closed polygon whose boundary points are kept as they
-// are.
+// garment/triangulate.hpp: near-equilateral triangles inside a closed polygon whose boundary points are kept
+// unchanged.
 //
 // Constrained Delaunay with exact predicates (coordinates snapped to a 2^-20 m grid, 128-bit integers), interior
 // points on a jitter-free triangular lattice at `edge_m` away from the boundary, a few smoothing sweeps with

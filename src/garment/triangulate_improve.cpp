@@ -2,7 +2,7 @@
 // triangulate_improve.hpp.
 //
 // The quality of a triangle with longest edges a >= b >= c is (2 area / (a b))^2 = sin^2 of its smallest angle,
-// lowered by (limit / a)^4 when a exceeds the size limit.  No roots and no angles: the order is what matters.
+// lowered by (limit / a)^4 when a exceeds the size limit.  No roots and no angles: only the order matters.
 #include "garment/triangulate_improve.hpp"
 
 #include <algorithm>

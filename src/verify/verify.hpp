@@ -65,7 +65,7 @@ struct VerifyReport {
   std::vector<std::string> changes;         // of the files since they were written, in words (verify/integrity.hpp)
   std::vector<std::string> changed_inputs;  // input files that have changed since the run
   int inputs = 0, missing_inputs = 0;       // of report.json; no longer at their paths
-  std::string interrupted;  // of a run that has not ended: in words, how far it came and what to do; empty otherwise
+  std::string interrupted;  // of a run that has not ended: in words, its progress and how to resume it; empty otherwise
   std::vector<Reason> reported_qualifications;  // of report.json, likewise not measurable
 };
 
@@ -105,8 +105,8 @@ class RunAudit {
 // together when report.json knows of no body; those of the cloth when it says that no frame was written.  Of report.json it uses `fps`, and if
 // present `frames`, `body.vertices`, `reasons`, `qualification_details`, `limits.still_mm_per_s`, `inputs`, `files` and `rest_stretch` {"panel": [b_u, b_v]}.  A run in progress or
 // one that was killed has unfinished.json instead: its frames are judged, and it is no pass.
-// Throws IoError (missing, unreadable) or InputError (truncated, not what the format says, sizes that contradict each
-// other), naming the file, what was expected and what it has.
+// Throws IoError (missing, unreadable) or InputError (truncated, not in its format, sizes that contradict each
+// other), naming the file, the expected and the actual value.
 VerifyReport verify_directory(const std::string& directory);
 
 }  // namespace toile::internal
