@@ -77,7 +77,7 @@ class BodyConstraints {
     const BodyPoint& point = points_[static_cast<std::size_t>(particle)];
     return point.triangle >= 0 && point.gap_m < 0;
   }
-  // Too far inside to be brought out by y; step/swallowed.hpp draws such a particle out.
+  // Too far inside to be brought out by y; step/penetration_recovery.hpp draws such a particle out.
   bool too_deep(const BodyPoint& point) const;
   std::span<const BodyPoint> points() const { return points_; }  // [particle] of the last detect; empty without a body
   bool any_near() const { return !near_.empty(); }

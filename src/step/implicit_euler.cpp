@@ -26,7 +26,7 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       constraints_(model.particle_count()),
       body_(model, world.body, options.body),
       flypaper_(world.body, model.mass_kg.size(), options.body),
-      swallowed_(model, world.body),
+      penetration_recovery_(model, world.body),
       rows_(model, world.body, world.merged_particle, options.body, options.rows) {
   const auto n = static_cast<std::size_t>(model.particle_count());
   for (Vec3s* vector :
@@ -91,11 +91,11 @@ void ImplicitEuler::look_through_body(const ClothState& state) {
   if (may_be_through_) {
     const bool crosses =
         mark_through_body(rows_.topology(), rows_.tree(), state.x, *world_->body, body_workspace_, through_body_);
-    swallowed_.detect(state.x, body_);
-    may_be_through_ = crosses || swallowed_.any() || !options_.guard_body;
+    penetration_recovery_.detect(state.x, body_);
+    may_be_through_ = crosses || penetration_recovery_.any() || !options_.guard_body;
   } else {
     through_body_.assign(state.x.size(), 0);
-    swallowed_.clear();
+    penetration_recovery_.clear();
   }
   for (std::size_t i = 0; i < state.x.size(); ++i) {
     if (body_.inside(static_cast<Index>(i)) || flypaper_.pinched()[i] == Pinched::without_room) through_body_[i] = 1;
@@ -288,7 +288,7 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
       body_.apply(state, step, constraints_, y_, landing_, springs_);
       if (options_.position_alteration == PositionAlteration::in_solve) y_known_ = y_;
       rows_.append_springs(springs_);
-      swallowed_.append_springs(springs_);
+      penetration_recovery_.append_springs(springs_);
       for (const Drag& drag : world_->drags) toile::internal::append_springs(drag, state, t_s, step.h_s, springs_);
       if (world_->springs) world_->springs(state, t_s + step.h_s, step.h_s, springs_);
       const bool drifts = !step.drift_m.empty();

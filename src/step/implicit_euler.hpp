@@ -20,9 +20,9 @@
 #include "step/contact_rows.hpp"
 #include "step/drag.hpp"
 #include "step/flypaper.hpp"
+#include "step/penetration_recovery.hpp"
 #include "step/step_report.hpp"
 #include "step/stretch_changes.hpp"
-#include "step/swallowed.hpp"
 
 #include <functional>
 #include <memory>
@@ -166,7 +166,7 @@ class ImplicitEuler {
   ParticleConstraints constraints_;
   BodyConstraints body_;
   Flypaper flypaper_;
-  Swallowed swallowed_;
+  PenetrationRecovery penetration_recovery_;
   ContactRows rows_;
   SafeFilter filter_;
   std::vector<double> inverse_mass_, before_body_;  // [particle] 1/kg: 0 for constrained particles; 0 for pins alone

@@ -1,4 +1,4 @@
-// step/swallowed.hpp: a force that draws cloth out of the body.                                                    (L4)
+// step/penetration_recovery.hpp: a force that draws cloth out of the body.                                          (L4)
 //
 //   F = c (v_out n + v_body - v) . n  along n     n at the nearest point,  c = 500 m / s  (m: the particle's mass)
 //   v_out = depth / 0.25 s, 0.1 to 0.5 m/s
@@ -16,10 +16,10 @@
 
 namespace toile::internal {
 
-class Swallowed {
+class PenetrationRecovery {
  public:
   // Keeps references to both; `body` may be null.
-  Swallowed(const ClothModel& model, const BodySurface* body) : model_(&model), body_(body) {}
+  PenetrationRecovery(const ClothModel& model, const BodySurface* body) : model_(&model), body_(body) {}
 
   // Finds the particles that are BodyConstraints::too_deep; `constraints` must have detected at the same x.
   void detect(std::span<const Vec3> x, const BodyConstraints& constraints);

@@ -1,4 +1,4 @@
-#include "step/swallowed.hpp"
+#include "step/penetration_recovery.hpp"
 
 #include "core/parallel.hpp"
 
@@ -14,12 +14,12 @@ constexpr std::size_t grain = 64;
 
 }  // namespace
 
-void Swallowed::clear() {
+void PenetrationRecovery::clear() {
   deep_.clear();
   any_ = false;
 }
 
-void Swallowed::detect(std::span<const Vec3> x, const BodyConstraints& constraints) {
+void PenetrationRecovery::detect(std::span<const Vec3> x, const BodyConstraints& constraints) {
   clear();
   if (!body_) return;
   const std::span<const BodyPoint> known = constraints.points();
@@ -45,7 +45,7 @@ void Swallowed::detect(std::span<const Vec3> x, const BodyConstraints& constrain
   any_ = std::find(within.begin(), within.end(), 1) != within.end();
 }
 
-void Swallowed::append_springs(std::vector<LinearSpring>& springs) const {
+void PenetrationRecovery::append_springs(std::vector<LinearSpring>& springs) const {
   for (const Deep& deep : deep_) {
     LinearSpring drag;
     drag.particle[0] = deep.particle;
