@@ -114,11 +114,11 @@ void ImplicitEuler::hold_pins(const ClothState& state, double t_s, const StepFor
     if (!step.drift_m.empty()) way -= step.drift_m[i];
     const Vec3 velocity = way / step.weight_s;
     const Vec3 z = velocity - state.v[i];
-    if (pin.held_directions == 3) {
+    if (pin.constrained_directions == 3) {
       constraints_.hold(pin.particle, z);
     } else {
       constraints_.hold_along(pin.particle, pin.p, pin.p.dot(z));
-      if (pin.held_directions == 2) constraints_.hold_along(pin.particle, pin.q, pin.q.dot(z));
+      if (pin.constrained_directions == 2) constraints_.hold_along(pin.particle, pin.q, pin.q.dot(z));
     }
   }
 }

@@ -35,9 +35,9 @@ namespace toile::internal {
 // A particle that the user constrains.
 struct Pin {
   Index particle = -1;
-  int held_directions = 3;                // 3: fixed; 2: along p and q (moves on a line); 1: along p (moves in a plane)
+  int constrained_directions = 3;         // 3: fixed; 2: along p and q (moves on a line); 1: along p (moves in a plane)
   Vec3 p{1, 0, 0}, q{0, 1, 0};            // unit, orthogonal
-  std::function<Vec3(double t_s)> path;   // its position; empty: it stays where it is along the held directions
+  std::function<Vec3(double t_s)> path;   // its position; empty: it stays where it is along the constrained directions
   std::optional<BodyAttachment> on_body;  // instead: the world's body carries it
 };
 
