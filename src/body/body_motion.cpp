@@ -96,7 +96,7 @@ BodyMotion BodyMotion::of_mannequin(const Mannequin& mannequin, const Motion& mo
 BodyMotion BodyMotion::of_person(std::string_view file, const CollisionBody& body, const Motion& motion) {
   const auto names = motion_names_without_skeleton();
   if (std::find(names.begin(), names.end(), motion.name()) == names.end())
-    throw InputError(file, "motion", std::string(what_moves_a_mesh), '"' + motion.name() + '"');
+    throw InputError(file, "motion", std::string(motions_for_a_mesh), '"' + motion.name() + '"');
   return {body.triangles, std::make_shared<MovingPerson>(file, body, motion)};
 }
 

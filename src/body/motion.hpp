@@ -26,7 +26,7 @@ namespace toile::internal {
 std::span<const std::string_view> motion_names();
 // The motions that need no skeleton (body/middle_line.hpp): "stand", "sway", "twist".  Also as words for a message.
 std::span<const std::string_view> motion_names_without_skeleton();
-inline constexpr std::string_view what_moves_a_mesh =
+inline constexpr std::string_view motions_for_a_mesh =
     "stand, sway or twist, a .pc2 file or a folder of OBJ files: a mesh has no skeleton to walk, crouch or dance with, "
     "the mannequins have";
 

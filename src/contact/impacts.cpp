@@ -130,7 +130,7 @@ class ImpactQuery {
   void decide(ContactKind kind, const std::array<Index, 4>& particle, std::vector<Impact>& found) const {
     Impact impact{kind, particle, {}, Vec3::Zero(), no_impact, 0, contact_m_[at(particle[0])], 0};
     for (const Index i : particle) impact.contact_m = std::min(impact.contact_m, contact_m_[at(i)]);
-    if (impact.contact_m <= 0 || is_let_be(particle, pinched_)) return;
+    if (impact.contact_m <= 0 || is_exempt(particle, pinched_)) return;
     if (decide_impact(gather(particle, start_), gather(particle, workspace_.displacement_m), impact))
       found.push_back(impact);
   }

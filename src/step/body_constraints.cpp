@@ -117,7 +117,7 @@ void BodyConstraints::Contact::follow(const BodySurface& body) {
 
 // The velocity before a step does not bound the motion in it: a seam that is welded under tension, without gravity,
 // moves by 6 mm in a step of 1/60 s.
-void BodyConstraints::find_what_came_far(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step) {
+void BodyConstraints::find_far_moving(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (points_[i].triangle >= 0) continue;
     const auto particle = static_cast<Index>(i);
@@ -263,7 +263,7 @@ bool BodyConstraints::touches(Near& near, const Vec3& v, const StepFormula& step
 }
 
 // Whether a face would have to pull, and is released: of two the one that would pull more.
-bool BodyConstraints::is_let_go(Near& near, const Vec3& force_N, bool may_leave) {
+bool BodyConstraints::releases(Near& near, const Vec3& force_N, bool may_leave) {
   Contact& contact = near.contact;
   Beside* beside = touching_beside(near);
   std::array<double, 2> lambda{contact.normal.dot(force_N), 0};
@@ -296,7 +296,7 @@ bool BodyConstraints::is_let_go(Near& near, const Vec3& force_N, bool may_leave)
 BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::span<const Vec3> dv,
                                                 std::span<const Vec3> e, const StepFormula& step, bool first_passes) {
   Change change;
-  find_what_came_far(state, dv, step);
+  find_far_moving(state, dv, step);
   for (Near& near : near_) {
     if (near.pinned) continue;
     const std::size_t i = at(near.particle);
@@ -308,7 +308,7 @@ BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::sp
       continue;
     }
     const Vec3 force = e[i] / step.weight_s;
-    if (is_let_go(near, force, first_passes)) {
+    if (releases(near, force, first_passes)) {
       ++change.released;
       change.touching += near.touch != Touch::none ? 1 : 0;
       continue;
