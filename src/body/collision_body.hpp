@@ -17,7 +17,7 @@ struct CollisionBody {
   std::vector<Vec3> positions;      // m
   std::vector<Triangle> triangles;  // counter-clockwise from outside
   std::string name;                 // of the file without folder and extension, or "mannequin"
-  std::vector<std::string> notes;   // sentences: parts that were taken although named otherwise, parts that were left out
+  std::vector<std::string> notes;   // sentences: parts taken despite their names, parts left out
   double height_m = 0;              // extent along y
   // Indices of vertices and triangles in the file, ascending, and the file's number of vertices: moving samples of the same
   // file are mapped by these (body_motion.hpp).

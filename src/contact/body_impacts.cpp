@@ -147,7 +147,7 @@ class BodyImpactQuery {
   const BodyImpactWorkspace& workspace_;
   std::span<const Vec3> start_, end_;
   double separation_m_;
-  std::size_t most_;  // per task the same as in all: the division of the body's tree into tasks also depends on solids far away
+  std::size_t most_;  // per task the same as in all: distant solids change the body's division into tasks
 };
 
 // Does the segment pq pass through the triangle?

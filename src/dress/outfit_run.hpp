@@ -119,7 +119,7 @@ class OutfitRun {
   Phase phase_;
   PhaseSeconds seconds_before_;
   std::optional<Tangles> tangles_;
-  long without_room_ = 0;  // the integrator's count of steps with a pinch without room (step/flypaper.hpp), when last read
+  long without_room_ = 0;  // last read count of steps with a pinch without room (step/flypaper.hpp)
   double label_strength_ = 0, motion_start_s_ = 0, ramped_ = -1;
   BodyAt motion_;
   Changed changed_;

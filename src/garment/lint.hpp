@@ -47,7 +47,7 @@ struct LintFinding {
 struct BodyFigures {
   Vec3 low_m{0, 0, 0}, high_m{0, 0, 0};                                       // its box
   Vec3 middle_m{0, 0, 0};                                                     // of the trunk at the waist
-  double head_girth_m = 0, waist_girth_m = 0, hips_girth_m = 0, waist_m = 0;  // waist_m: the height of the waist; 0: not found
+  double head_girth_m = 0, waist_girth_m = 0, hips_girth_m = 0, waist_m = 0;  // waist_m: its height; 0: not found
   // Heights (y) of the tips of the shoulders and of the waist, if measurements are given.
   std::optional<double> shoulder_m, tape_waist_m;
   std::optional<double> arm_down_deg;              // how far the arms hang below the level, the mean of both; 0: a T

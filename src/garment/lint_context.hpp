@@ -26,10 +26,10 @@ class LintContext {
   PatternReading reading;
   const Pattern& pattern;
   std::optional<BodyFigures> body;
-  std::vector<PatternFault> faults;  // of panels that are loops, and of stitches
-  std::vector<char> closed;          // [panel] its edges are a loop
-  std::vector<char> wild;            // [panel] numbers too large to be measured: no other fault is reported
-  std::vector<char> sound;           // [panel] closed and without any fault
+  std::vector<PatternFault> faults;           // of panels that are loops, and of stitches
+  std::vector<char> closed;                   // [panel] its edges are a loop
+  std::vector<char> wild;                     // [panel] numbers too large to be measured: nothing else is reported
+  std::vector<char> sound;                    // [panel] closed and without any fault
   std::vector<std::vector<double>> length_m;  // [panel][edge]; empty where the panel is not closed
   std::set<std::pair<Index, Index>> sewn;     // (panel, edge) that a stitch names
   std::vector<char> fitted;       // [stitch] both sides are there, their panels are sound, and no fault was found yet

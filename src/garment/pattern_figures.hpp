@@ -26,10 +26,9 @@ inline constexpr std::string_view strapless_top = "strapless_top";
 bool is_of_bodice(std::string_view label);
 
 struct PatternFigures {
+  std::optional<double> waist_m;  // top of the open edges with this label: with a bodice its lower end
   std::optional<double>
-      waist_m;  // top of the open edges labelled so: with a bodice its lower end
-  std::optional<double>
-      waist_girth_m;  // length of the edges there or below; absent if an elastic panel has one of them
+      waist_girth_m;                 // length of the edges there or below; absent if an elastic panel has one of them
   std::optional<double> shoulder_m;  // height of the armholes' tops
 };
 PatternFigures pattern_figures(const Pattern& pattern);

@@ -67,7 +67,7 @@ Vec3 project(const Camera& camera, int width, int height, const Vec3& point);
 
 struct RenderOptions {
   int width = 640, height = 800;  // [1, 16384]
-  int samples = 24;               // paths per pixel, [1, 65536]; 6 to 8 are enough for films, because the light is smoothed
+  int samples = 24;               // paths per pixel, [1, 65536]; 6 to 8 are enough for films, as the light is smoothed
   double grid_m = 0.02;           // lines at every grid_m, bolder at every fifth; 0: none
   bool denoise = true;            // smooths the light where the samples are noisy, never the cloth's grid or outline
 };

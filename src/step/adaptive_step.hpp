@@ -36,13 +36,13 @@ struct FrameReport {
   int cg_iterations = 0, cg_max = 0;  // summed over steps; the largest of one step
   int passes = 0;
   int corrected = 0,
-      truncated = 0;      // particles moved by the safe filter, and those with clipped motion; summed over steps
-  int met = 0;            // steps with impacts in the safe filter
-  int refused = 0;        // rejected by the safe filter
-  int pierced = 0;        // impacts with the body that were allowed, summed over steps
-  int pinched = 0;        // pinched particles, the most of any step
-  StepReport last;        // of the last attempt: the reason when !ok
-  std::string diagnosis;  // when !ok: which triangles and particles, in words
+      truncated = 0;             // particles moved by the safe filter, and of these clipped ones; summed over steps
+  int met = 0;                   // steps with impacts in the safe filter
+  int refused = 0;               // rejected by the safe filter
+  int pierced = 0;               // impacts with the body that were allowed, summed over steps
+  int pinched = 0;               // pinched particles, the most of any step
+  StepReport last;               // of the last attempt: the reason when !ok
+  std::string diagnosis;         // when !ok: which triangles and particles, in words
   std::vector<Index> offenders;  // when !ok: triangles of the cloth to look at, ascending
 };
 

@@ -22,7 +22,7 @@ constexpr int most_idle_steps = 2;
 constexpr double idle_gap = 1.5;
 constexpr double most_of_faces = 3;  // stiffness of a row with a face, over the inverse compliance of its pair
 constexpr double same_way = 0.9, too_near = 0.1;  // cosine; of r
-constexpr double moves_on = 0.5;  // of r: motion of a pair in a step above which its end is more relevant than its start
+constexpr double moves_on = 0.5;  // of r: motion of a pair in a step above which its end matters more than its start
 constexpr double at_rest = 0.04;  // of r: motion of a pair in a step up to which it does not slide
 constexpr double same_side =
     0.7;  // cosine between the normals of a contact before and after its vertex came to another face

@@ -7,9 +7,9 @@
 //
 // is the vertex's displacement relative to the body: 0 when both move rigidly together, d when the cloth alone is shifted by d.
 //
-//   loop        a hem loop that the body goes through: its middle and both points of its axis (the normal of its area, downwards; outwards
-//               where it lies on its side) as far from there as it is wide, 10 cm at most, are within the body (an open front is none).  Its drop is the mean of s along the axis
-//               over its vertices within slip_reach_m of the body; only where at least half of them are, since a free hem shows nothing
+//   loop        a hem loop that the body goes through: its middle and both points of its axis (the normal of its area, downwards; outwards if it
+//               lies on its side) as far from there as it is wide, 10 cm at most, are within the body (an open front is none).  Its drop is the mean
+//               of s along the axis over its vertices within slip_reach_m of the body; only if these are at least half, as a free hem shows nothing
 //   waist       the cloth that lies on a person's waist, within half_band_m of its height: its drop is the mean of -s_y
 //   shoulders   the cloth that lies on a person above the roots of the arms, not on an arm, nor on neck or head, where the body faces up:
 //               its slip is the mean of |s| along the surface, of the side where it is larger
@@ -43,7 +43,7 @@ struct Slip {
 
 struct LoopSlip {
   std::string name;                  // the panels along it
-  double height_m = 0, girth_m = 0;  // at the beginning: mean height, length; girth 0: no loop, but the highest cloth on the body
+  double height_m = 0, girth_m = 0;  // at the beginning; girth 0: no loop, but the highest cloth on the body
   bool holds = false;                // it holds its garment
   Slip drop;
 };

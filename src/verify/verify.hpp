@@ -101,10 +101,10 @@ class RunAudit {
   std::vector<double> speed_p99_;  // one per pair of consecutive frames
 };
 
-// Reads the files of a run; every frame is judged, and compared with the checksum that the report has of it.  The body's files may be absent
-// together when report.json knows of no body; those of the cloth when it says that no frame was written.  Of report.json it uses `fps`, and if
-// present `frames`, `body.vertices`, `reasons`, `qualification_details`, `limits.still_mm_per_s`, `inputs`, `files` and `rest_stretch` {"panel": [b_u, b_v]}.  A run in progress or
-// one that was killed has unfinished.json instead: its frames are judged, and it is no pass.
+// Reads the files of a run; every frame is judged, and compared with its checksum in the report.  All files of the body may be absent when
+// report.json has no body; those of the cloth when it has no frames.  Of report.json it uses `fps`, and if present `frames`,
+// `body.vertices`, `reasons`, `qualification_details`, `limits.still_mm_per_s`, `inputs`, `files` and `rest_stretch` {"panel": [b_u, b_v]}.
+// A run in progress or one that was killed has unfinished.json instead: its frames are judged, and it is no pass.
 // Throws IoError (missing, unreadable) or InputError (truncated, not in its format, sizes that contradict each
 // other), naming the file, the expected and the actual value.
 VerifyReport verify_directory(const std::string& directory);
