@@ -32,7 +32,7 @@ struct UntangledStart {
 inline constexpr double most_edges_moved = 3;  // mean edges of the garment as it is cut
 
 // Moves the outfit's particles (dress/untangle.hpp) except `held`.  An open body has no inside: then only the cloth is untangled from itself.
-// It gives up after `most_in_vain` trials without progress; 0: the default of untangle().
+// It gives up after `most_in_vain` trials without progress; 0: at the limit of trials.
 // `stop` ends it.
 UntangledStart untangle_start(Outfit& outfit, std::span<const Triangle> body, std::span<const Vec3> body_x,
                               std::vector<Index> held, const std::function<bool()>& stop, int most_in_vain = 0);
