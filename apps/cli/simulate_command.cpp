@@ -106,7 +106,7 @@ SceneCollider dress_body(const CommandLine& line) {
   };
   if (!mannequin && !among(of_a_mesh) && (among(names) || !looks_like_a_file(line.motion)))
     throw Error(ErrorKind::usage,
-                "--motion: expected " + std::string(what_moves_a_mesh) + "; got \"" + printable(line.motion) + '"');
+                "--motion: expected " + std::string(motions_for_a_mesh) + "; got \"" + printable(line.motion) + '"');
   if (mannequin && !among(names) && !std::filesystem::exists(line.motion))
     throw Error(ErrorKind::usage, "--motion: expected a motion or a file; nearest is \"" +
                                       std::string(nearest_name(line.motion, names.data(), names.size())) +

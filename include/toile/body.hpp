@@ -1,6 +1,6 @@
-// toile/body.hpp: what cloth collides with: a person, or another closed surface, that may move.
+// toile/body.hpp: colliders: a person, or another closed surface, that may move.
 //
-// Of a simulation one body is worn: garments are dressed on it.  All others are solids: they stand, or move, beside it.
+// Garments are dressed on one body of a simulation, the worn body.  All others are solids: they stand, or move, beside it.
 #pragma once
 #include "toile/export.hpp"
 #include "toile/types.hpp"
@@ -27,8 +27,8 @@ struct CylinderOptions {  // upright, with rounded rims
   Point top_m{0, 0, 0};  // the middle of its top
 };
 
-// Where a solid has gone since it began to move: shifted, turned (R = Rz Ry Rx) and scaled about its own place.  Every number goes straight from
-// one key to the next.
+// A key of a solid's motion: its shift, rotation (R = Rz Ry Rx) and scale relative to its own place.  All are interpolated linearly between
+// keys.
 struct BodyKey {
   double t_s = 0;
   Point shift_m{0, 0, 0}, rotation_deg{0, 0, 0};
@@ -42,20 +42,20 @@ class TOILE_EXPORT Body {
   // "woman", "man" or "dancer"; `motion` is one of motion_names(), or a file as above; empty: it stands.
   static Body mannequin(std::string_view who, const std::string& motion = {});
   static std::vector<std::string> motion_names();
-  // A closed mesh (OBJ, PLY, glTF).  Of one that is worn the person is taken, of a solid everything.
+  // A closed mesh (OBJ, PLY, glTF).  For the worn body only the person in the file is used, for a solid everything.
   static Body from_file(const std::string& path, const BodyFileOptions& options = {});
   // A closed mesh in metres, counter-clockwise from outside.  It stands, or goes where Simulation::set_collider says.  Copies.
   static Body from_arrays(std::span<const Point> vertices_m, std::span<const Face> faces);
-  // The same in motion: `frames_m` holds one set of `vertices` points after the other, `fps` of them in a second; the first is how it stands.
+  // The same in motion: `frames_m` holds the frames one after the other, `vertices` points each, `fps` of them in a second; it starts at the first.
   static Body from_frames(std::span<const Point> frames_m, std::size_t vertices, std::span<const Face> faces,
                           double fps);
   static Body cylinder(const CylinderOptions& options = {});
   // Around the origin; edges of its triangles are at most edge_m long.
   static Body sphere(double radius_m, double edge_m = 0.02);
   static Body box(const Point& size_m);
-  // A rod with round ends, whose middles these are.
+  // A rod with round ends, centred at from_m and to_m.
   static Body capsule(double radius_m, const Point& from_m, const Point& to_m, double edge_m = 0.02);
-  // What an outline of points (distance from the y axis, height) sweeps: from the axis to the axis, or a closed curve beside it.
+  // A surface of revolution about y.  Its profile, points (distance from the axis, height), runs from the axis to the axis, or is closed.
   static Body revolved(std::span<const std::array<double, 2>> profile_m, double edge_m = 0.02);
 
   Body(const Body&);
@@ -64,13 +64,13 @@ class TOILE_EXPORT Body {
   Body& operator=(Body&&) noexcept;
   ~Body();
 
-  // Of cloth on it.  Otherwise, of a solid, that of the body that is worn; of that one, or without one, the fabric's.
+  // Friction of cloth on it.  Default: for a solid, the worn body's; for the worn body, or where there is none, the fabric's.
   Body& set_friction(double friction);
-  // How far above it cloth rests.  Otherwise, of a solid, that of the body that is worn; of that one by the length of the cloth's edges.
+  // The distance at which cloth rests on it.  Default: for a solid, the worn body's; for the worn body it follows from the edge length of the cloth.
   Body& set_offset(double offset_m);
-  // Of solids.  Where it stands: turned first, then shifted.
+  // Solids only.  Where it stands: rotated first, then shifted.
   Body& place(const Point& translation_m, const Point& rotation_deg = {0, 0, 0});
-  Body& set_moves(std::span<const BodyKey> keys);  // times ascend; from the first advance() on
+  Body& set_moves(std::span<const BodyKey> keys);  // in ascending order of time; t = 0 is the first advance()
   Body& set_inside_out(bool inside_out = true);    // a room
 
   struct TOILE_HIDDEN Parts;

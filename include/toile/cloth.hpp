@@ -1,4 +1,4 @@
-// toile/cloth.hpp: a garment or a piece of cloth, as it is before anything moves.
+// toile/cloth.hpp: a garment or a piece of cloth, before the simulation.
 #pragma once
 #include "toile/export.hpp"
 #include "toile/fabric.hpp"
@@ -19,7 +19,7 @@ struct GridOptions {
   double width_m = 1, height_m = 1, edge_m = 0.02;
 };
 
-// Where a mesh takes its shape at rest from: its drawing (vt), or itself as it starts.
+// Where the rest shape of a mesh comes from: its texture coordinates (vt), or its positions at the start.
 enum class RestShape { automatic, drawing, start };  // automatic: the drawing, if it is in metres
 
 struct MeshFileOptions {
@@ -27,11 +27,11 @@ struct MeshFileOptions {
   RestShape rest_shape = RestShape::automatic;
 };
 
-// Cloth from arrays.  Of n vertices and f faces:
+// Cloth from arrays, of n vertices and f faces.
 struct ClothArrays {
   std::span<const Point> vertices_m = {};  // [n] where it starts
   std::span<const Face> faces = {};        // [f]
-  // [f] How it was cut.  Empty: it was cut as it starts, its warp as upright as each face allows.
+  // [f] The rest shape.  Empty: the shape at the start, with the warp as upright as each face allows.
   std::span<const CornerUvs> uv_m = {};
   std::span<const std::int32_t> panel = {};       // [f] a number below panel_names.size(); empty: one panel
   std::span<const std::string> panel_names = {};  // empty: the cloth's name
@@ -40,13 +40,13 @@ struct ClothArrays {
 // A value: a copy is independent.
 class TOILE_EXPORT Cloth {
  public:
-  // The panels of a sewing pattern (GarmentCode's JSON), which are sewn around the body by Simulation::dress.
+  // The panels of a sewing pattern (GarmentCode's JSON), which Simulation::dress sews around the body.
   static Cloth from_pattern(const std::string& path, const PatternOptions& options = {});
-  // A garment that is modelled already (OBJ, PLY, glTF): worn as it lies, not sewn.  Its groups are its panels; vertices that it had to split
-  // along a seam of its drawing are one particle.  What was
-  // not taken as it stands is in Simulation::warnings.
+  // A garment that is a mesh already (OBJ, PLY, glTF): worn where it lies, not sewn.  Its groups are its panels; vertices that the file had to
+  // split along a texture seam are one particle.  Repairs of the
+  // file are in Simulation::warnings.
   static Cloth from_file(const std::string& path, const MeshFileOptions& options = {});
-  // Upright in the plane z = 0, facing +z, its middle at the origin.
+  // Upright in the plane z = 0, facing +z, centred at the origin.
   static Cloth grid(const GridOptions& options = {});
   // Copies.  Throws InputError for faces that are out of range, degenerate, or not a surface, and for numbers that are not finite.
   static Cloth from_arrays(const ClothArrays& arrays);
@@ -57,14 +57,14 @@ class TOILE_EXPORT Cloth {
   Cloth& operator=(Cloth&&) noexcept;
   ~Cloth();
 
-  // Each of these returns the cloth, so that they can follow each other.
+  // Each of these returns the cloth, so that calls can be chained.
   Cloth& set_name(std::string_view name);
   Cloth& set_fabric(const Fabric& fabric);  // of all panels without one of their own
   Cloth& set_panel_fabric(std::string_view panel, const Fabric& fabric);
-  // b of warp and weft, by which the panel's length at rest is multiplied: below 1 it is elastic.
+  // b_u, b_v of warp and weft, factors on the panel's rest length: below 1 it is elastic.
   Cloth& set_panel_rest_stretch(std::string_view panel, double u, double v);
-  // Pa on its right side, outwards where the cloth is worn or closed: balloons, cushions.  From when everything is on; after a sewing it grows with
-  // gravity, for half a second.
+  // A pressure towards its right side, outwards where the cloth is worn or closed: balloons, cushions.  It acts once all garments are on; after a
+  // sewing it is ramped up with gravity, in half a second.
   Cloth& set_panel_pressure(std::string_view panel, double Pa);
   // x -> R x + t with R = Rz Ry Rx, about the origin.
   Cloth& place(const Point& translation_m, const Point& rotation_deg = {0, 0, 0});

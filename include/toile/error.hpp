@@ -1,7 +1,7 @@
-// toile/error.hpp: what is thrown for what cannot be meant.
+// toile/error.hpp: the exceptions of the library.
 //
-// Input that cannot be meant throws; physics that goes badly does not: it comes back in a report, in words (simulation.hpp).  A call that
-// throws has changed nothing.
+// Invalid input throws; a failed simulation does not: it comes back in a report, in words (simulation.hpp).  A call that throws has changed
+// nothing.
 #pragma once
 #include "toile/export.hpp"
 
@@ -13,8 +13,8 @@ namespace toile {
 // Also the exit codes of the program.
 enum class ErrorCode {
   usage = 2,           // a call in the wrong order, or an option that is out of its range
-  bad_input = 3,       // a file or an array that is not what it should be
-  bad_start = 4,       // cloth that begins through itself or the body, where that is to be an error
+  bad_input = 3,       // a file or an array with invalid contents
+  bad_start = 4,       // cloth that intersects itself or the body at the start, where that is to be an error
   input_output = 6,    // a file that cannot be read or written
   resource_limit = 7,  // more than the machine has
   internal = 9,        // a bug of Toile

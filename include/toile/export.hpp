@@ -1,5 +1,5 @@
-// toile/export.hpp: TOILE_EXPORT stands before every class and function that a shared libtoile shows; everything else is hidden.
-// TOILE_HIDDEN: what is inside such a class and for the library alone.
+// toile/export.hpp: TOILE_EXPORT marks every class and function that a shared libtoile exports; everything else is hidden.
+// TOILE_HIDDEN: a nested class of an exported one that only the library uses.
 #pragma once
 
 #if defined(__GNUC__)

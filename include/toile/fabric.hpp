@@ -1,4 +1,4 @@
-// toile/fabric.hpp: what cloth is made of.                                              sources of the presets: docs/theory/fabrics.md
+// toile/fabric.hpp: material parameters.                                                sources of the presets: docs/theory/fabrics.md
 #pragma once
 #include "toile/export.hpp"
 
@@ -22,7 +22,7 @@ struct Fabric {
   double thickness_m = 2.5e-3;  // between two layers that touch
 };
 
-// Of the presets silk, cotton, wool, denim and knit.  Throws InputError with the nearest name for any other.
+// The preset of that name: silk, cotton, wool, denim or knit.  Throws InputError with the nearest name for any other.
 TOILE_EXPORT Fabric fabric(std::string_view name);
 TOILE_EXPORT std::vector<std::string> fabric_names();
 

@@ -1,4 +1,4 @@
-// toile/simulation.hpp: cloth and body in time.
+// toile/simulation.hpp: the simulation of cloth on a body.
 //
 //   toile::Simulation sim(toile::Cloth::from_pattern("tshirt.json"), toile::Body::mannequin("woman", "walk"));
 //   if (toile::DressReport worn = sim.dress(); !worn.ok()) { std::puts(worn.explain().c_str()); return 1; }
@@ -7,7 +7,7 @@
 //     draw(sim.positions_m(), sim.faces());
 //   }
 //
-// Every call throws Error for what cannot be meant.  Physics that goes badly is in the report.  The same calls give the same bits, on any
+// Every call throws Error for invalid input.  A simulation that fails says so in its report.  The same calls give the same bits, on any
 // number of threads; two simulations may run in two threads at once.
 #pragma once
 #include "toile/body.hpp"
@@ -29,7 +29,7 @@ namespace toile {
 
 struct Progress {
   std::string_view phase;    // "meshing", "placing", "sewing", "untangling", "fitting", "draping" ...
-  double share = 0;          // of the phase, 0 ... 1
+  double share = 0;          // of the phase that is done, 0 ... 1
   double seconds_left = -1;  // of the phase; -1: unknown
 };
 
@@ -38,40 +38,40 @@ struct SimulationOptions {
   Point wind_m_per_s{0, 0, 0};
   double air_density_kg_per_m3 = 1.2;  // 0: cloth moves as in a vacuum
   int threads = 0;                     // 0: one per core; the bits do not depend on it
-  // Asked while it works; true ends the call, but not the making of a simulation.  One whose dressing was cancelled is as it was before; a cancelled
-  // advance() leaves the last good step, from which the next one goes on.
+  // Polled while a call works; true ends the call, but not a constructor.  A cancelled dress() leaves the simulation as it was before; a cancelled
+  // advance() leaves it at the last good step, from which the next one goes on.
   std::function<bool()> cancelled = {};
   std::function<void(const Progress&)> progress = {};
 };
 
-// What dress() came to.
+// The result of dress().
 struct TOILE_EXPORT DressReport {
   bool ok() const { return reasons.empty(); }
   std::string ended;            // "still", "time", "seam_blocked", "step_collapsed", "time_limit", "interrupted" ...
-  std::vector<Reason> reasons;  // why it is not worn as it should be; empty: it is
+  std::vector<Reason> reasons;  // why it is not worn as it should be; empty: it is worn well
   std::vector<std::string> warnings;
   double simulated_s = 0;
-  // One line for each.
+  // One line for each reason and warning.
   TOILE_EXPORT std::string explain() const;
 };
 
-// One advance().
+// The result of one advance().
 struct TOILE_EXPORT StepReport {
   bool ok() const { return reached; }
-  bool reached = true;  // false: the cloth stays where the last good step left it, and time where it was
+  bool reached = true;  // false: the cloth and the time are those of the last good step
   bool cancelled = false;
   int steps = 0, rejected = 0;
   double step_min_s = 0, step_max_s = 0;
   int cg_iterations = 0;
-  std::string diagnosis;  // of a step that could not be made however short: which triangles, and why
+  std::string diagnosis;  // of a step that failed at every step size: which triangles, and why
   TOILE_EXPORT std::string explain() const;
 };
 
-// All that decides how a simulation goes on, between two frames.
+// The complete state of a simulation between two frames: all that decides how it goes on.
 class TOILE_EXPORT State {
  public:
   State() = default;
-  // Bytes of another process or machine.  They are checked when they are used.
+  // Bytes from another process or machine.  Simulation::set_state checks them.
   explicit State(std::string bytes) : bytes_(std::move(bytes)) {}
   const std::string& bytes() const { return bytes_; }
   static State load(const std::string& path);
@@ -83,36 +83,36 @@ class TOILE_EXPORT State {
 
 class TOILE_EXPORT Simulation {
  public:
-  // Cloth that is no pattern hangs at once where it starts; what begins through itself or the body is taken apart first.  Of several cloths the
-  // inner ones come first.
+  // Cloth that is no pattern hangs at once where it starts; intersections at the start are resolved first.  Several cloths are given from the inside
+  // out.
   explicit Simulation(const Cloth& cloth, const Body& body = Body::none(), const SimulationOptions& options = {});
   explicit Simulation(std::span<const Cloth> cloths, const Body& body = Body::none(),
                       const SimulationOptions& options = {});
-  // With solids beside the body that is worn, which may be none.
+  // With solids beside the worn body, which may be Body::none().
   Simulation(std::span<const Cloth> cloths, const Body& body, std::span<const Body> solids,
              const SimulationOptions& options = {});
-  // What a scene file says, in memory: no folder is made.
+  // The simulation that a scene file describes, in memory: no folder is made.
   static Simulation from_scene(const std::string& path, const SimulationOptions& options = {});
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
 
-  // Sews the patterns around the body, and lets them hang until they are at rest, or for longest_s.  Of cloth that is no pattern: lets it come to
-  // rest.  `time_limit_s` is wall time; 0: any.
+  // Sews the patterns around the body, and lets them hang until they are at rest, or for longest_s.  Cloth that is no pattern only comes to rest.
+  // `time_limit_s` is wall time; 0: no limit.
   DressReport dress(double longest_s = 20, double time_limit_s = 0);
-  // Of a scene: all that it says, to its end, as the program does.
+  // Runs a scene to its end, as the program does.
   DressReport run();
-  // By exactly h_s.  A body with a motion begins it at the first call.
+  // Advances by exactly h_s.  A body with a motion begins it at the first call.
   StepReport advance(double h_s);
-  // Since everything is on: after dress() it is how long the cloth hung.
+  // Time since all garments are on: after dress() it is how long the cloth hung.
   double time_s() const;
-  // Takes everything back to how it was made.
+  // Back to the state after construction.
   void reset();
 
-  // What of the files was not taken as it stands, and what is probably not meant.
+  // Repairs of the input files, and input that is probably not meant.
   const std::vector<std::string>& warnings() const;
 
-  // The cloth.  Views into the simulation, valid until the next call that is not const.  Before dress() of a pattern: the panels, unsewn.
+  // The cloth.  Views into the simulation, valid until the next non-const call.  Before dress() of a pattern: its unsewn panels.
   std::span<const Point> positions_m() const;         // [particle]
   std::span<const Point> velocities_m_per_s() const;  // [particle]
   std::span<const Face> faces() const;
@@ -122,13 +122,13 @@ class TOILE_EXPORT Simulation {
   // The body and the solids, in this order, as one surface; empty if there is none.
   std::span<const Point> body_positions_m() const;
   std::span<const Face> body_faces() const;
-  // Each by itself: the body, if there is one, then the solids.
+  // One collider by itself: the worn body, if there is one, comes first, then the solids.
   int collider_count() const;
   std::span<const Point> collider_positions_m(int collider) const;
 
-  // Holds particles where they are, until they are released.  Attached ones are pinned from then on.
+  // Holds particles where they are, until they are released.  Attached particles become pinned ones.
   void pin(std::span<const std::int32_t> particles);
-  // Where pinned particles shall be at the end of the next advance(), each on a straight way; then they stay there.
+  // Moves pinned particles in a straight line to these points during the next advance(); they stay there.
   void move_pins(std::span<const std::int32_t> particles, std::span<const Point> to_m);
   void release(std::span<const std::int32_t> particles);
   std::vector<std::int32_t> pinned() const;  // ascending
@@ -138,38 +138,38 @@ class TOILE_EXPORT Simulation {
     std::array<double, 3> barycentric{1, 0, 0};
     double stiffness_N_per_m = 50, damping_N_s_per_m = 0.5, max_force_N = 5;
   };
-  // A hand that pulls a point of the cloth by a spring; it begins where the point is.
+  // A hand that pulls a point of the cloth by a spring; it begins at that point.
   int grab(const Grip& grip);
-  // Where the hand shall be at the end of the next advance().
+  // Moves the hand there during the next advance().
   void drag(int hand, const Point& to_m);
   void let_go(int hand);
 
-  // Where the body, or the solid, shall be at the end of the next advance(), each vertex on a straight way.  Of one without a motion of its own.
+  // Moves the body, or a solid, there during the next advance(), each vertex in a straight line.  Only for one without a motion of its own.
   void set_body(std::span<const Point> vertices_m) { set_collider(0, vertices_m); }
   void set_collider(int collider, std::span<const Point> vertices_m);
   // Holds particles where they are on the body or a solid: each is carried by the nearest point of its surface, and turns with it.
   void attach(std::span<const std::int32_t> particles);
-  // Of cloth on this collider, as in set_collider, from now on.
+  // Friction of cloth on this collider (numbered as in set_collider) from now on.
   void set_friction(int collider, double friction);
-  // How stiff a panel is, as a share of its fabric, from now on; damping in the same share.
+  // Factors on a panel's stiffness and damping, relative to its fabric, from now on.
   struct Stiffness {
     double stretch = 1, shear = 1, bend = 1;
   };
   void set_stiffness(std::int32_t panel, const Stiffness& share);
-  // Of a panel, Pa, from now on.
+  // The pressure of a panel from now on (Cloth::set_panel_pressure).
   void set_pressure(std::int32_t panel, double Pa);
   void set_gravity(const Point& m_per_s2);
   void set_wind(const Point& m_per_s);
 
-  // Goes on from here with the same bits: in this simulation, or in another one that was made of the same cloth, body and options, dressed or not,
-  // in any process.
+  // A state from which this simulation, or another of the same cloth, body and options, dressed or not, in any process, goes on with the same
+  // bits.
   State state() const;
-  // Throws InputError for a state of another simulation, or one that is not whole.
+  // Throws InputError for a state of a different simulation, or an incomplete one.
   void set_state(const State& state);
-  // Of the bits of all positions and velocities: 16 hexadecimal digits, as in report.json.
+  // Hash of the bits of all positions and velocities: 16 hexadecimal digits, as in report.json.
   std::string state_hash() const;
 
-  // Of the positions as float32, as files hold them.
+  // Crossings of the positions rounded to float32, as files hold them.
   Crossings crossings() const;
 
   struct TOILE_HIDDEN Implementation;

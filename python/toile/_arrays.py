@@ -1,4 +1,4 @@
-"""Arrays as the library reads them: numbers of one type, C-contiguous, of a shape that has a name in the error."""
+"""Arrays as the library reads them: numbers of one type, C-contiguous, of a shape that the error names."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def _read(value: ArrayLike, name: str, kinds: str, what: str, shapes: Sequence[S
 
 
 def numbers(value: ArrayLike, name: str, *shapes: Sequence[Dimension]) -> NDArray[np.float64]:
-    """float64 of one of the shapes; a word in a shape stands for any number.  Not copied if it is so already."""
+    """float64 of one of the shapes; a word in a shape stands for any number.  Not copied if it has that form already."""
     return np.ascontiguousarray(_read(value, name, "fiu", "numbers", shapes), dtype=np.float64)
 
 
@@ -53,7 +53,7 @@ def point(value: ArrayLike, name: str) -> tuple[float, float, float]:
 
 
 def own(array: NDArray[Any]) -> NDArray[Any]:
-    """A copy that nobody changes."""
+    """A read-only copy."""
     array = array.copy()
     array.flags.writeable = False
     return array

@@ -21,13 +21,13 @@ def _cores() -> int:
 
 
 class Batch:
-    """Simulations that go on together, each on one thread: the same bits as one after the other.
+    """Simulations that advance in parallel, each on one thread, with the same bits as one after the other.
 
-    Make them with threads=1: more threads of each only stand in each other's way.
+    Make them with threads=1: with more they would compete for the cores.
     """
 
     def __init__(self, simulations: Iterable[Simulation], *, threads: int = 0) -> None:
-        """threads: how many simulations are at work at once; 0: one per core."""
+        """threads: the number of simulations that run at once; 0: one per core."""
         self.simulations = list(simulations)
         for one in self.simulations:
             if not isinstance(one, Simulation):
@@ -39,11 +39,11 @@ class Batch:
         self._threads = threads or _cores()
 
     def advance(self, h_s: float) -> list[StepReport]:
-        """Of each, by exactly h_s."""
+        """Advances each by exactly h_s."""
         return self._each(lambda one: one.advance(h_s))
 
     def dress(self, longest_s: float = 20, time_limit_s: float = 0) -> list[DressReport]:
-        """Of each."""
+        """Dresses each."""
         return self._each(lambda one: one.dress(longest_s, time_limit_s))
 
     @property
@@ -67,9 +67,9 @@ class Batch:
             futures = [pool.submit(unless_stopped, one) for one in self.simulations]
             try:
                 wait(futures)
-            except BaseException:  # Ctrl-C is heard in the main thread, which waits here
+            except BaseException:  # Ctrl-C arrives in the main thread, which waits here
                 stop = True
-                while wait(futures, timeout=0.05).not_done:  # one may have been about to begin
+                while wait(futures, timeout=0.05).not_done:  # one may have been about to start
                     for one in self.simulations:
                         one.cancel()
                 raise

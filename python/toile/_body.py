@@ -1,6 +1,6 @@
-"""What cloth collides with: a person, or another closed surface, that may move.
+"""Colliders: a person, or another closed surface, that may move.
 
-Of a simulation one body is worn: garments are dressed on it.  All others are solids, beside it.
+Garments are dressed on one body of a simulation, the worn body.  All others are solids, beside it.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def _motion(given: str | os.PathLike[str]) -> str:
 class Body(Made):
     """A closed surface.  Made by one of the class methods below.
 
-    Pickles as it was made: arrays with their contents, a file with its path.
+    Pickles as its recipe: arrays with their contents, a file with its path.
     """
 
     _core_type = _toile.Body
@@ -49,7 +49,7 @@ class Body(Made):
 
     @staticmethod
     def motion_names() -> list[str]:
-        """Of the mannequins' motions (docs/motions.md)."""
+        """The names of the mannequins' motions (docs/motions.md)."""
         return _toile.Body.motion_names()
 
     @classmethod
@@ -62,7 +62,7 @@ class Body(Made):
         fps: float = 30,
         measurements: str | os.PathLike[str] = "",
     ) -> Body:
-        """A closed mesh (OBJ, PLY, glTF), read when a simulation is made with it, which raises IoError and InputError.
+        """A closed mesh (OBJ, PLY, glTF).  It is read by the constructor of a simulation, which raises IoError and InputError.
 
         unit          "automatic" (metres, or an error that says which unit would fit), "m", "dm" or "cm"
         motion        a .pc2 file, a folder of OBJ or PLY files, or the name of a motion for upright meshes; empty: it stands
@@ -93,7 +93,7 @@ class Body(Made):
 
     @classmethod
     def from_frames(cls, frames_m: ArrayLike, faces: ArrayLike, *, fps: float) -> Body:
-        """The same in motion: frames_m (frames, n, 3), `fps` of them in a second; the first is how it stands.
+        """The same in motion: frames_m (frames, n, 3), `fps` of them in a second; it starts at the first.
 
         The motion begins at the first advance(); at its end the body stays.
         """
@@ -116,7 +116,7 @@ class Body(Made):
 
     @classmethod
     def capsule(cls, radius_m: float, from_m: ArrayLike, to_m: ArrayLike, *, edge_m: float = 0.02) -> Body:
-        """A rod with round ends, whose middles these are.  Raises InputError, when a simulation is made, for ends at one place."""
+        """A rod with round ends, centred at from_m and to_m.  Equal ends raise InputError when a simulation is made."""
         ends = {"from_m": _arrays.point(from_m, "from_m"), "to_m": _arrays.point(to_m, "to_m")}
         return cls._make("capsule", radius_m=radius_m, **ends, edge_m=edge_m)
 
@@ -127,15 +127,15 @@ class Body(Made):
 
     @classmethod
     def revolved(cls, profile_m: ArrayLike, *, edge_m: float = 0.02) -> Body:
-        """What an outline sweeps around the y axis: profile_m (n, 2), distance from it and height, in metres.
+        """A surface of revolution about the y axis: profile_m (n, 2), distance from the axis and height, in metres.
 
-        From the axis to the axis, or a closed curve beside it.  Raises InputError when a simulation is made with another one.
+        From the axis to the axis, or a closed curve beside it.  Any other profile raises InputError when a simulation is made.
         """
         outline = _arrays.numbers(profile_m, "profile_m", ("points", 2))
         return cls._make("revolved", profile_m=[(float(r), float(y)) for r, y in outline], edge_m=edge_m)
 
     def place(self, translation_m: ArrayLike = (0, 0, 0), *, rotation_deg: ArrayLike = (0, 0, 0)) -> Body:
-        """Where a solid stands: turned first (R = Rz Ry Rx), then shifted."""
+        """Places a solid: rotated first (R = Rz Ry Rx), then shifted."""
         return self._change(
             "place",
             translation_m=_arrays.point(translation_m, "translation_m"),
@@ -143,10 +143,10 @@ class Body(Made):
         )
 
     def set_moves(self, keys: Iterable[Mapping[str, Any]]) -> Body:
-        """How a solid moves from the first advance() on, about its own place: straight from key to key.
+        """Moves a solid from the first advance() on, relative to its own place, linearly between keys.
 
-        A key is a mapping: t_s (ascending), and shift_m, rotation_deg and scale, each as in the key before where it is left out.
-        Raises InputError for other words, or times that do not ascend.
+        A key is a mapping: t_s (ascending), and shift_m, rotation_deg and scale; one that is left out is as in the key before.
+        Raises InputError for other names, or times that do not ascend.
         """
         path: list[tuple[float, Any, Any, float]] = []
         shift, turned, scale = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 1.0
@@ -165,11 +165,11 @@ class Body(Made):
         return self._change("set_inside_out", inside_out=inside_out)
 
     def set_friction(self, friction: float) -> Body:
-        """Of cloth on it.  Otherwise, of a solid, the worn body's; of that one, the fabric's."""
+        """Friction of cloth on it.  Default: for a solid, the worn body's; for that one, the fabric's."""
         return self._change("set_friction", friction=friction)
 
     def set_offset(self, offset_m: float) -> Body:
-        """How far above it cloth rests.  Otherwise, of a solid, the worn body's; of that one by the length of the cloth's edges."""
+        """The distance at which cloth rests on it.  Default: for a solid, the worn body's; for that one, by the cloth's edge length."""
         return self._change("set_offset", offset_m=offset_m)
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""A garment or a piece of cloth, as it is before anything moves; and what it is made of."""
+"""A garment or a piece of cloth, before the simulation; and its fabric."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ def as_fabric(given: FabricLike) -> Fabric:
 
 
 class Cloth(Made):
-    """A mesh of triangles in space and as it was cut, with the fabric of each panel.
+    """A triangle mesh in space with its rest shape, and the fabric of each panel.
 
-    Changes (`set_...`, `place`) return the cloth itself, so that they can follow each other.  A simulation copies it.
-    Pickles as it was made: arrays with their contents, a pattern with the path of its file.
+    Changes (`set_...`, `place`) return the cloth itself, so that calls can be chained.  A simulation copies it.
+    Pickles as its recipe: arrays with their contents, a pattern with the path of its file.
     """
 
     _core_type = _toile.Cloth
@@ -55,8 +55,8 @@ class Cloth(Made):
 
         vertices_m   (n, 3) where it starts, m
         faces        (f, 3) integers, counter-clockwise seen from the right side
-        uv_m         how it was cut, m, u along the warp: (f, 3, 2) of the corners of each face, which may differ on both
-                     sides of a seam; or (n, 2) of the vertices.  None: it was cut as it starts
+        uv_m         the rest shape, m, u along the warp: (f, 3, 2) of the corners of each face, which may differ on both
+                     sides of a seam; or (n, 2) of the vertices.  None: the shape at the start
         panel        (f,) the number of each face's panel; None: it is one panel
         panel_names  their names; None: "panel_0", "panel_1" ... or, of one panel, the cloth's name
 
@@ -70,7 +70,7 @@ class Cloth(Made):
             uv = _arrays.numbers(uv_m, "uv_m", (len(corners), 3, 2), (len(vertices), 2))
             if uv.ndim == 2:
                 in_range = not corners.size or (corners.min() >= 0 and corners.max() < len(vertices))
-                uv = uv[corners] if in_range else None  # the library says which face is not
+                uv = uv[corners] if in_range else None  # the library names the face that is not
             uv = None if uv is None else _arrays.own(np.ascontiguousarray(uv))
         numbers = None if panel is None else _arrays.own(_arrays.integers(panel, "panel", (len(corners),)))
         if panel_names is None:
@@ -93,44 +93,44 @@ class Cloth(Made):
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str], *, unit: str = "m", rest_shape: str = "automatic") -> Cloth:
-        """A garment that is modelled already (OBJ, PLY, glTF): worn as it lies, not sewn.
+        """A garment that is a mesh already (OBJ, PLY, glTF): worn where it lies, not sewn.
 
-        Its groups are its panels; vertices that it had to split along a seam of its drawing are one particle.  What was not taken as it stands is in
-        Simulation.warnings.
+        Its groups are its panels; vertices that the file had to split along a texture seam are one particle.  Repairs of the file
+        are in Simulation.warnings.
 
         unit        of its coordinates: "m", "dm" or "cm"
-        rest_shape  "drawing": as its vt in metres say it was cut; "start": as it starts, vt says where the warp runs;
+        rest_shape  "drawing": its vt, in metres; "start": its shape at the start, with the warp by vt;
                     "automatic": the drawing, if it is in metres
 
-        The file is read when a simulation is made of it, which raises IoError or InputError.
+        The file is read by the constructor of a simulation, which raises IoError or InputError.
         """
         return cls._make("from_file", path=file_path(path), unit=unit, rest_shape=rest_shape)
 
     @classmethod
     def grid(cls, *, width_m: float = 1, height_m: float = 1, edge_m: float = 0.02) -> Cloth:
-        """A rectangle, upright in the plane z = 0, facing +z, its middle at the origin."""
+        """A rectangle, upright in the plane z = 0, facing +z, centred at the origin."""
         return cls._make("grid", width_m=width_m, height_m=height_m, edge_m=edge_m)
 
     def set_name(self, name: str) -> Cloth:
-        """For messages, and for what else is worn."""
+        """Sets the name that messages and reports use."""
         return self._change("set_name", name=name)
 
     def set_fabric(self, fabric: FabricLike) -> Cloth:
-        """Of all panels without one of their own: a Fabric, or the name of a preset."""
+        """Sets the fabric of all panels without one of their own: a Fabric, or the name of a preset."""
         return self._change("set_fabric", fabric=as_fabric(fabric))
 
     def set_panel_fabric(self, panel: str, fabric: FabricLike) -> Cloth:
-        """Of one panel.  For a panel that there is not the making of a simulation raises InputError."""
+        """Sets the fabric of one panel.  The name of a missing panel raises InputError when a simulation is made."""
         return self._change("set_panel_fabric", panel=panel, fabric=as_fabric(fabric))
 
     def set_panel_rest_stretch(self, panel: str, *, u: float = 1, v: float = 1) -> Cloth:
-        """By what a panel's length at rest is multiplied along warp and weft: below 1 it is elastic."""
+        """Factors on a panel's rest length along warp and weft: below 1 it is elastic."""
         return self._change("set_panel_rest_stretch", panel=panel, u=u, v=v)
 
     def set_panel_pressure(self, panel: str, Pa: float) -> Cloth:
-        """On a panel's right side, outwards where the cloth is worn or closed: balloons, cushions.
+        """Sets a pressure towards a panel's right side, outwards where the cloth is worn or closed: balloons, cushions.
 
-        From when everything is on; after a sewing it grows with gravity, for half a second.
+        It acts once all garments are on; after a sewing it is ramped up with gravity, in half a second.
         """
         return self._change("set_panel_pressure", panel=panel, Pa=Pa)
 

@@ -1,10 +1,10 @@
-"""What is raised for what cannot be meant.  Physics that goes badly is not raised: it is in a report."""
+"""The exceptions.  Invalid input raises one; a simulation that fails says so in its report instead."""
 
 from __future__ import annotations
 
 
 class Error(RuntimeError):
-    """Something that cannot be done.
+    """The base of all exceptions of Toile.
 
     `code` is one word: "usage" (a call in the wrong order, or an option out of its range), "bad_input", "bad_start",
     "input_output", "resource_limit" or "internal" (a bug of Toile).
@@ -14,7 +14,7 @@ class Error(RuntimeError):
 
 
 class InputError(Error, ValueError):
-    """A file or an array that is not what it should be: where, what was expected, and what there is."""
+    """A file or an array with invalid contents: the place, the expected and the actual value."""
 
     code = "bad_input"
 

@@ -1,4 +1,4 @@
-"""Pins that follow sampled paths: where they are when, and at which times an advance() has to stop for a sample."""
+"""Pins that follow sampled paths: their positions in time, and the times at which an advance() has to stop for a sample."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Paths:
         self._filter(lambda path: ~np.isin(path.particles, gone))
 
     def keep(self, pinned: Iterable[int], t_s: float) -> None:
-        """Those of pinned particles that have begun."""
+        """Keeps the paths of pinned particles that have begun."""
         held = np.asarray(list(pinned), dtype=np.int32)
         self._paths = [path for path in self._paths if path.from_s <= t_s + _SAME_TIME_S]
         self._filter(lambda path: np.isin(path.particles, held))
@@ -67,7 +67,7 @@ class Paths:
         """(end, length) of the parts of an advance(), none of which has a sample within it."""
         end_s = begin_s + h_s
         if not self._paths or not math.isfinite(end_s) or h_s <= 0:
-            return [(end_s, h_s)]  # the library says what is wrong with h_s
+            return [(end_s, h_s)]  # the library reports the error in h_s
         stops = sorted(t for path in self._paths for t in path.sample_times(begin_s, end_s))
         ends: list[float] = []
         for t in stops:

@@ -1,4 +1,4 @@
-"""What notebooks show of an object by itself: IPython asks for `_repr_png_` and `_repr_html_`."""
+"""How notebooks show an object: IPython calls `_repr_png_` and `_repr_html_`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ VIEW: dict[str, Any] = {"width": 480, "height": 480, "azimuth_deg": 25.0, "eleva
 
 
 class ShowsItself:
-    """By a picture, or where there is none by what it is and why."""
+    """Shows itself as a picture, or, without pictures, as text with the reason."""
 
     def _still(self) -> bytes:
         """A PNG; kept until there is another.  Raises Error."""

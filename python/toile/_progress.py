@@ -1,4 +1,4 @@
-"""How far dress() is, on a terminal or in a notebook."""
+"""The progress of dress(), on a terminal or in a notebook."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ ProgressCall = Callable[[str, float, Union[float, None]], Any]
 
 
 class TextBar:
-    """One line of text that is written over: what every terminal and every notebook can show."""
+    """One line of text that is overwritten, for every terminal and every notebook."""
 
     width = 30
 
@@ -67,7 +67,7 @@ def _bar() -> TextBar | TqdmBar:
 
 
 class Shown:
-    """`progress` as it was given to a call: None or False, True for a bar, or what is to be called."""
+    """`progress` as it was given to a call: None or False, True for a bar, or a callable."""
 
     def __init__(self, progress: bool | ProgressCall | None) -> None:
         if progress is not None and not isinstance(progress, bool) and not callable(progress):

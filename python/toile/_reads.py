@@ -1,4 +1,4 @@
-"""What was read of a simulation since it last moved: each thing once."""
+"""Caches the values read from a simulation until it moves."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Reads:
 
 
 class Changing:
-    """Around a call: what was read before it is old, whatever comes of it; nothing named: all."""
+    """Around a call: drops the named values from the cache, however the call ends; without names all."""
 
     def __init__(self, kept: dict[str, Any], what: tuple[str, ...]) -> None:
         self._kept, self._what = kept, what

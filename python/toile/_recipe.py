@@ -1,4 +1,4 @@
-"""Values that remember how they were made: that is what is pickled, and made again where it is read."""
+"""Values that keep the recipe of their making, which is pickled, and followed again when they are unpickled."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Call = tuple[str, dict[str, Any]]
 
 
 class Made:
-    """Of a core object: the call that made it, and the calls that changed it since."""
+    """A core object with the call that made it, and the calls that changed it since."""
 
     _core_type: ClassVar[type]
     _core: Any
@@ -37,7 +37,7 @@ class Made:
         return made
 
     def __deepcopy__(self: Self, memo: Any) -> Self:
-        return self.__copy__()  # what the calls were given does not change
+        return self.__copy__()  # the arguments of the calls are immutable
 
     def __getstate__(self) -> list[Call]:
         return self._calls
@@ -50,5 +50,5 @@ class Made:
 
 
 def file_path(path: str | os.PathLike[str]) -> str:
-    """So that it means the same after a change of the working directory."""
+    """The absolute path, independent of later changes of the working directory."""
     return os.path.abspath(os.fspath(path))

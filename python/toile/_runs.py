@@ -1,4 +1,4 @@
-"""Runs as folders: what the program writes, judges and draws."""
+"""Run folders, as the program writes, judges and draws them."""
 
 from __future__ import annotations
 
@@ -25,35 +25,35 @@ class RunWriter(ShowsItself):
                 run.add()
         print(run.verdict.explain())
 
-    A folder that was left by an exception says that it is not finished, and is no pass.  In a notebook it shows its last frame, and its verdict once
-    it has one.
+    After an exception the folder is marked as unfinished, which is no pass.  In a notebook it shows its last frame, and its verdict once it has
+    one.
     """
 
     def __init__(self, folder: Path, simulation: Simulation, *, fps: float = 30) -> None:
-        """Makes the folder, or replaces a run of Toile's there, and writes frame 0: the simulation as it is now.
+        """Makes the folder, or replaces a run of Toile's there, and writes frame 0, the simulation's present state.
 
         Raises IoError for files there that are not Toile's, and when another process writes there.
         """
         self._simulation = simulation
         self._folder = os.fspath(folder)
-        self._drawn: tuple[int, bytes] = (0, b"")  # of how many frames the last one, as a PNG
+        self._drawn: tuple[int, bytes] = (0, b"")  # number of frames when drawn, the last one as a PNG
         self._core: _toile.RunWriter | None = _toile.RunWriter(os.fspath(folder), simulation._core, fps)
         self._frames = 0  # of a run that is finished
         self._verdict: Verdict | None = None
 
     def add(self) -> None:
-        """The next frame: the simulation as it is now."""
+        """Writes the next frame, the simulation's present state."""
         if self._core is None:
             raise Error("RunWriter.add: the run is finished")
         self._core.add(self._simulation._core)
 
     @property
     def frames(self) -> int:
-        """How many are written."""
+        """The number of frames written."""
         return self._frames if self._core is None else self._core.frames
 
     def finish(self) -> Verdict:
-        """Writes the report; nothing can be added then.  The end of the `with` block does it too."""
+        """Writes the report; no frame can be added afterwards.  The end of the `with` block does it too."""
         if self._core is not None:
             self._verdict = self._core.finish()
             self._let_go()
@@ -61,13 +61,13 @@ class RunWriter(ShowsItself):
             raise Error("RunWriter.finish: an exception has ended this run")
         return self._verdict
 
-    def _let_go(self) -> None:  # of the folder, which others may read and draw then
+    def _let_go(self) -> None:  # releases the folder, which others may then read and draw
         if self._core is not None:
             self._frames, self._core = self._core.frames, None
 
     @property
     def verdict(self) -> Verdict | None:
-        """What finish() returned; None before."""
+        """The result of finish(); None before."""
         return self._verdict
 
     def __repr__(self) -> str:
@@ -96,33 +96,33 @@ class RunWriter(ShowsItself):
 def run_scene(
     path: Path, folder: Path, *, threads: int = 0, time_limit_s: float = 0, progress: bool | ProgressCall | None = None
 ) -> Verdict:
-    """A scene file from beginning to end, into a folder; time_limit_s is wall time that dressing may take, 0: any.
+    """Runs a scene file to its end, into a folder; time_limit_s is wall time that dressing may take, 0: no limit.
 
-    After a KeyboardInterrupt `toile resume` goes on with it.  Raises IoError and InputError.
+    After a KeyboardInterrupt `toile resume` continues it.  Raises IoError and InputError.
     """
     with Shown(progress) as call:
         return _toile.run_scene(os.fspath(path), os.fspath(folder), threads, time_limit_s, call)
 
 
 def verify(folder: Path) -> Verdict:
-    """Reads and measures every frame of a run's folder (docs/theory/verify.md).  Raises IoError and InputError."""
+    """Reads and measures every frame of a run folder (docs/theory/verify.md).  Raises IoError and InputError."""
     return _toile.verify(os.fspath(folder))
 
 
 def check_pattern(path: Path) -> CheckReport:
-    """What is wrong with a sewing pattern, or probably not meant; simulates nothing.  Raises IoError."""
+    """Checks a sewing pattern for errors and for input that is probably not meant; simulates nothing.  Raises IoError."""
     return _toile.check_pattern(os.fspath(path))
 
 
 def export_run(folder: Path, out: Path, *, to: str = "", of: str = "cloth", frame: int | None = None, all: bool = False) -> list[str]:
-    """Frames of a run's folder as files for other programs; returns what was written.
+    """Writes frames of a run folder as files for other programs; returns their paths.
 
-    to     "obj", "ply" or "gltf"; empty: by the ending of `out`
+    to     "obj", "ply" or "gltf"; empty: by the file extension of `out`
     of     "cloth" or "body"
     frame  which one; None: the last
     all    every frame, in numbered files of the folder `out`
 
-    Panels keep their names; vertices of a seam are split where the format has one uv for each.
+    Panels keep their names; vertices of a seam are split where the format has one uv per vertex.
     """
     if frame is not None and frame < 0:
         raise InputError(f"frame: expected a number from 0, got {frame}")
@@ -130,5 +130,5 @@ def export_run(folder: Path, out: Path, *, to: str = "", of: str = "cloth", fram
 
 
 def preview(folder: Path) -> None:
-    """Draws preview.png and preview.mp4 of a run's folder.  Raises Error where Toile was built without pictures."""
+    """Draws preview.png and preview.mp4 into a run folder.  Raises Error where Toile was built without pictures."""
     _toile.preview(os.fspath(folder))

@@ -1,4 +1,4 @@
-"""Cloth and body in time."""
+"""The simulation of cloth on a body."""
 
 from __future__ import annotations
 
@@ -35,16 +35,16 @@ def _particles(given: ArrayLike) -> Integers:
 class Simulation(ShowsItself):
     """Cloth on a body, or in the air.
 
-    The same calls give the same bits, on any number of threads and in any process.  Arrays are read-only, and each is of the
-    moment when it was read: it is copied once after the simulation has moved, is the same object until it moves again, and
-    stays as it is whatever becomes of the simulation.  The GIL is free while a simulation works, and Ctrl-C ends its work
-    with KeyboardInterrupt.  It is used by one thread at a time; two simulations may run in two threads.
+    The same calls give the same bits, on any number of threads and in any process.  Arrays are read-only snapshots: each is
+    copied once after the simulation has moved, is the same object until it moves again, and never changes afterwards.  The
+    GIL is released while a simulation works, and Ctrl-C ends its work with KeyboardInterrupt.  A simulation may be used by
+    one thread at a time; two simulations may run in two threads.
 
-    Every call raises Error, or InputError, for what cannot be meant, and has then changed nothing.  Physics that goes badly is
-    in the reports.
+    Every call raises Error, or InputError, for invalid input, and has then changed nothing.  A simulation that fails says so
+    in its reports.
 
-    Pickles with the recipe of its cloth, body and options, and its state; a pattern or a body from a file is read again where
-    it is unpickled, from the same path, and has to be the same.
+    Pickles with the recipe of its cloth, body and options, and its state; a pattern or a body from a file is read again from
+    the same path when it is unpickled, and has to be the same.
     """
 
     def __init__(
@@ -59,13 +59,13 @@ class Simulation(ShowsItself):
         air_density_kg_per_m3: float = _toile.air_density_kg_per_m3,
         threads: int = 0,
     ) -> None:
-        """Of one cloth, or of several that are worn together, the inner ones first.
+        """One cloth, or several that are worn together, the inner ones first.
 
-        Cloth that is no pattern hangs at once where it starts; what begins through itself or the body is taken apart first.
+        Cloth that is no pattern hangs at once where it starts; intersections at the start are resolved first.
 
         fabric                 of all panels without one of their own: a Fabric, or the name of a preset; None: the cloth's own
-        body                   what it is worn by, or falls on; None: nothing
-        solids                 what it collides with besides: they stand, or move by themselves
+        body                   the worn body, or one to fall on; None: no body
+        solids                 further colliders: they stand, or move by themselves
         gravity_m_per_s2       y is up
         wind_m_per_s           of the air around it
         air_density_kg_per_m3  0: cloth moves as in a vacuum
@@ -95,7 +95,7 @@ class Simulation(ShowsItself):
 
     @classmethod
     def from_scene(cls, path: str | os.PathLike[str], *, threads: int = 0) -> Simulation:
-        """What a scene file says (docs/scenes.md), in memory: no folder is made.  Raises IoError and InputError."""
+        """The simulation of a scene file (docs/scenes.md), in memory: no folder is made.  Raises IoError and InputError."""
         made = object.__new__(cls)
         made._begin({"scene": file_path(path), "threads": threads})
         return made
@@ -111,31 +111,31 @@ class Simulation(ShowsItself):
         self._paths = Paths()
         self._read = Reads()
 
-    # In time.
+    # Advancing time.
 
     def dress(
         self, longest_s: float = 20, time_limit_s: float = 0, *, progress: bool | ProgressCall | None = None
     ) -> DressReport:
         """Sews patterns around the body and lets them hang until they are at rest, or for longest_s of simulated time.
 
-        Other cloth comes to rest.  time_limit_s is wall time, 0: any.  progress: True for a bar of text (by tqdm where it is
-        installed), or what is called with phase, share of it (0 ... 1) and the seconds left of it or None.
+        Other cloth only comes to rest.  time_limit_s is wall time, 0: no limit.  progress: True for a bar of text (by tqdm if it
+        is installed), or a callable that gets the phase, its share done (0 ... 1) and its seconds left or None.
 
-        A garment that is not worn as it should be is no exception: look at DressReport.ok and .explain().  After a
+        A garment that is not worn as it should be raises no exception: see DressReport.ok and .explain().  After a
         KeyboardInterrupt or an exception of `progress` the simulation is as it was before.
         """
         with Shown(progress) as call, self._changing():
             return self._core.dress(longest_s, time_limit_s, call)
 
     def run(self, *, progress: bool | ProgressCall | None = None) -> DressReport:
-        """Of a scene: all that it says, to its end, as the program does."""
+        """Runs a scene to its end, as the program does."""
         with Shown(progress) as call, self._changing():
             return self._core.run(call)
 
     def advance(self, h_s: float) -> StepReport:
-        """By exactly h_s (at most 10 s).  A body with a motion begins it at the first call.
+        """Advances by exactly h_s (at most 10 s).  A body with a motion begins it at the first call.
 
-        A step that could not be made is no exception: look at StepReport.ok and .explain().
+        A failed step raises no exception: see StepReport.ok and .explain().
         """
         report: StepReport | None = None
         with self._changing(*_MOVES):
@@ -152,8 +152,8 @@ class Simulation(ShowsItself):
     def frames(self, seconds: float, fps: float = 30) -> Iterator[Frame]:
         """Advances by 1 / fps at a time, and yields a Frame after each.
 
-        The last frame is the first that could not be simulated to its end, with a RuntimeWarning that says why, or the one at
-        `seconds`.  Frames stay as they are; leaving the loop leaves the simulation at the frame that was yielded last.
+        The last frame is the one at `seconds`, or the first that could not be simulated to its end, with a RuntimeWarning that
+        says why.  Frames do not change; leaving the loop leaves the simulation at the frame that was yielded last.
         """
         if not fps > 0 or not seconds >= 0:
             raise InputError(f"seconds, fps: expected times that are not below zero, got {seconds} s at {fps} frames a second")
@@ -166,7 +166,7 @@ class Simulation(ShowsItself):
                 return
 
     def frame(self, step: StepReport | None = None) -> Frame:
-        """This moment."""
+        """The present state as a Frame."""
         return Frame(
             t_s=self.time_s,
             positions_m=self.positions_m,
@@ -177,24 +177,24 @@ class Simulation(ShowsItself):
 
     @property
     def time_s(self) -> float:
-        """Since everything is on: after dress() it is how long the cloth hung."""
+        """Time since all garments are on: after dress() it is how long the cloth hung."""
         return self._core.time_s
 
     def reset(self) -> None:
-        """Takes everything back to how it was made."""
+        """Back to the state after construction."""
         with self._changing():
             self._core.reset()
             self._paths = Paths()
 
     def cancel(self) -> None:
-        """Ends the call that is at work, from any thread: its report says so."""
+        """Ends the running call, from any thread; its report says so."""
         self._core.cancel()
 
-    # What there is to see.
+    # Reading the state.
 
     @property
     def positions_m(self) -> Floats:
-        """(n, 3) of the particles.  Before dress() of a pattern: its panels, unsewn."""
+        """(n, 3) of the particles.  Before dress() of a pattern: its unsewn panels."""
         return self._seen("positions_m")
 
     @property
@@ -209,17 +209,17 @@ class Simulation(ShowsItself):
 
     @property
     def uv_m(self) -> Floats:
-        """(f, 3, 2) of the corners of the faces: how it was cut."""
+        """(f, 3, 2) of the corners of the faces: the rest shape."""
         return self._seen("uv_m")
 
     @property
     def panel(self) -> Integers:
-        """(f,) of the faces: a place in panel_names."""
+        """(f,) of the faces: an index into panel_names."""
         return self._seen("panel")
 
     @property
     def warnings(self) -> list[str]:
-        """What of the files was not taken as it stands, and what is probably not meant."""
+        """Repairs of the input files, and input that is probably not meant."""
         return self._core.warnings()
 
     @property
@@ -238,7 +238,7 @@ class Simulation(ShowsItself):
 
     @property
     def colliders(self) -> int:
-        """How many there are: the body, if there is one, and the solids."""
+        """The number of colliders: the body, if there is one, and the solids."""
         return self._core.collider_count()
 
     def collider_positions_m(self, collider: int) -> Floats:
@@ -248,10 +248,10 @@ class Simulation(ShowsItself):
     def picture(
         self, *, width: int = 480, height: int = 480, azimuth_deg: float = 25, elevation_deg: float = 10, samples: int = 8
     ) -> bytes:
-        """A PNG of cloth and bodies as they are now, the cloth filling it: what a notebook shows of a simulation.
+        """A PNG of the present cloth and bodies, framed on the cloth, as a notebook shows it.
 
-        azimuth_deg  where it is seen from: 0 is the front (+z), 90 its left side (+x), 180 the back
-        samples      paths per pixel: 8 do, 24 are smooth
+        azimuth_deg  the view: 0 from the front (+z), 90 from its left side (+x), 180 from the back
+        samples      paths per pixel: 8 are enough, 24 are smooth
 
         Raises Error where Toile was built without pictures.
         """
@@ -261,16 +261,16 @@ class Simulation(ShowsItself):
         return self._read.once("still", lambda: _toile.picture_of_simulation(self._core, **VIEW))
 
     def crossings(self) -> Crossings:
-        """How many edges pass through a triangle, by exact tests."""
+        """The number of edges that pass through a triangle, by exact tests."""
         return self._core.crossings()
 
-    # Hands on it.
+    # Pins, hands and changes.
 
     def pin(self, particles: ArrayLike, path_m: ArrayLike | None = None, *, fps: float | None = None) -> None:
         """Holds particles where they are, until they are released.
 
-        path_m: (samples, particles, 3), `fps` of them in a second, the first of now: the particles go there, straight from
-        sample to sample, and stay at the last one.  A path is the simulation's, not the state's: see set_state.
+        path_m: (samples, particles, 3), `fps` of them in a second, the first for the present time: the particles go in straight
+        lines from sample to sample, and stay at the last one.  A path belongs to the simulation, not to its state: see set_state.
         """
         held = _particles(particles)
         if (path_m is None) != (fps is None):
@@ -285,30 +285,30 @@ class Simulation(ShowsItself):
 
     def attach(self, particles: ArrayLike) -> None:
         """Holds particles where they are on the body or a solid: each is carried by the nearest point of its surface, and turns
-        with it, until it is released.  Raises Error where there is nothing to hold on to.
+        with it, until it is released.  Raises Error if there is no collider.
         """
         held = _particles(particles)
         self._core.attach(held)
         self._paths.drop(held)
 
     def move_pins(self, particles: ArrayLike, to_m: ArrayLike) -> None:
-        """Where pinned particles shall be at the end of the next advance(), each on a straight way; there they stay.
+        """Moves pinned particles in a straight line to these points during the next advance(); they stay there.
 
-        to_m: (particles, 3).  It takes them off a path.
+        to_m: (particles, 3).  It ends their paths.
         """
         held = _particles(particles)
         self._core.move_pins(held, _arrays.numbers(to_m, "to_m", (len(held), 3)))
         self._paths.drop(held)
 
     def release(self, particles: ArrayLike) -> None:
-        """Lets particles go."""
+        """Releases particles."""
         free = _particles(particles)
         self._core.release(free)
         self._paths.drop(free)
 
     @property
     def pinned(self) -> list[int]:
-        """The particles that are held, ascending."""
+        """The pinned particles, ascending."""
         return self._core.pinned()
 
     def grab(
@@ -319,7 +319,7 @@ class Simulation(ShowsItself):
         particle: int | None = None,
         **grip: float,
     ) -> int:
-        """A hand that pulls a point of the cloth by a spring; it begins where the point is.  Returns its number.
+        """A hand that pulls a point of the cloth by a spring; it begins at that point.  Returns its number.
 
         The point is on a face, by the weights of its corners, or it is a particle.  The spring: stiffness_N_per_m,
         damping_N_s_per_m, max_force_N (docs/units.md).
@@ -337,31 +337,31 @@ class Simulation(ShowsItself):
         return self._core.grab(face, weights, **grip)
 
     def drag(self, hand: int, to_m: ArrayLike) -> None:
-        """Where the hand shall be at the end of the next advance(), on a straight way."""
+        """Moves the hand there in a straight line during the next advance()."""
         self._core.drag(hand, _arrays.point(to_m, "to_m"))
 
     def let_go(self, hand: int) -> None:
         self._core.let_go(hand)
 
     def set_body(self, vertices_m: ArrayLike) -> None:
-        """Where a body without a motion shall be at the end of the next advance(), each vertex (b, 3) on a straight way."""
+        """Moves a body without a motion there during the next advance(), each vertex (b, 3) in a straight line."""
         self.set_collider(0, vertices_m)
 
     def set_collider(self, collider: int, vertices_m: ArrayLike) -> None:
-        """The same of a solid; 0 is the body, or the first solid where there is none."""
+        """The same for a solid; 0 is the body, or the first solid if there is none."""
         vertices = len(self.collider_positions_m(collider))
         self._core.set_collider(collider, _arrays.numbers(vertices_m, "vertices_m", (vertices, 3)))
 
     def set_friction(self, friction: float, *, collider: int = 0) -> None:
-        """Of cloth on a collider (as in set_collider), from now on."""
+        """Friction of cloth on a collider (as in set_collider), from now on."""
         self._core.set_friction(collider, friction)
 
     def set_stiffness(self, *, panel: int = 0, stretch: float = 1, shear: float = 1, bend: float = 1) -> None:
-        """How stiff a panel is, as shares of its fabric, from now on; damping in the same shares.  Raises InputError."""
+        """Factors on a panel's stiffness and damping, relative to its fabric, from now on.  Raises InputError."""
         self._core.set_stiffness(panel, stretch, shear, bend)
 
     def set_pressure(self, Pa: float, *, panel: int = 0) -> None:
-        """On a panel's right side, from now on (Cloth.set_panel_pressure).  Raises InputError."""
+        """The pressure of a panel from now on (Cloth.set_panel_pressure).  Raises InputError."""
         self._core.set_pressure(panel, Pa)
 
     def set_gravity(self, m_per_s2: ArrayLike) -> None:
@@ -372,17 +372,17 @@ class Simulation(ShowsItself):
         """From now on; without air (air_density_kg_per_m3 = 0) there is none."""
         self._core.set_wind(_arrays.point(m_per_s, "m_per_s"))
 
-    # Where it goes on from.
+    # Saving and restoring.
 
     def state(self) -> State:
-        """All that decides how it goes on."""
+        """The complete state: all that decides how it goes on."""
         return self._core.state()
 
     def set_state(self, state: State) -> None:
-        """Goes on from there with the same bits: a state of this simulation, or of another one that was made of the same cloth,
-        body and options, dressed or not, in any process.  InputError for any other, or one that is not whole.
+        """Restores a state of this simulation, or of another of the same cloth, body and options, dressed or not, in any process;
+        it goes on with the same bits.  InputError for any other state, or an incomplete one.
 
-        Pins that follow a path go on with it at the state's time if the state holds them and is not older than the path.
+        Pins on a path continue it at the state's time if they are pinned in the state and it is not older than the path.
         """
         with self._changing():
             self._core.set_state(state)
@@ -390,17 +390,17 @@ class Simulation(ShowsItself):
 
     @property
     def state_hash(self) -> str:
-        """Of the bits of all positions and velocities: 16 hexadecimal digits, as in report.json."""
+        """Hash of the bits of all positions and velocities: 16 hexadecimal digits, as in report.json."""
         return self._core.state_hash()
 
     def __getstate__(self) -> dict[str, Any]:
-        time_s = self._core.time_s  # it is not at work
+        time_s = self._core.time_s  # raises if a call is running
         try:
             state = self._core.state()
         except Error as error:
             if error.code != "usage" or time_s > 0:
                 raise
-            state = None  # nothing is on yet
+            state = None  # no garment is on yet
         return {"recipe": self._recipe, "state": state, "paths": self._paths}
 
     def __setstate__(self, kept: dict[str, Any]) -> None:

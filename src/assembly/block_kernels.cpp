@@ -8,14 +8,14 @@
 // After it.
 #include <hwy/highway.h>
 
-// Registers that the plainest set does not have are passed between functions that are inlined, so never by any ABI.
+// Registers that the baseline instruction set lacks are passed between inlined functions only, so no ABI is involved.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 HWY_BEFORE_NAMESPACE();
 namespace toile::internal::HWY_NAMESPACE {
 namespace {
 
-// Three numbers and one that does not matter; the compiler cuts them into what the instruction set has.
+// Three numbers and one unused; the compiler splits them into the registers of the instruction set.
 using Four [[gnu::vector_size(32)]] = double;
 using Floats = Lane<float>;
 
@@ -32,7 +32,7 @@ HWY_INLINE void store(const Four& a, double* to) {
   to[2] = a[2];
 }
 
-// The rows of a block, each padded by what pads its last column.
+// The rows of a block; the padding of each is that of the last column.
 HWY_INLINE void rows_of(const Floats& c0, const Floats& c1, const Floats& c2, Floats& r0, Floats& r1, Floats& r2) {
   const Floats low = __builtin_shufflevector(c0, c1, 0, 4, 1, 5), high = __builtin_shufflevector(c0, c1, 2, 6, 3, 7);
   r0 = __builtin_shufflevector(low, c2, 0, 1, 4, 7);

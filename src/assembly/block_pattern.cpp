@@ -67,8 +67,8 @@ void BlockPattern::find_pieces() {
   }
 }
 
-// From a row at the rim of a piece, neighbours of what has a place before others, those with few blocks first.     [Cuthill & McKee 1969]
-// The rim is found by going as far as there is to go, until it gets no farther.                                 [George & Liu 1979]
+// From a row at the rim of a piece: neighbours of the rows ordered so far, those with few blocks first.            [Cuthill & McKee 1969]
+// The rim: a pseudo-peripheral row, by breadth-first searches that each start where the last one ended.            [George & Liu 1979]
 void BlockPattern::find_places() {
   const auto n = static_cast<std::size_t>(rows());
   const auto at = [](Index i) { return static_cast<std::size_t>(i); };
@@ -79,7 +79,7 @@ void BlockPattern::find_places() {
     return blocks[at(a)] != blocks[at(b)] ? blocks[at(a)] < blocks[at(b)] : a < b;
   };
   Index search = 0;
-  // How many levels there are from `start`, and which row of the last has the fewest blocks.
+  // The number of levels of the breadth-first search from `start`, and the row of the last level with the fewest blocks.
   const auto farthest = [&](Index start) {
     ++search;
     level.assign(1, start);
@@ -136,7 +136,7 @@ void BlockPattern::find_places() {
       for_neighbours(i, [&](Index j) { widest = std::max(widest, place_of(j) - place_of(i)); });
     return widest;
   };
-  // The mesh's own numbers, if they are hardly worse: what is assembled by rows is then read in the same order.
+  // The mesh's own order, if it is hardly worse: arrays in that order are then read in sequence.
   bandwidth_ = bandwidth([&](Index i) { return place(i); });
   const Index own = bandwidth([](Index i) { return i; });
   if (static_cast<double>(own) <= own_is_enough * static_cast<double>(bandwidth_)) {

@@ -39,7 +39,7 @@ BendRest hinge_rest(const ClothModel& model, std::span<const Fabric> fabrics, co
   return rest;
 }
 
-// A number per name, in the order of first use; and the friction of each two of them.
+// A number per fabric name, in the order of first use; and the friction of each pair.
 void set_pair_friction(ClothModel& model, std::span<const Fabric> fabrics, const std::vector<PairFriction>& pairs) {
   std::vector<std::string_view> names;
   const auto number = [&](std::string_view name) {

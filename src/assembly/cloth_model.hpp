@@ -1,4 +1,4 @@
-// assembly/cloth_model.hpp: a cloth as the integrator sees it: particles, elements, masses.  Built once, then constant.
+// assembly/cloth_model.hpp: the integrator's model of a cloth: particles, elements, masses.  Built once, then constant.
 #pragma once
 #include "material/bend.hpp"
 #include "material/fabric.hpp"
@@ -30,7 +30,7 @@ struct ModelOptions {
   std::vector<PairFriction> pair_friction;
 };
 
-// Of what a panel's fabric resists with; 1: as it is.
+// Factors on the stiffness of a panel's fabric; 1: unchanged.
 struct StiffnessShare {
   double stretch = 1, shear = 1, bend = 1;
   bool operator==(const StiffnessShare&) const = default;
@@ -46,7 +46,7 @@ struct ClothModel {
   std::vector<double> thickness_m;                 // [particle] contact distance of two layers
   std::vector<double> friction;                    // [particle] the largest of its fabrics
   std::vector<Index> fabric;                       // [particle] of its first triangle: one number per name
-  std::vector<std::vector<double>> pair_friction;  // [fabric][fabric], < 0: not given; empty: no pair is
+  std::vector<std::vector<double>> pair_friction;  // [fabric][fabric], < 0: not given; empty: none is
   Vec3 gravity_m_per_s2{0, -9.81, 0};
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   double drag_per_s = 0;
@@ -55,7 +55,7 @@ struct ClothModel {
   std::vector<MembraneStiffness> built_stiffness;
   std::vector<double> built_kappa_N_m;
   std::vector<StiffnessShare> stiffness_share;  // [panel]
-  int rest_version = 0;  // counts changes of b, of gathers and of stiffness, for what is packed from them
+  int rest_version = 0;  // counts changes of b, of gathers and of stiffness, for the batches packed from them
 
   Index particle_count() const { return mesh.particle_count; }
   const MembraneStiffness& stiffness_of(std::size_t triangle) const {
@@ -86,7 +86,7 @@ void set_rest_stretch(ClothModel& model, Index triangle, const Vec2& b);
 void set_panel_rest_stretch(ClothModel& model, Index panel, const Vec2& b);
 
 // Changes how stiff a panel is, as a share of its fabric; damping keeps its relaxation time, and with it the same share.  Hinges on a seam take
-// the mean of both sides.  Allowed between any two steps.  Throws InputError for a panel that there is not, and for a share that is not above zero.
+// the mean of both sides.  Allowed between any two steps.  Throws InputError for a missing panel, and for a share that is not above zero.
 void set_panel_stiffness(ClothModel& model, Index panel, const StiffnessShare& share);
 
 }  // namespace toile::internal

@@ -54,7 +54,7 @@ void Elements::pack_rest(const ClothModel& model) {
 }
 
 void Elements::add_incidence(const ClothModel& model) {
-  // Who adds to which block, in element order: (key, part), sorted by key only (stable).
+  // Which element adds to which block, in element order: (key, part), sorted by key only (stable).
   std::vector<std::pair<Slot, BlockParts::OfTriangle>> in_triangles;
   std::vector<std::pair<Slot, BlockParts::OfHinge>> in_hinges;
   std::vector<std::pair<Index, std::pair<Index, std::uint8_t>>> at_triangles, at_hinges;
@@ -180,7 +180,7 @@ void Elements::assemble(double h_s, BlockMatrix<T>& A) {
       gather_blocks({triangle_begin_.data(), hinge_begin_.data(), triangle_parts_.data(), hinge_parts_.data()},
                     static_cast<Slot>(begin), static_cast<Slot>(end), of_triangles_.data(), bend_.data(),
                     of_hinges_.data(), A.blocks().data());
-    } else {  // where single precision does not do (solver/step_solver.hpp), and for references
+    } else {  // where single precision is not enough (solver/step_solver.hpp), and for references
       for (std::size_t s = begin; s < end; ++s) {
         Mat3 block = Mat3::Zero();  // above the diagonal
         for (auto k = triangle_begin_[s]; k < triangle_begin_[s + 1]; ++k) {

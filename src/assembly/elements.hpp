@@ -42,7 +42,7 @@ class Elements {
 
   // The energy of stretch and shear beyond the linearisation at the end F' of a linear step:
   // E(F') - (E + P.d + d.K d / 2), d = F' - F, about the last evaluate(), in J.  A piece that turns by the angle a
-  // along tangents has |w'| = sqrt(1 + a^2): k s^2 (|w'| - 1)^2 / 2 per thread, made out of nothing.
+  // along tangents has |w'| = sqrt(1 + a^2): k s^2 (|w'| - 1)^2 / 2 per thread, created out of nothing.
   struct BeyondLinear {
     double made = 0, net = 0;  // sums over the triangles where it is positive; over all
   };

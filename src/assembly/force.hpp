@@ -1,14 +1,14 @@
-// assembly/force.hpp: a force on the cloth from outside, and its part of the implicit step.                  [BW98 4.4]
+// assembly/force.hpp: an external force on the cloth, and its terms in the implicit step.                    [BW98 4.4]
 //
 //   F(x, v)       a force on every particle, N
-//   B             minus its derivative by velocity, or what of it is fit for A;  in A: h B
+//   B             minus its derivative by velocity, or the part of it that is fit for A;  in A: h B
 //
 // The step walks through a list of forces in their order and knows none of them.  One call serves the whole cloth, and from the second step on
 // none takes memory.  Adding one: docs/howto/add-a-force.md.
 //
-// What a force may add to A: symmetric; positive semidefinite, or conjugate gradients fail; on blocks that the pattern has, those of the edges of
-// triangles.  What of the derivative is not so is left out, and the force's header says what, and why the step bears it: F is then that of the state
-// which the step is linearised about, its start or the end that was found so far.  Where cloth is at rest nothing of that is left.
+// The term in A must be symmetric, positive semidefinite (or conjugate gradients fail), and on blocks of the pattern, those of the edges of
+// triangles.  The rest of the derivative is left out; the force's header says which part, and why the step stays stable: F is then taken at the state
+// about which the step is linearised, its start or the last iterate of its end.  For cloth at rest this makes no difference.
 //
 // Easily got wrong: parallel sums.  Bits must not depend on the number of threads: gather by particle and by block, or add in the order of triangles.
 #pragma once
@@ -26,7 +26,7 @@ class Force {
   Force(const Force&) = delete;  // a list holds it by its base
   Force& operator=(const Force&) = delete;
 
-  // Whether there is any in a step that ends at end_s.  If not, nothing else is called.
+  // Whether it acts in a step that ends at end_s.  If not, nothing else is called.
   virtual bool acts(double end_s) = 0;
   // Before the first step in which it acts.  The model's mesh stays as it is.
   virtual void prepare(const ClothModel& model, const BlockPattern& pattern) = 0;
@@ -35,7 +35,7 @@ class Force {
 
   // f_i += F_i.
   virtual void add_forces(std::span<Vec3> f) const = 0;
-  // f_i += sum_j B_ij u_j: the linearised force at v less that at v + u.  Of a force without B, nothing.
+  // f_i += sum_j B_ij u_j: the linearised force at v less that at v + u.  A force without B adds nothing.
   virtual void add_damping(std::span<const Vec3> /*u*/, std::span<Vec3> /*f*/) const {}
   // A += h B.  The diagonal is updated.
   virtual void assemble(double /*h_s*/, BlockMatrix<float>& /*A*/) const {}

@@ -20,7 +20,7 @@ struct LinearSpring {
   double force_N = 0;              // at the start of the step, along +g
   double stiffness_N_per_m = 0;    // >= 0
   double damping_N_s_per_m = 0;    // >= 0
-  double body_displacement_m = 0;  // travel of the other, prescribed side along `direction` in this step
+  double body_displacement_m = 0;  // travel of the prescribed side (the body) along `direction` in this step
 };
 
 struct ImplicitRow {

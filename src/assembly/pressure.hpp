@@ -8,9 +8,9 @@
 // its trace is zero, so that it has eigenvalues of both signs wherever it is not zero.  At the rim of an open cloth it is not even symmetric.  F is
 // taken where the step is linearised.  For a mode of mass m to which the fabric gives the stiffness k in A and K the stiffness q, that is stable for
 // -k < q < k + 4 m/h^2: below, the cloth itself would burst or buckle; above is out of reach, as |q| is about p times an edge, 20 N/m for 1 kPa and
-// 2 cm, and the stiffness of threads is thousands.
+// 2 cm, and threads have a stiffness of thousands of N/m.
 //
-// p does not depend on the volume, as where a pump or an open valve holds it.  A closed amount of gas, p_abs V = const, would add (p_abs/V) g g^T
+// p does not depend on the volume, as with a pump or an open valve.  A closed amount of gas, p_abs V = const, would add (p_abs/V) g g^T
 // with g = dV/dx: semidefinite, but a block for every two particles; and it cannot be left out: of a ball of 0.2 m, 0.15 kg/m^2 and steps of 1/60 s
 // its q is 2800 m/h^2.
 //

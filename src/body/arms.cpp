@@ -10,14 +10,14 @@
 namespace toile::internal {
 namespace {
 
-// All of the height, as people are built: a hand is 0.11 long, an arm with it 0.44.
+// Shares of the height, by human proportions: a hand is 0.11 long, an arm with it 0.44.
 constexpr double ring_step = 0.01, first_ring = 0.06;
-constexpr double wrist = 0.12, elbow = 0.28;  // rings between them say how thick an arm is
-constexpr double longest_arm = 0.6;           // past which a ring that has not run out is no arm's
+constexpr double wrist = 0.12, elbow = 0.28;  // rings between them give the girth of the arm
+constexpr double longest_arm = 0.6;           // a ring that has not run out by then is not an arm's
 constexpr double least_reach = 0.08;          // of a hand, sideways from the feet's middle
-constexpr double thickest = 0.3;              // an arm is 0.16 round; what is thicker than this is none
-constexpr double runs_out = 1.6;              // of the arm's own girth, which a shoulder passes by twice that
-constexpr double least_whole = 0.5;           // of the vertices, in the piece that is the person
+constexpr double thickest = 0.3;              // an arm has a girth of 0.16; anything thicker than this is not an arm
+constexpr double runs_out = 1.6;              // of the arm's own girth; rings beyond a shoulder have twice that
+constexpr double least_whole = 0.5;           // share of the vertices in the person's component
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -57,7 +57,7 @@ class Surface {
     double girth_m = 0;
     Vec3 middle{0, 0, 0};
   };
-  // Where `distance` has this value.
+  // The level curve of `distance` at this value.
   Ring ring(std::span<const double> distance, double value) const {
     Ring ring;
     for (const Triangle& t : triangles_) {

@@ -1,9 +1,9 @@
 // body/arms.hpp: the arms of an upright person, found from the surface alone.
 //
-//   extremities   farthest-point sampling by distance along the surface gives two feet, two hands and a head, in any pose and any mesh
+//   extremities   farthest-point sampling by geodesic distance gives two feet, two hands and a head, in any pose and any mesh
 //   an arm        the curves of equal distance from a hand's tip are rings about it, until they run out over the trunk: the root
 //
-// What is no person (a ball, a torso without arms) has none.
+// A body that is no person (a ball, a torso without arms) has none.
 #pragma once
 #include "core/types.hpp"
 
@@ -19,7 +19,7 @@ struct Arm {
   Vec3 direction{0, 0, 0};  // unit, from the root to the wrist
   double length_m = 0;      // along the surface, from the root's ring to the tip
   std::vector<double>
-      past;  // [vertex] how far it lies beyond the root's ring towards the hand, along the surface, m; < 0: not on the arm
+      past;  // [vertex] its distance beyond the root's ring towards the hand, along the surface, m; < 0: not on the arm
 };
 
 // Left (at larger x) and right.

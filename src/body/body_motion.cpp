@@ -1,4 +1,4 @@
-// body/body_motion.cpp: where a moving body comes from.
+// body/body_motion.cpp: the sources of a moving body.
 #include "body/body_motion.hpp"
 
 #include "body/body_samples.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 std::size_t z(Index i) { return static_cast<std::size_t>(i); }
 
-// Moves as a motion by name says.
+// Moves by a named motion.
 class ByName : public BodyMotion::Source {
  public:
   explicit ByName(const Motion& motion) : motion_(motion) {}
@@ -59,7 +59,7 @@ class MovingPerson : public ByName {
   MiddleLine line_;
 };
 
-// The triangles of the body must be where they were in its file.
+// The triangles of the body must match those of its file.
 void check_triangles(std::string_view file, std::size_t frame, const SurfaceMesh& mesh, const CollisionBody& body) {
   const std::string place = "frame " + std::to_string(frame);
   const bool known = !body.source_triangle.empty();
@@ -96,7 +96,7 @@ BodyMotion BodyMotion::of_mannequin(const Mannequin& mannequin, const Motion& mo
 BodyMotion BodyMotion::of_person(std::string_view file, const CollisionBody& body, const Motion& motion) {
   const auto names = motion_names_without_skeleton();
   if (std::find(names.begin(), names.end(), motion.name()) == names.end())
-    throw InputError(file, "motion", std::string(what_moves_a_mesh), '"' + motion.name() + '"');
+    throw InputError(file, "motion", std::string(motions_for_a_mesh), '"' + motion.name() + '"');
   return {body.triangles, std::make_shared<MovingPerson>(file, body, motion)};
 }
 

@@ -1,7 +1,7 @@
-// body/body_motion.hpp: a body that moves: fixed triangles, and where their vertices are at any time.
+// body/body_motion.hpp: a moving body: fixed triangles, and the positions of the vertices as a function of time.
 //
-// Sources: a mannequin with a Motion, or any upright person with one that needs no skeleton, evaluated exactly at every t; or samples at a fixed rate from a PC2 file or from
-// numbered OBJ files.  Between samples p_i and p_i+1, u = (tau - tau_i) / dt:
+// Sources: a mannequin with a Motion, or any upright person with one that needs no skeleton, evaluated exactly at every t; or samples
+// at a fixed rate from a PC2 file or numbered OBJ files.  Between samples p_i and p_i+1, u = (tau - tau_i) / dt:
 //   x = (1 + 2u)(1 - u)^2 p_i + u(1 - u)^2 dt m_i + u^2 (3 - 2u) p_i+1 + u^2 (u - 1) dt m_i+1,
 //   m_i = (p_i+1 - p_i-1) / 2 dt, one-sided at both ends                                            [Catmull & Rom 1974]
 // so that velocities are continuous; through samples of a straight uniform path it goes exactly.  After the last sample
@@ -36,8 +36,8 @@ class BodyMotion {
   // Starts in the A-pose, as the mannequin is made.  Throws InputError for a motion of another kind of mannequin.
   static BodyMotion of_mannequin(const Mannequin& mannequin, const Motion& motion);
 
-  // A person as a mesh, who stands at 0 s as the body does.  Throws InputError, with `file` as its place, for a motion that needs a skeleton, and for
-  // what is no person (body/middle_line.hpp).
+  // A person as a mesh, standing like the body at 0 s.  Throws InputError, with `file` as its place, for a motion that needs a skeleton, and for a
+  // body that is no person (body/middle_line.hpp).
   static BodyMotion of_person(std::string_view file, const CollisionBody& body, const Motion& motion);
 
   // A point cache of all vertices of the file that `body` was read from, or of the kept ones only.
@@ -67,7 +67,7 @@ class BodyMotion {
 
   // Until the body holds still; infinite for motions by name.
   double duration_s() const { return source_->duration_s(); }
-  // What was put before the motion, 0 when the first sample is the drape pose.
+  // Length of the lead-in; 0 when the first sample is the drape pose.
   double lead_in_s() const { return source_->lead_in_s(); }
 
   // Everything that decides the positions.

@@ -45,7 +45,7 @@ BodySamples::BodySamples(std::string_view file, const CollisionBody& body, const
   check_range(file, "samples per second", options.rate_hz, 1, 1000);
   check_range(file, "lead-in, s", options.lead_in_s, 0, 10);
   check_range(file, "fastest vertex, m/s", options.fastest_m_s, 0.1, 1e6);
-  if (source_vertex_.empty()) {  // made by hand: the body is the file
+  if (source_vertex_.empty()) {  // made in memory: all vertices are the body's
     for (std::size_t i = 0; i < drape_.size(); ++i) source_vertex_.push_back(static_cast<Index>(i));
     source_count_ = drape_.size();
   }

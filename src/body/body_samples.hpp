@@ -1,4 +1,4 @@
-// body/body_samples.hpp: positions of a body at a fixed rate, and the numbered files that they come from.
+// body/body_samples.hpp: positions of a body sampled at a fixed rate, and the numbered files that hold them.
 #pragma once
 #include "body/body_motion.hpp"
 
@@ -26,7 +26,7 @@ class BodySamples : public BodyMotion::Source {
 
   // `positions` are those of a file with all source vertices, or of the kept vertices only; as in the file.
   void append(std::string_view file, std::span<const Vec3> positions);
-  // After the last frame; throws InputError when there was none.
+  // Call after the last frame; throws InputError when there was none.
   void finish(std::string_view file);
 
   std::size_t vertex_count() const override { return drape_.size(); }

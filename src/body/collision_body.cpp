@@ -1,4 +1,4 @@
-// body/collision_body.cpp: which part of a file is the body, and how large it is.
+// body/collision_body.cpp: selects the part of a file that is the body, and checks its size.
 #include "body/collision_body.hpp"
 
 #include "core/error.hpp"
@@ -22,7 +22,7 @@ namespace {
 
 constexpr double shortest_body_m = 0.5, tallest_body_m = 2.5;
 constexpr double part_share = 0.1;   // of the largest part's volume; smaller parts are eyes, teeth, buttons
-constexpr double told_share = 0.01;  // of the body's: a smaller part that is left out is not worth a word
+constexpr double told_share = 0.01;  // of the body's: a smaller part that is left out is not noted
 
 std::size_t z(Index i) { return static_cast<std::size_t>(i); }
 
@@ -32,7 +32,7 @@ bool is_body_name(std::string_view name) {
                     [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
 }
 
-// The triangles (by index) whose group or object is called body; empty when nothing is.
+// The triangles (by index) whose group or object is called body; empty when there are none.
 std::vector<Index> named_body(const SurfaceMesh& mesh) {
   const auto belongs = [&](const std::vector<Index>& of, const std::vector<std::string>& names, std::size_t t) {
     return t < of.size() && is_body_name(names[z(of[t])]);
@@ -49,7 +49,7 @@ struct Kept {
   std::vector<std::string> notes;
 };
 
-// The names of the objects, or where there is but one of the groups, that these triangles are in, in the order of the file.
+// The names of the objects (of the groups, if there is only one object) of these triangles, in the order of the file.
 std::string names_of(const SurfaceMesh& mesh, const std::vector<Index>& triangles) {
   const bool by_object = mesh.object_names.size() > 1;
   const auto& of = by_object ? mesh.object : mesh.group;
@@ -71,7 +71,7 @@ std::size_t vertices_of(const SurfaceMesh& mesh, const std::vector<Index>& trian
   return static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
 }
 
-// Names the closed parts that are not taken and have at least this share of the volume of those that are.
+// Names the closed parts that are left out and have at least this share of the volume of those that are taken.
 void note_left_out(const SurfaceMesh& mesh, const SurfaceParts& parts, const std::vector<char>& taken,
                    double least_share, Kept& kept) {
   double volume = 0;
@@ -89,7 +89,7 @@ void note_left_out(const SurfaceMesh& mesh, const SurfaceParts& parts, const std
 }
 
 // The triangles of the closed parts that are large enough; all triangles when no part is closed, so that the check
-// of the whole can say where it is open.
+// of the whole surface reports where it is open.
 Kept closed_parts(const SurfaceMesh& mesh) {
   const SurfaceParts found = surface_parts(mesh.triangles, mesh.positions);
   double largest = 0;
@@ -105,7 +105,7 @@ Kept closed_parts(const SurfaceMesh& mesh) {
   return kept;
 }
 
-// What is named body; where that is open, the closed parts that it is in.
+// The part named body; if it is open, the closed parts that contain it.
 Kept named_parts(const SurfaceMesh& mesh, std::vector<Index> named) {
   Kept kept;
   std::vector<Triangle> triangles;
@@ -134,7 +134,7 @@ Kept named_parts(const SurfaceMesh& mesh, std::vector<Index> named) {
   return kept;
 }
 
-// "dm", "cm", or nothing when no unit makes a body of this height.
+// "dm", "cm", or empty when no unit fits this height.
 std::optional<LengthUnit> unit_that_fits(double height) {
   for (const LengthUnit unit : {LengthUnit::dm, LengthUnit::cm}) {
     const double h = height * metres_in(unit);
@@ -153,7 +153,7 @@ std::optional<LengthUnit> unit_that_fits(double height) {
                    fmt::sprintf("%.4g m", height));
 }
 
-// Before any arithmetic on them: every index in range, every coordinate finite.
+// Checked before any arithmetic: every index in range, every coordinate finite.
 void check_input(const SurfaceMesh& mesh, std::string_view file) {
   if (mesh.triangles.empty()) throw InputError(file, "body", "a closed surface", "no faces");
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)

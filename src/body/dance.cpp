@@ -78,7 +78,7 @@ const std::vector<Track>& tracks() {
       {pelvis_list, true, false, {{1.7, 0}, {2.6, 5}, {3.1, 5}, {4.0, 0}, {5.0, 0}, {5.8, -3}, {6.2, -3}, {7.0, 0}}},
       {pelvis_tilt, true, false, {{5.0, 0}, {5.8, -7}, {6.2, -7}, {7.0, 0}, {11.0, 0}, {11.7, 5}, {12.6, 0}}},
 
-      // The trunk answers.
+      // The trunk follows.
       {spine_left, true, false, {{1.7, 0}, {2.6, -4}, {3.1, -4}, {4.0, 0}, {7.2, 0}, {8.2, 6}, {9.2, 0}}},
       {chest_left, true, false, {{0.2, 0}, {0.9, 8}, {1.8, -8}, {3.0, -4}, {4.2, 0}, {7.2, 0}, {8.2, 7}, {9.2, 0}}},
       {chest_turn,

@@ -12,7 +12,7 @@ namespace toile::internal {
 
 namespace {
 
-// A shape farther than this from a point cannot take part in any blend there; its exact distance does not matter.
+// A shape farther than this from a point has no part in any blend there; its exact distance does not matter.
 constexpr double far_m = 0.12;
 constexpr double rounding_m = 1e-9;  // far more than that of any distance here
 

@@ -29,7 +29,7 @@ double trunk_girth(const Mannequin& m, double y) {
   return girth_at_m(m.positions, m.triangles, Vec3(0, y, -0.01), Vec3(0, 1, 0));
 }
 
-// Largest (sign +1) or smallest (-1) girth of the trunk between two heights, and where, in steps of 5 mm.
+// Largest (sign +1) or smallest (-1) girth of the trunk between two heights, and its height, in steps of 5 mm.
 struct Girth {
   double y, length;
 };

@@ -31,7 +31,7 @@ struct Mannequin {
   std::vector<Triangle> triangles;  // counter-clockwise from outside
   std::vector<SkinWeights> skin;    // per vertex
   std::vector<Joint> joints;
-  // What a pattern is drawn against, m, taken from the mesh; girths are of a tape that does not follow hollows.
+  // The measurements that a pattern is drafted to, m, taken from the mesh; girths are of a tape, which does not follow hollows.
   // The waist stands at height - head_length - waist_line, both measured vertically.
   struct Measurements {
     double height;             // sole to crown

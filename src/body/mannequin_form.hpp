@@ -1,6 +1,6 @@
 // body/mannequin_form.hpp: all numbers of one mannequin: sections of its parts, joints, mesh and tape.
 //
-// A form says what the body is; MannequinShape makes a field of it.  Every part is written for the left side (x > 0);
+// A form is the data of a body; MannequinShape makes a field of it.  Every part is written for the left side (x > 0);
 // the image follows.  Metres, y up, facing +z.  The numbers are ours: heights and girths near the middle of published
 // anthropometric ranges [Gordon et al., 2012 Anthropometric Survey of U.S. Army Personnel, 2014], shapes by eye.
 #pragma once
@@ -19,7 +19,7 @@ struct MannequinForm {
   std::vector<LoftSection> arm;
   Vec3 shoulder_m;                        // the joint, where the arm's axis begins
   double elbow_m, wrist_m, finger_tip_m;  // along it
-  double elbow_z_m, wrist_z_m, hand_z_m;  // how far these stand before the axis
+  double elbow_z_m, wrist_z_m, hand_z_m;  // their offset in front of the axis
   std::array<Vec3, 3> thumb;              // root, knuckle, tip: along the arm, across, forwards
   std::array<double, 3> thumb_radius;
 
@@ -34,12 +34,12 @@ struct MannequinForm {
     Vec3 hips, spine, chest, neck, head, crown, collar, hip, knee, ankle, toes, toe_tips;
   } joints;
 
-  struct Flesh {  // radii around the bones: where one ends, the next begins; for skin weights only
+  struct Flesh {  // radii around the bones; the end radius of one is the first of the next; for skin weights only
     double hips, waist, ribs, neck_root, neck, head, collar, shoulder, elbow, wrist, finger_tips, hip, knee, ankle,
         ball, toe_tips;
   } flesh_m;
 
-  struct Mesh {  // wanted lengths of edges
+  struct Mesh {  // target edge lengths
     double body, hand, foot, head, nose;
     double foot_below, head_above;  // heights at which feet and head begin
     Vec3 nose_at;
@@ -49,9 +49,9 @@ struct MannequinForm {
   struct Range {
     double low, high;
   };
-  struct Tape {  // heights between which the tape looks, and how far the nape stands above the joint of the neck
+  struct Tape {  // ranges of height for each girth, and the height of the nape above the joint of the neck
     Range waist, bust, hips, neck;
-    double acromion_from;  // x from which the acromion is looked for
+    double acromion_from;  // x from which the search for the acromion starts
     double nape;
   } tape;
 };

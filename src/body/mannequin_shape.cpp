@@ -1,4 +1,4 @@
-// body/mannequin_shape.cpp: how the parts of a mannequin are placed and how softly they blend.
+// body/mannequin_shape.cpp: places the parts of a mannequin and blends them.
 //
 // Every part is written for the left side (x > 0).  Parts beside the middle come with their image, so that breasts,
 // buttocks and thighs blend with each other across x = 0 instead of meeting in a crease.
@@ -50,7 +50,7 @@ struct MannequinShape::Parts {
   static double both(const Part& part, const Vec3& p, double k) {
     return smooth_min(part(p), part(image(p)), k);
   }
-  // Whether that is more than d.
+  // Whether that distance is more than d.
   template <class Part>
   static bool both_far(const Part& part, const Vec3& p, double k, double d) {
     return part.far(p, d + k / 6) && part.far(image(p), d + k / 6);
@@ -72,7 +72,7 @@ double MannequinShape::operator()(const Vec3& point) const {
   const MannequinForm& form = part.form;
   const Vec3 p(std::abs(point.x()), point.y(), point.z());
   double d = part.trunk(p);
-  // What is farther than d + k leaves d as it is, to the last bit; most parts are that far from most points.
+  // A part farther than d + k leaves d unchanged, to the last bit; most parts are that far from most points.
   const auto blend = [&](const auto& shape, double k_both, double k) {
     if (!Parts::both_far(shape, p, k_both, d + k)) d = smooth_min(d, Parts::both(shape, p, k_both), k);
   };

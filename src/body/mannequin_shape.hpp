@@ -19,7 +19,7 @@ class MannequinShape {
   // < 0 inside; about the distance to the skin near it.
   double operator()(const Vec3& p) const;
 
-  // Wanted edge length of the mesh near p: finer at hands, face and feet.
+  // Target edge length of the mesh near p: finer at hands, face and feet.
   double edge_m(const Vec3& p) const;
 
  private:
@@ -27,7 +27,7 @@ class MannequinShape {
   std::unique_ptr<const Parts> parts_;
 };
 
-// All joints; a parent stands before its children.
+// All joints; a parent comes before its children.
 std::vector<Joint> mannequin_joints(const MannequinForm& form);
 
 // The arm's straight axis from the shoulder joint, 45 degrees below the horizontal; its positions by distance, m.

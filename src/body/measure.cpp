@@ -97,7 +97,7 @@ double girth_at_m(std::span<const Vec3> positions, std::span<const Triangle> tri
 
 namespace {
 
-// Of the sections at whole percents of the height from `first` to `last`: that of the least girth, or of the greatest.
+// The section of least, or greatest, girth among those at whole percents of the height from `first` to `last`.
 Level extreme_girth(std::span<const Vec3> positions, std::span<const Triangle> triangles, int first, int last,
                     bool least) {
   if (positions.empty()) return {};

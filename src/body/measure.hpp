@@ -22,7 +22,7 @@ double girth_at_m(std::span<const Vec3> positions, std::span<const Triangle> tri
                   const Vec3& normal);
 
 // Height of the waist of an upright body: of the horizontal section with the least girth between 55 % and 70 % of the
-// height, looked for in steps of 1 %; 0 when no such section exists.
+// height, in steps of 1 %; 0 when no such section exists.
 double waist_height_m(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
 struct Level {

@@ -14,15 +14,15 @@
 namespace toile::internal {
 namespace {
 
-// Of the height, in people as they are built [Winter, Biomechanics and Motor Control of Human Movement, 4th ed. 2009, fig. 4.1].
+// Shares of the height, by human proportions [Winter, Biomechanics and Motor Control of Human Movement, 4th ed. 2009, fig. 4.1].
 constexpr double ankles = 0.04, knees = 0.285, shoulders = 0.82, head = 0.88;
 constexpr double ribs_below_arms = 0.07;  // armpits are some 0.04 below the middle of an arm's root
-constexpr double hand_over = 0.04;        // over which a shoulder's slices become the arm's
+constexpr double hand_over = 0.04;        // the transition from the shoulder's slices to the arm's
 constexpr double legs_begin_to_lean = 0.1;
 constexpr double least_spine = 0.1;     // between hips and ribs; people have 0.2
-constexpr double written_for_m = 1.72;  // whose metres a posture has
+constexpr double written_for_m = 1.72;  // the height that a posture's metres refer to
 constexpr double degree = 0.017453292519943295769;
-constexpr std::size_t nodes = 128;  // of the bent line: each 1 % of the height or less
+constexpr std::size_t nodes = 128;  // nodes of the bent line, 1 % of the height apart or less
 
 double step(double u, double from, double to) {
   const double w = std::clamp((u - from) / (to - from), 0.0, 1.0);
@@ -38,7 +38,7 @@ Vec3 direction(double angle) { return {-ieee_sin(angle), ieee_cos(angle), 0}; }
                    got);
 }
 
-// Of the hips' section, on the level y.
+// The middle of the hips' section, at the height y.
 Vec3 middle_of(std::span<const Vec3> x, std::span<const Triangle> triangles, const Vec3& origin, double y) {
   Vec3 middle = origin;
   double longest_m = 0;

@@ -1,4 +1,4 @@
-// body/middle_line.hpp: a person without a skeleton follows a posture by the bending of their middle line.    docs/motions.md
+// body/middle_line.hpp: moves a person without a skeleton into a posture by bending the middle line.          docs/motions.md
 //
 // Bends and twists of space along an axis [Barr, Global and Local Deformations of Solid Primitives, SIGGRAPH 1984]: level slices of the
 // body stay as they are, and are carried by the line.  Of a point p whose slice is at the height u,
@@ -11,11 +11,11 @@
 //   hips ... ribs                tau                          ... - spine - chest      ... + spine + chest
 //   shoulders ... head           tau                          ... - neck               ... + neck
 //
-// Every "..." is the cubic step 3w^2 - 2w^3, so x is C1 in space, and in time what the posture is.  Legs lean side by side, as two rods under a
+// Every "..." is the cubic step 3w^2 - 2w^3, so x is C1 in space, and as smooth in time as the posture.  Legs lean side by side, as two rods under a
 // level pelvis do, so that the hips come to pelvis_x (to first order in the angles) while soles and pelvis keep their slope.  The chest, from the ribs to
-// the shoulders, is stiff; so arms, which belong to the slice at their root wherever they hang, are carried as they stand.
+// the shoulders, is rigid; all of an arm belongs to the slice at its root, so it moves rigidly with the chest.
 //
-// Lengths along the line stay; at the distance d beside it they change by d dtau/du, and a turn shears by d dphi/du.
+// Lengths along the line are kept; at the distance d beside it they change by d dtau/du, and a turn shears by d dphi/du.
 #pragma once
 #include "body/posture.hpp"
 #include "core/types.hpp"
@@ -28,11 +28,11 @@ namespace toile::internal {
 
 class MiddleLine {
  public:
-  // Of an upright person who faces +z.  Throws InputError, with `file` as its place, where no two arms and hips below them are found.
+  // For an upright person facing +z.  Throws InputError, with `file` as its place, if no two arms and hips below them are found.
   MiddleLine(std::string_view file, std::span<const Vec3> standing, std::span<const Triangle> triangles);
 
   std::size_t vertex_count() const { return standing_.size(); }
-  // Channels of trunk and pelvis count, but for leaning forwards; metres are those of a person of 1.72 m and go with the height.
+  // Uses the channels of trunk and pelvis, except leaning forwards; metres are those of a person of 1.72 m and scale with the height.
   void bend(const Posture& posture, std::span<Vec3> x) const;
 
   double hips_m() const { return levels_.hips_m; }
@@ -42,7 +42,7 @@ class MiddleLine {
   struct Levels {  // m above the soles
     double height_m = 0, ankles_m = 0, knees_m = 0, hips_m = 0, ribs_m = 0, shoulders_m = 0, head_m = 0;
   };
-  // Of a slice: how much of each is reached.
+  // The shares of each angle that a slice has.
   struct Shares {
     double lean = 0, list = 0, pelvis = 0, spine = 0, neck = 0;
   };

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<std::string_view, 6> names = {"stand", "sway", "walk", "twist", "crouch", "dance"};
 constexpr std::array<std::string_view, 3> without_skeleton = {"stand", "sway", "twist"};
 constexpr double longest_lead_in_s = 10, two_pi = 6.283185307179586;
-// The smooth minimum over six points lies below the lowest one; so much less of the sole is in the floor.
+// The smooth minimum over six points lies below the lowest one; the sole is so much less deep in the floor.
 constexpr double soles_above_m = 0.004;
 
 }  // namespace

@@ -2,12 +2,12 @@
 //
 // For t in [0, lead_in] the body comes out of the A-pose: posture(t) = s(t / lead_in) motion(t - lead_in) with
 // s(u) = u^3 (10 - 15 u + 6 u^2), so that at t = 0 it rests, and the join is C2.  After that the motion repeats with its
-// period.  All is C1 in time (C2 but for a knee at full stretch), so that cloth sees no jump in a body's velocity.
+// period.  Motions are C1 in time (C2 but for a knee at full stretch), so that a body's velocity never jumps.
 //
 // A pelvis that followed the soles would have a corner whenever they take turns on the floor.  The walking one goes by the
 // mean of that height and its part of twice per stride; soles stay within a centimetre of the floor.  On the way into the
-// walk, with s = share of the motion, angles go with s but the pitch of a foot with s^2, as what bent legs lose in height
-// does: then the pelvis' height goes with s^2 too.
+// walk, with s = share of the motion, angles go with s but the pitch of a foot with s^2, as does the height that bent legs
+// lose: then the pelvis' height goes with s^2 too.
 //
 // Mind: walking is on a treadmill, the pelvis stays over the origin and the standing foot slides backwards.
 //                                                                                                      docs/motions.md
@@ -24,9 +24,9 @@ namespace toile::internal {
 
 // "stand", "sway", "walk", "twist", "crouch", "dance".
 std::span<const std::string_view> motion_names();
-// Of them what a body without a skeleton can do as well (body/middle_line.hpp): "stand", "sway", "twist".  In words, for whoever asks for another.
+// The motions that need no skeleton (body/middle_line.hpp): "stand", "sway", "twist".  Also as words for a message.
 std::span<const std::string_view> motion_names_without_skeleton();
-inline constexpr std::string_view what_moves_a_mesh =
+inline constexpr std::string_view motions_for_a_mesh =
     "stand, sway or twist, a .pc2 file or a folder of OBJ files: a mesh has no skeleton to walk, crouch or dance with, "
     "the mannequins have";
 
@@ -63,7 +63,7 @@ class Motion {
   bool level_ = false;              // the pelvis goes by height_, not by the soles
   void level_pelvis();
   double level_height(double t_s) const;
-  double share_at(double t_s) const;  // of the motion against the A-pose
+  double share_at(double t_s) const;  // weight of the motion against the A-pose
   void blend(Posture& p, double share) const;
   Function motion_ = nullptr;
   std::vector<Joint> joints_;

@@ -3,7 +3,7 @@
 // The walk's hip, knee and ankle follow the curves of level walking at natural cadence [Winter, Biomechanics and Motor
 // Control of Human Movement, 4th ed. 2009, ch. 3; Perry & Burnfield, Gait Analysis, 2nd ed. 2010, chs. 4-6], five
 // harmonics each.  Curves of the books, put on a skeleton, do not keep a sole on the floor under a pelvis that moves
-// smoothly; so all coefficients together were fitted by us: least squares of what the sole of the standing foot is off the
+// smoothly; so all coefficients together were fitted by us: least squares of the distance of the standing foot's sole from the
 // floor (scale 2 mm) while the pelvis goes by one sinusoid of twice per stride, of that foot's speed against the belt's
 // (0.06 m/s), and of the distance from the books' curves (hip and ankle 1.3, knee 2 degrees).  They end at 2.8, 1.7 and
 // 2.1 degrees rms from them.  Pelvis, trunk and arms: amplitudes from the same books, one harmonic each.
@@ -130,8 +130,8 @@ Posture twist_posture(double t_s) {
   return p;
 }
 
-// Down, a rest, up, a rest.  At its lowest flesh meets flesh wherever a body folds: forearm on upper arm, upper arm on
-// trunk, thigh on belly, calf on thigh; the skin passes through itself there.
+// Down, a rest, up, a rest.  At its lowest the skin passes through itself wherever the body folds: forearm and upper arm, upper
+// arm and trunk, thigh and belly, calf and thigh.
 Posture crouch_posture(double t_s) {
   constexpr double way_s = 1.2, low_s = 0.8;
   const double t = t_s - crouch_period_s * std::floor(t_s / crouch_period_s);

@@ -1,6 +1,6 @@
 // body/movements.hpp: the postures of each motion over time, without a beginning or an end.
 //
-// Every function has the period named beside it; dance_posture winds its `turn` up by 720 degrees in each.
+// Every function has the period beside it; `turn` of dance_posture grows by 720 degrees in each.
 #pragma once
 #include "body/posture.hpp"
 

@@ -1,4 +1,4 @@
-// body/numbered_files.cpp: which files are the frames of a sequence.
+// body/numbered_files.cpp: finds the files of a sequence of frames.
 #include "body/body_samples.hpp"
 #include "core/error.hpp"
 #include "io/mesh_file.hpp"
@@ -19,7 +19,7 @@ constexpr std::size_t digits_at_most = 15;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// The number that `text` is, from its digits alone.
+// Parses a number of digits only.
 std::int64_t value(std::string_view text) {
   std::int64_t n = 0;
   for (const char c : text) n = 10 * n + (c - '0');
@@ -30,7 +30,7 @@ bool all_digits(std::string_view text) {
   return !text.empty() && text.size() <= digits_at_most && std::all_of(text.begin(), text.end(), is_digit);
 }
 
-// A name around its number.
+// A file name without its number.
 struct Pattern {
   std::string before, after;
   std::size_t width = 0;  // 0: any; otherwise padded with zeros to this width
@@ -60,7 +60,7 @@ std::optional<Pattern> pattern_of(std::string_view name) {
 
 // Around the last number in the stem of a file's name.
 std::optional<Pattern> around_last_number(std::string_view name) {
-  const std::size_t stem = name.rfind('.');  // of a name with an ending
+  const std::size_t stem = name.rfind('.');  // of a name with an extension
   std::size_t end = stem;
   while (end > 0 && !is_digit(name[end - 1])) --end;
   std::size_t begin = end;
@@ -69,7 +69,7 @@ std::optional<Pattern> around_last_number(std::string_view name) {
   return Pattern{std::string(name.substr(0, begin)), std::string(name.substr(end))};
 }
 
-// Of the endings of meshes the first one that any file has: a folder of OBJ files may hold other things.
+// The first mesh extension that any file has: a folder of OBJ files may hold other files.
 std::string_view ending_of_frames(std::span<const std::string> names) {
   for (const MeshReader& reader : mesh_readers())
     for (const std::string_view ending : reader.endings)

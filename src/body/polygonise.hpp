@@ -27,7 +27,7 @@ struct HalfSurface {  // x >= 0, open along x = 0
 // `low` must have x = 0; the surface must stay inside the box but for x = 0.  `cell_m` is the grid's spacing.
 HalfSurface march_tetrahedra(const ScalarField& field, const Vec3& low, const Vec3& high, double cell_m);
 
-// `edge_m(p)` is the wanted edge length near p; it should vary by less than about 0.2 m per m.
+// `edge_m(p)` is the target edge length near p; it should vary by less than about 0.2 m per m.
 void remesh(HalfSurface& surface, const ScalarField& field, const ScalarField& edge_m, int sweeps);
 
 // Mirrors the half: first the vertices on the plane, then those with x > 0, then their images in the same order.

@@ -1,4 +1,4 @@
-// body/pose.hpp: a mannequin's skeleton bent into a pose, and its skin with it.
+// body/pose.hpp: poses a mannequin's skeleton, and skins it.
 //
 // Joint rotations q_j are relative to the parent and written in the axes of the world of the A-pose, so that the
 // identity everywhere is the A-pose and rotations of a limb add up along it:
@@ -8,7 +8,7 @@
 // ring of skin with equal weights around a limb moves as one rigid piece, so it keeps its girth however far the joint
 // bends or twists; linear blending would average matrices and pinch it by up to 1 - cos(angle / 2).
 //
-// Mind: a weight of two joints that stand more than 180 degrees apart has no shortest way between them; our motions
+// Mind: between two joints turned by more than 180 degrees against each other a blend takes the wrong way round; our motions
 // keep neighbours below 140.
 #pragma once
 #include "body/mannequin.hpp"
@@ -32,12 +32,12 @@ struct RigidTransform {
 
 Pose a_pose(std::size_t joints);
 
-// Takes points of the A-pose to where each joint carries them.  Throws InputError for another number of joints.
+// The transform of each joint from the A-pose to the pose.  Throws InputError for another number of joints.
 std::vector<RigidTransform> joint_transforms(std::span<const Joint> joints, const Pose& pose);
 
 class SkinnedBody {
  public:
-  // Copies what it needs of the mannequin.
+  // Copies the data of the mannequin that it needs.
   explicit SkinnedBody(const Mannequin& mannequin);
 
   std::size_t vertex_count() const { return rest_.size(); }

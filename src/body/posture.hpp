@@ -1,4 +1,4 @@
-// body/posture.hpp: a pose in the words of movement: how far an arm is lifted, a knee bent, a foot set aside.
+// body/posture.hpp: a pose by channels of movement: lifting an arm, bending a knee, setting a foot aside.
 //
 // A posture is one number per channel, degrees or metres, all 0 in the A-pose; so postures may be scaled and added, and
 // a blend from the A-pose is a factor.  Channels of limbs mean the same on both sides, mirrored.
@@ -77,7 +77,7 @@ enum class Legs { planted, free };
 constexpr double sole_depth_m = 0.01;
 
 // `joints` are a mannequin's (their names are looked up).  A planted foot out of the leg's reach hangs from a straight
-// leg; on the way there the knee snaps, its angle going with the root of what is missing, so motions must stay below.
+// leg; near there the knee snaps, as its angle goes with the square root of the missing reach, so motions must stay below.
 Pose make_pose(const Posture& posture, Legs legs, std::span<const Joint> joints);
 
 }  // namespace toile::internal

@@ -27,7 +27,7 @@ struct Quaternion {
     const double n = std::sqrt(dot(*this));
     return {w / n, v / n};
   }
-  // What the image in the plane x = 0 does.
+  // The rotation mirrored in the plane x = 0.
   Quaternion mirrored() const { return {w, Vec3(v.x(), -v.y(), -v.z())}; }
 };
 

@@ -1,4 +1,4 @@
-// body/skin.hpp: which joints move a vertex of the mannequin, and how much.
+// body/skin.hpp: skin weights: which joints move a vertex of the mannequin, and how much.
 //
 // d_j is the distance from the flesh of bone j, the round cone of its joint's radii: so a breast belongs to the ribs,
 // whose bone is deep inside, and not to the arm, whose bone is nearer to its own skin.  A vertex starts with

@@ -26,7 +26,7 @@ double signed_volume(const SolidMesh& solid) {
   return six / 6;
 }
 
-// How many pieces of at most edge_m a side of the outline is cut into.
+// The number of pieces of at most edge_m for a side of the outline.
 double pieces_of(const Vec2& from, const Vec2& to, double edge_m) {
   return std::max(1.0, std::ceil((to - from).norm() / edge_m - 1e-9));
 }
@@ -54,7 +54,7 @@ void check_count(double triangles) {
   throw InputError("", "profile", expected, got);
 }
 
-// Whether it is a curve beside the axis.
+// Whether the outline is a closed curve beside the axis.
 bool check_profile(std::span<const Vec2> profile) {
   if (profile.size() < 3) bad_profile("at least three points", std::to_string(profile.size()));
   for (std::size_t k = 0; k < profile.size(); ++k) {

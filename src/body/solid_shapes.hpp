@@ -19,7 +19,7 @@ struct SolidMesh {
 // counts [BW98 8].  `top` is the middle of the upper cap.
 SolidMesh rounded_cylinder(double radius_m, double height_m, const Vec3& top);
 
-// More in one solid is an InputError("", "edge_m", ...), before any is made.
+// More triangles in one solid are an InputError("", "edge_m", ...), before any are made.
 inline constexpr std::size_t most_solid_triangles = 2'000'000;
 
 // Around the origin: an octahedron halved until no edge is longer than `edge_m`.  Corners lie on the sphere.
@@ -28,15 +28,15 @@ SolidMesh ball(double radius_m, double edge_m);
 // Around the origin, with sharp edges: faces of two triangles each.
 SolidMesh block(const Vec3& size_m);
 
-// What the outline (distance from the y axis, height) sweeps around the y axis.  It runs from the axis to the axis (a cone, a
+// The surface of revolution of the outline (distance from the y axis, height).  It runs from the axis to the axis (a cone, a
 // spindle), or is a closed curve beside it (a torus, a funnel with a wall); either way round.  Pieces are cut, and the circle is,
 // so that no edge along either is longer than `edge_m`.
 // Throws InputError("", "profile", ...) for fewer than three points, a distance below 0, points that coincide, an outline
 // that touches the axis between its ends, or has one end on it.
 SolidMesh revolved(std::span<const Vec2> profile_m, double edge_m);
 
-// Everything in the file, however many parts it has; vertices that no triangle uses go, and those that were split are one
-// (mesh/join_sides.hpp).  Who takes it checks it.
+// All parts of the file; unused vertices are dropped, and vertices that were split are joined (mesh/join_sides.hpp).
+// The caller checks the surface.
 SolidMesh whole_of(const SurfaceMesh& mesh);
 
 // A room: the same surface seen from inside.

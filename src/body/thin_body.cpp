@@ -13,7 +13,7 @@ namespace {
 // Of the square of the height: arms become tubes of some 6 cm.  Thinner ones (1e-3: 2 cm) let cuffs collapse around them while they are
 // sewn, and layers are caught in their seams; the full arm stands in the way of sleeves.
 constexpr double flow_time = 2e-4;
-constexpr std::array<double, 4> steps{1.0 / 15, 2.0 / 15, 4.0 / 15, 8.0 / 15};  // of the time: details go first
+constexpr std::array<double, 4> steps{1.0 / 15, 2.0 / 15, 4.0 / 15, 8.0 / 15};  // of the time: details vanish first
 constexpr double largest_cotangent = 50;                                        // of a needle
 constexpr double least_area_m2 = 1e-9;                                          // of a vertex in no triangle
 
@@ -26,7 +26,7 @@ double cotangent(const Vec3& apex, const Vec3& a, const Vec3& b) {
   return area > 0 ? std::clamp(p.dot(q) / area, 0.0, largest_cotangent) : 0;
 }
 
-// L of the positive sign: row i is the sum over neighbours of (cot a + cot b) / 2 (x_i - x_j).
+// L, positive semidefinite: row i is the sum over neighbours of (cot a + cot b) / 2 (x_i - x_j).
 Matrix cotangents(std::span<const Vec3> x, std::span<const Triangle> triangles) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(12 * triangles.size() + x.size());
@@ -88,7 +88,7 @@ ThinBody::ThinBody(std::span<const Vec3> full, std::span<const Triangle> triangl
       x.row(i) *= area;
     }
     solver.factorize(system);
-    if (solver.info() != Eigen::Success) break;  // as thin as it has got
+    if (solver.info() != Eigen::Success) break;  // keep the thinnest shape so far
     x = solver.solve(x).eval();
     Vec3s shape(full.size());
     for (std::size_t i = 0; i < shape.size(); ++i) shape[i] = x.row(static_cast<Eigen::Index>(i));

@@ -1,12 +1,12 @@
-// body/thin_body.hpp: a body drawn in towards its own middle, and how it grows back.                 docs/theory/sewing.md
+// body/thin_body.hpp: thins a body towards its medial axis, and grows it back.                       docs/theory/sewing.md
 //
 //   conformalised mean curvature flow   (M_k + dt L_0) x_{k+1} = M_k x_k        [Kazhdan, Solomon & Ben-Chen 2012]
 //
-// with L_0 the cotangents of the full body and M_k the vertex areas of the present shape.  Keeping L_0 is what makes the flow stable: limbs
-// become tubes of two centimetres round their own axes, hands and feet draw in along them, and nothing is pinched off.  Every vertex keeps
-// its place on the surface, so the way back is a motion of the same mesh.
+// with L_0 the cotangents of the full body and M_k the vertex areas of the present shape.  Keeping L_0 makes the flow stable: limbs
+// become tubes of two centimetres round their own axes, hands and feet draw in along them, and no part is pinched off.  Vertices
+// and triangles stay the same, so growing back is a motion of the same mesh.
 //
-// The time of the flow is an area: thinning goes with the square of the height.
+// The time of the flow has the unit of an area, and scales with the square of the height.
 #pragma once
 #include "core/types.hpp"
 
@@ -25,7 +25,7 @@ class ThinBody {
 
  private:
   std::vector<Vec3s> shapes_;   // from thin to full
-  std::vector<double> shares_;  // when each is reached: by the root mean square way of the vertices
+  std::vector<double> shares_;  // when each is reached, in proportion to the root mean square displacement
 };
 
 }  // namespace toile::internal

@@ -41,7 +41,7 @@ void ParticleConstraints::hold_along(Index particle, const Vec3& n, double z_alo
     dof_[p] = 2;
     return;
   }
-  // The part of n that is still free; z must gain along it what z does not yet give along n.
+  // The part of n that is still free; along it z gains the rest of the prescribed z . n.
   Vec3 m = S_[p] * n;
   const double length = m.norm();
   constexpr double parallel = 1e-3;

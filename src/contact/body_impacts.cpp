@@ -98,7 +98,7 @@ class BodyImpactQuery {
   }
 
  private:
-  // `first`: how many of the particles are the first feature's.
+  // `first`: the number of particles of the first feature.
   void decide(ContactKind kind, const std::array<Index, 4>& particle, std::size_t first,
               std::vector<Impact>& found) const {
     const Index n = static_cast<Index>(start_.size());
@@ -147,7 +147,7 @@ class BodyImpactQuery {
   const BodyImpactWorkspace& workspace_;
   std::span<const Vec3> start_, end_;
   double separation_m_;
-  std::size_t most_;  // of one task as of all: how the body's tree is cut into tasks, a solid far away decides, too
+  std::size_t most_;  // per task the same as in all: distant solids change the body's division into tasks
 };
 
 // Does the segment pq pass through the triangle?

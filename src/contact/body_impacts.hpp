@@ -42,7 +42,7 @@ struct BodyImpactWorkspace {
                                      std::vector<Impact>& impacts);
 
 // Marks the particles of cloth edges and triangles that pass through the body at its present positions.  Returns
-// whether there are any.  Decided in floating point: for choosing what to guard, not for a verdict.
+// whether there are any.  Decided in floating point: for choosing particles to guard, not for a verdict.
 bool mark_through_body(const ClothTopology& cloth, TriangleTree& tree, std::span<const Vec3> x, const BodySurface& body,
                        BodyImpactWorkspace& workspace, std::vector<char>& through);
 

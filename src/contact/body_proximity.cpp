@@ -26,7 +26,7 @@ class BodyQuery {
             const ProximityOptions& options, const Memory& memory)
       : cloth_(cloth), tree_(tree), around_(cloth, x, options), body_(body), options_(options), memory_(memory) {}
 
-  // What the features of a triangle of the body meet that speaks for them.
+  // Finds the pairs of the features that a triangle of the body owns.
   void meet_features(Index b, Memory::Found& found) const {
     const TriangleTree& bodies = body_.tree_now();
     const unsigned owned = memory_.body_features[static_cast<std::size_t>(b)];
@@ -117,8 +117,8 @@ class BodyQuery {
   const Memory& memory_;
 };
 
-// What each triangle of the body has to ask: its own vertices, and those of its ridges that count for the longest
-// edge of the cloth.  Most of a smooth body's edges end here.
+// The features that each triangle of the body queries: the vertices that it owns, and the ridges that count for the longest
+// edge of the cloth.  Most of a smooth body's edges are dropped here.
 void mark_features(const ClothTopology& cloth, std::span<const Vec3> x, const BodySurface& body,
                    const ProximityOptions& options, Memory& memory) {
   double longest2 = 0;

@@ -19,10 +19,10 @@ constexpr double touching_m = 1e-9;  // nearer than this the direction to the bo
 constexpr double flat_bend = 1e-3;
 constexpr double farthest_m = 1e6;
 constexpr double facing_cosine = 0.5;
-constexpr double cancelled_normal = 1e-6;  // a sum of unit normals shorter than this says nothing (a knife's edge)
+constexpr double cancelled_normal = 1e-6;  // a sum of unit normals shorter than this has no direction (a knife's edge)
 
-// Triangles that share an edge or a vertex are equally far from what is nearest to that, and both sides of a body from its middle: the
-// one with the smaller number is taken, in whichever order the tree comes to them.
+// Triangles that share an edge or a vertex are equally far from a point nearest to that, and so are both sides of a body from its middle:
+// the one with the smaller index is taken, independent of the tree's order.
 class Nearest {
  public:
   explicit Nearest(double reach_m) : best2_(reach_m * reach_m) {}
@@ -34,7 +34,7 @@ class Nearest {
     triangle_ = t;
     return true;
   }
-  // A hair beyond, for boxes and heights: what is as near, but for the rounding of coordinates of some metres, is still looked at.
+  // Slightly enlarged, for boxes and heights: triangles equally near up to the rounding of coordinates of some metres are still visited.
   double bound2() const { return best2_ * (1 + 1e-8) + 1e-22; }
 
  private:
@@ -266,8 +266,8 @@ BodyPoint BodySurface::nearest_opposite(const Vec3& p, const Vec3& normal, doubl
   return result;
 }
 
-// Signed crossings of the ray from p along z.  Which side of an edge it passes is asked in one way for both triangles of the edge, so
-// that it never slips through between them.
+// Signed crossings of the ray from p along z.  The side on which it passes an edge is computed in one way for both
+// triangles of the edge, so that it never slips between them.
 int BodySurface::winding_number(const Vec3& p) const {
   Box ray{p, p};
   ray.high.z() = farthest_m;

@@ -103,7 +103,7 @@ class BodySurface {
 
   // The features that this triangle represents (contact/features.hpp).
   std::uint8_t owned(Index triangle) const { return owned_[static_cast<std::size_t>(triangle)]; }
-  // The same, with only those edges that have a ridge_bend.
+  // The same, with only the edges that have a ridge_bend.
   std::uint8_t owned_ridges(Index triangle) const { return owned_ridges_[static_cast<std::size_t>(triangle)]; }
 
  private:

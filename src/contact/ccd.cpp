@@ -12,7 +12,7 @@ namespace {
 
 using Points = std::array<Vec3, 4>;
 
-constexpr double advance_share = 0.9;       // of what the bound would allow: what is left stays well above rounding
+constexpr double advance_share = 0.9;       // of the advance that the bound allows: the rest stays well above rounding
 constexpr double advance_reserve = 0.05;    // of d - xi need not be proven: an advance leaves 0.1
 constexpr double rounding_share = 0x1p-45;  // e / M: derived in the header
 constexpr double least_direction = 1e-100;  // its square is well above underflow
@@ -25,7 +25,7 @@ struct Found {
   double loss;
 };
 
-// support(w): the least w . (a - b) for a of the first feature and b of the second.  Both are convex: corners decide.
+// support(w): the least w . (a - b) over a of the first feature and b of the second.  Both are convex: corners suffice.
 
 struct VertexFace {
   static Found closest(const Points& x) {
@@ -91,7 +91,7 @@ double lower_bound(const Points& x, const Vec3& w) {
   return bound;
 }
 
-// The distance as computed where all but `advance_reserve` of what is above xi is proven, else what is proven.
+// The computed distance, if all but `advance_reserve` of its excess over xi is proven; else the proven bound.
 template <class Features>
 double proven_distance(const Points& x, double separation_m, double rounding_m) {
   const Found found = Features::closest(x);
@@ -121,7 +121,7 @@ double first_impact(const Points& x, const Points& u, double l_m, double separat
   const double room = d - separation_m;
   if (!(room > 0)) return 0;
   if ((1 - advance_reserve) * room > l_m) return no_impact;
-  if (room < separation_m) {  // advances would be short ones: do they part, or slide along each other?
+  if (room < separation_m) {  // advances would be short: do they separate, or slide along each other?
     Points end;
     for (std::size_t k = 0; k < 4; ++k) end[k] = x[k] + u[k];
     for (const Vec3& w : {Features::closest(x).w, Features::closest(end).w})

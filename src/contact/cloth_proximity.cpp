@@ -19,7 +19,7 @@ using Memory = ProximityWorkspace::Memory;
 
 bool by_particles(const ClothContact& a, const ClothContact& b) { return a.particle < b.particle; }
 
-// One query: what is given, and the two kinds of features.
+// One query: its input, and the two kinds of features.
 class ClothQuery {
  public:
   ClothQuery(const ClothTopology& cloth, const TriangleTree& tree, std::span<const Vec3> x,
@@ -31,7 +31,7 @@ class ClothQuery {
         memory_(memory),
         pairs_(pairs) {}
 
-  // Of the places within range of a vertex those that count.
+  // The places within range of a vertex that become records.
   void meet_vertex(Index vertex, Memory::Reported& out) const {
     if (cloth_.corners_around(vertex).empty()) return;
     out.places.clear();
@@ -71,7 +71,7 @@ class ClothQuery {
     }
   }
 
-  // The edges for which a triangle speaks, with others; one of two has to be bent.
+  // The edges that a triangle owns, against others; one of two has to be bent.
   void meet_edges(Index t, Memory::Found& found) const {
     const unsigned owned = static_cast<unsigned>(cloth_.owned(t)) >> 3, flat = flat_edges(t);
     if (pairs_) {
@@ -185,7 +185,7 @@ class ClothQuery {
 
   const Vec3& face_normal(Index t) const { return memory_.face_normals[static_cast<std::size_t>(t)]; }
 
-  // The closest point once more: of what stage 1 has found, few are on faces.
+  // The closest point once more: few of the places from stage 1 are on faces.
   void add_face(Index v, Index t, std::vector<ClothContact>& out) const {
     const Triangle& c = cloth_.triangle(t);
     const Vec3 b = closest_vertex_triangle(around_.x(v), around_.x(c[0]), around_.x(c[1]), around_.x(c[2])).barycentric;
@@ -229,7 +229,7 @@ class ClothQuery {
   Surroundings around_;
   double range_m_;
   const Memory& memory_;
-  const FeaturePairs* pairs_;  // lists that hold, or none
+  const FeaturePairs* pairs_;  // valid lists, or null
 };
 
 void mark_flat_edges(const ClothTopology& cloth, std::span<const std::array<Index, 2>> bent, Memory& memory) {

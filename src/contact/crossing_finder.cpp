@@ -24,8 +24,8 @@ void check_finite(std::span<const Vec3> x) {
       throw InputError("", "vertex " + std::to_string(i), "a finite position", "infinity or not a number");
 }
 
-// The largest coordinate of the cloth and of the triangles of the body that it may meet.  What is far away has no say: another step would
-// decide otherwise where positions are degenerate.
+// The largest coordinate of the cloth and of the triangles of the body that it may meet.  Distant triangles must not matter: another step
+// size would resolve degenerate positions differently.
 double largest_coordinate(std::span<const Vec3> cloth, std::span<const Vec3> body,
                           std::span<const Triangle> body_triangles) {
   Eigen::AlignedBox3d around;
@@ -43,7 +43,7 @@ double largest_coordinate(std::span<const Vec3> cloth, std::span<const Vec3> bod
   return largest;
 }
 
-// x in steps of 2^(e - whole_bits), with e such that `largest` < 2^e.
+// x in steps of 2^(e - whole_bits), where `largest` < 2^e.
 void round_to_whole(std::span<const Vec3> x, double largest, Vec3s& whole) {
   const int exponent = std::max(largest > 0 ? std::ilogb(largest) + 1 : least_exponent, least_exponent);
   const double steps = std::ldexp(1.0, whole_bits - exponent);  // per metre
@@ -53,7 +53,7 @@ void round_to_whole(std::span<const Vec3> x, double largest, Vec3s& whole) {
   });
 }
 
-// About where; anywhere on the edge when it lies in the triangle's plane.
+// Approximate position; anywhere on the edge when it lies in the triangle's plane.
 Vec3 position_of(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = (b - a).cross(c - a);
   const double above = normal.dot(p - a), below = normal.dot(q - a);
@@ -103,7 +103,7 @@ void CrossingFinder::refit(std::span<const Vec3> x) {
   whole_.swap(next_whole_);
 }
 
-// Edges of `a` that it owns through `b`.
+// Crossings of the edges that triangle `a` owns with triangle `b`.
 void CrossingFinder::test(const Side& of_edges, Index a, const Side& of_triangles, Index b, std::span<const Vec3> x,
                           std::vector<SurfaceCrossing>& found) const {
   const std::uint8_t owned = owned_[at(of_edges.triangle + a)];

@@ -7,7 +7,7 @@
 namespace toile::internal {
 namespace {
 
-constexpr float steps_ahead = 4;      // of as much motion as there was of late
+constexpr float steps_ahead = 4;      // of motion as large as the recent one
 constexpr float motion_fades = 0.7f;  // a particle that swings stands still twice in every period
 constexpr double least_slack = 0.01;  // s_0, of the mean edge
 constexpr double most_slack = 0.1;    // of the mean edge, in the mean: larger boxes cost more than they save
@@ -15,7 +15,7 @@ constexpr double most_crowd = 24;     // triangles near a particle: likewise
 constexpr Index sampled = 32;         // every so many particles, to know beforehand
 constexpr int steps_to_wait = 16;     // after they were more
 
-// How many triangles' boxes the box of a particle overlaps: the mean of a few.
+// The number of triangle boxes that the box of a particle overlaps: the mean over a sample.
 double crowd(const TriangleTree& tree) {
   const auto particles = static_cast<Index>(tree.particle_boxes().size());
   Index asked = 0, met = 0;
@@ -104,7 +104,7 @@ void FeaturePairs::list(Keys Found::*keys, std::size_t rows, IndexRows& lists) c
   each([&](std::size_t first, Index) { ++offsets[first + 2]; });
   for (std::size_t r = 2; r < offsets.size(); ++r) offsets[r] += offsets[r - 1];
   const auto count = static_cast<std::size_t>(offsets.back());
-  if (count > values.capacity()) values.reserve(2 * count);  // or it would grow by one pair, time and again
+  if (count > values.capacity()) values.reserve(2 * count);  // or it would grow by one pair each time
   values.resize(count);
   each([&](std::size_t first, Index second) { values[static_cast<std::size_t>(offsets[first + 1]++)] = second; });
 }

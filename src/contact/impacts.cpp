@@ -13,9 +13,9 @@ namespace {
 constexpr std::size_t list_grain = 512;
 constexpr double separation_share = 0.1;  // of r
 constexpr double gap_share = 0.5;         // of d_0
-constexpr double floor_m = 1e-6;          // files of float32 tell sides that far apart within 8 m of the origin
+constexpr double floor_m = 1e-6;          // float32 files can tell the two sides of such a gap within 8 m of the origin
 constexpr double floor_share = 0.999;     // of d_0, where that is not above it
-constexpr double no_floor_m = 1e-7;       // nothing that begins so near is a gap of ours
+constexpr double no_floor_m = 1e-7;       // a smaller gap at the start was not made by contact
 constexpr double no_gap_m = 1e-12;        // pairs that coincide have no side to be kept on
 
 std::array<Vec3, 4> gather(const std::array<Index, 4>& particle, std::span<const Vec3> x) {
@@ -50,7 +50,7 @@ class ImpactQuery {
               std::span<const double> contact_m, std::span<const Pinched> pinched, ImpactWorkspace& workspace)
       : cloth_(cloth), tree_(tree), start_(start), contact_m_(contact_m), pinched_(pinched), workspace_(workspace) {}
 
-  // All of them, by a walk of the tree, whose boxes are those of the motion.  False: they are too many.
+  // All impacts, by a traversal of the tree, whose boxes are those of the motion.  False: too many.
   bool walk(std::vector<Impact>& impacts) const {
     tree_.self_tasks(workspace_.tasks);
     const std::size_t most = most_impacts_of_a_task(start_.size());
@@ -69,7 +69,7 @@ class ImpactQuery {
     return gather_impacts(found(workspace_.tasks.size()), start_.size(), most, impacts);
   }
 
-  // All of them, by lists that hold.  False: they are so many that the walk might have stopped, and is to say.
+  // All impacts, by valid lists.  False: so many that the traversal might have stopped, and has to decide.
   bool look_up(const FeaturePairs& pairs, std::vector<Impact>& impacts) const {
     const std::size_t vertices = start_.size(), edges = cloth_.topology().edges.size();
     const std::size_t vertex_blocks = (vertices + list_grain - 1) / list_grain,
@@ -130,7 +130,7 @@ class ImpactQuery {
   void decide(ContactKind kind, const std::array<Index, 4>& particle, std::vector<Impact>& found) const {
     Impact impact{kind, particle, {}, Vec3::Zero(), no_impact, 0, contact_m_[at(particle[0])], 0};
     for (const Index i : particle) impact.contact_m = std::min(impact.contact_m, contact_m_[at(i)]);
-    if (impact.contact_m <= 0 || is_let_be(particle, pinched_)) return;
+    if (impact.contact_m <= 0 || is_exempt(particle, pinched_)) return;
     if (decide_impact(gather(particle, start_), gather(particle, workspace_.displacement_m), impact))
       found.push_back(impact);
   }

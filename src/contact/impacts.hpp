@@ -40,7 +40,7 @@ struct ImpactWorkspace {
   ParticleBoxes boxes;
 };
 
-// Number of impacts above which a motion is not worth correcting: its cause threw cloth through cloth, or the body.
+// Number of impacts above which a motion is not worth correcting: cloth was thrown through cloth, or through the body.
 inline constexpr std::size_t few_impacts = 20'000;
 inline std::size_t most_impacts(std::size_t particles) { return few_impacts + 4 * particles; }
 // A task of cloth with cloth stops at a number of its own: a hundred tasks going on to most_impacts would fill the
@@ -54,7 +54,7 @@ inline std::size_t most_impacts_of_a_task(std::size_t particles) {
                                   std::size_t of_a_task, std::vector<Impact>& impacts);
 
 // All impacts, sorted by (kind, particles).  `contact_m` is r per particle, and a pair takes the least of its four; 0
-// exempts it, and so does is_let_be (contact/pinched.hpp; `pinched` per particle, or empty).  Of `tree` only the
+// exempts it, and so does is_exempt (contact/pinched.hpp; `pinched` per particle, or empty).  Of `tree` only the
 // hierarchy is used; its boxes become those of the motion.  `pairs`: lists used where they are valid; the impacts are
 // the same without.  Returns false when there are more than most_impacts, or far too many in one place: then the list
 // is incomplete.

@@ -79,7 +79,7 @@ class Tracer {
     contour.end_particle[0] = end_particle(first, 1 - k);
     Index c = first;
     std::size_t leave = k;
-    int side = 0;  // whose edge c is on
+    int side = 0;  // the side of the edge of crossing c
     for (;;) {
       contour.points.push_back({c, side});
       done_[at(c)] = 1;

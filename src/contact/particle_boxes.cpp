@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t box_grain = 1024;
 
-// Of finite positions; else the origin, which is as good: any point will do, as long as it is the same for all.
+// The mean of finite positions; else the origin: any point will do, as long as it is the same for all.
 Vec3 mean(std::span<const Vec3> x) {
   Vec3 sum = Vec3::Zero();
   for (const Vec3& p : x) sum += p;

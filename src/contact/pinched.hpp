@@ -20,7 +20,7 @@ bool all_pinched(const Particles& particles, std::span<const Pinched> pinched) {
 // Whether the safe filter exempts the pair: all particles are pinched and one is without room.  They may pass through
 // each other; free particles are kept out of the pinch.
 template <class Particles>
-bool is_let_be(const Particles& particles, std::span<const Pinched> pinched) {
+bool is_exempt(const Particles& particles, std::span<const Pinched> pinched) {
   if (pinched.empty() || !all_pinched(particles, pinched)) return false;
   return std::any_of(particles.begin(), particles.end(),
                      [&](Index i) { return i >= 0 && pinched[static_cast<std::size_t>(i)] == Pinched::without_room; });

@@ -14,7 +14,7 @@ constexpr Index task_size = 512;    // a task's nodes hold at most this many tri
 constexpr Index refit_size = 1024;  // likewise, when boxes are made anew
 constexpr std::size_t box_grain = 1024;
 
-// Replaces every task with a node above task_size by its children; `descend` knows how.
+// Replaces every task with a node above task_size by its children, with `descend`.
 template <class Big, class Split>
 void cut_tasks(std::vector<TreeTask>& tasks, Big&& big, Split&& split) {
   std::size_t kept = 0;
@@ -49,7 +49,7 @@ std::size_t split(std::span<const Vec3> centroids, std::span<Index> triangles) {
   return left;
 }
 
-// Gathers what the tasks found into one sorted list.
+// Gathers the results of the tasks into one sorted list.
 void sort_found(PairWorkspace& workspace, std::size_t first_count, std::vector<std::pair<Index, Index>>& pairs) {
   workspace.all.clear();
   for (std::size_t i = 0; i < workspace.tasks.size(); ++i) {
@@ -126,7 +126,7 @@ void TriangleTree::refit(const ParticleBoxes& particles) {
   refit_triangles();
 }
 
-// Largest subtrees that are one task when boxes are made anew, and the nodes above them.
+// The largest subtrees that are one task of a refit, and the nodes above them.
 void TriangleTree::find_subtrees() {
   const auto end_of = [&](Index i) {  // of the nodes below
     while (!node(i).leaf()) i = *std::max_element(node(i).child.begin(), node(i).child.end());

@@ -25,7 +25,7 @@ int sign_of_sum(const std::array<Wide, 3>& m, const std::array<Whole, 3>& d) {
     high += (m[k] >> 64) * d[k];
     low += (m[k] & Wide{0xffffffffffffffff}) * d[k];
   }
-  high += low >> 64;  // rounds down: what is left is not negative
+  high += low >> 64;  // rounds down: the remainder is not negative
   if (high != 0) return sign(high);
   return (low & Wide{0xffffffffffffffff}) != 0 ? 1 : 0;
 }

@@ -28,7 +28,7 @@ std::optional<double> number_in_file(const std::string& path, const std::string&
   return std::nullopt;
 }
 
-// What the group may use beyond what it does; memory that only caches files does not count as used.
+// The group's limit less its use; memory that only caches files does not count as used.
 double left_in_group_mb(const std::string& limit, const std::string& used, const std::string& statistics,
                         const std::string& caches) {
   const auto most = number_in_file(limit, ""), now = number_in_file(used, "");

@@ -3,8 +3,8 @@
 
 namespace toile::internal {
 
-// The least of what the machine has free, what a control group (a container) leaves, and the limits of this process (ulimit -v, -d), in
-// units of 2^20 bytes; infinite when the system says none of them.
+// The least of the machine's free memory, the rest of a control group's limit (a container) and of this process's (ulimit -v, -d), in
+// units of 2^20 bytes; infinite when the system reports none of them.
 double available_memory_mb();
 
 }  // namespace toile::internal

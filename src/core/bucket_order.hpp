@@ -13,7 +13,7 @@ namespace toile::internal {
 // Keeps its memory between calls.
 class BucketOrder {
  public:
-  // Afterwards order() are the indices into `keys` such that the keys ascend; equal keys keep the order they came in.
+  // Afterwards order() lists the indices of `keys` in ascending order of the keys; the sort is stable.
   void sort(std::span<const std::pair<Index, Index>> keys, std::size_t first_count) {
     // While filling, offsets_[f + 1] runs from the start of bucket f to its end, which is the start of the next.
     offsets_.assign(first_count + 2, 0);
@@ -36,7 +36,7 @@ class BucketOrder {
     for (std::size_t i = 0; i < keys.size(); ++i) order_[i] = static_cast<Index>(packed_[i] & 0xffffffffu);
   }
   std::span<const Index> order() const { return order_; }
-  // Of the keys with this first.
+  // The indices of the keys with this first number.
   std::span<const Index> bucket(std::size_t first) const {
     return order().subspan(static_cast<std::size_t>(offsets_[first]),
                            static_cast<std::size_t>(offsets_[first + 1] - offsets_[first]));

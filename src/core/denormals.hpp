@@ -1,8 +1,8 @@
-// core/denormals.hpp: numbers below the normal range as zero, for a while.
+// core/denormals.hpp: denormal numbers as zero, for a while.
 //
-// A float product below 10^-38 costs x86 processors of one make a hundred cycles or more, and the blocks of cloth have many: normals that are
-// nearly along an axis, 10^-20 times 10^-20, and corrections that fade over hundreds of rows of a sweep.  What they add to is
-// 10^30 times as large, so that results are the same bits with them and without.
+// A float product below 10^-38 costs some x86 processors a hundred cycles or more, and the blocks of cloth have many: normals that are
+// nearly along an axis, 10^-20 times 10^-20, and corrections that fade over hundreds of rows of a sweep.  The sums that they enter are
+// 10^30 times as large, so results have the same bits with them and without.
 #pragma once
 #if defined(__SSE__)
 #include <xmmintrin.h>
@@ -10,8 +10,8 @@
 
 namespace toile::internal {
 
-// While it lives, its thread reads and writes such numbers as zero: in float and in double.  What the host had set returns afterwards.
-// Elsewhere than on x86 nothing happens.
+// During its lifetime its thread reads and writes denormals as zero, in float and in double.  Afterwards the host's mode is restored.
+// Only on x86; elsewhere nothing happens.
 class DenormalsAreZero {
  public:
 #if defined(__SSE__)

@@ -1,4 +1,4 @@
-// core/disjoint_sets.hpp: what hangs together; the smallest member stands for its set, whatever the order of joining.
+// core/disjoint_sets.hpp: disjoint sets (union-find); the smallest member represents its set, in whatever order sets are joined.
 #pragma once
 #include "core/types.hpp"
 
@@ -11,7 +11,7 @@ class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count = 0) { reset(count); }
 
-  // 0 .. count-1, each by itself.
+  // 0 .. count-1, each a set of its own.
   void reset(std::size_t count) {
     parent_.resize(count);
     std::iota(parent_.begin(), parent_.end(), 0);

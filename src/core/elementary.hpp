@@ -1,7 +1,7 @@
 // core/elementary.hpp: sin, cos, asin, atan2 from + - * / and sqrt only, so that a run has the same bits on every machine.
 //
 // IEEE 754 fixes the result of + - * / sqrt and of remainder, round; it leaves sin and its kin to the C library, which
-// may even choose by processor.  Everything that reaches a position uses these instead; tools/check_elementary.py watches.
+// may even choose by processor.  Everything that reaches a position uses these; tools/check_elementary.py checks it.
 //
 // Errors, in units in the last place (ulp) of the exact result:  atan2 <= 2,  sin, cos <= 2 for |x| <= 1e6,  asin <= 3.
 // Measured worst on a million arguments: 1.7, 1.1, 0.8, 1.9.

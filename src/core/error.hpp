@@ -1,8 +1,8 @@
-// core/error.hpp: what is thrown when the caller asked for something that cannot be meant.
+// core/error.hpp: the exceptions, for invalid input and usage.
 //
-// Three kinds of trouble and no fourth:
+// There are three kinds of failure:
 //   1. bad input, output or usage        an exception from this file
-//   2. physics that goes badly           a status in a report, never an exception
+//   2. a simulation that fails           a status in a report, never an exception
 //   3. a bug of ours                     TOILE_ASSERT, on unless NDEBUG
 #pragma once
 #include <cassert>
@@ -14,10 +14,10 @@
 namespace toile::internal {
 
 enum class ErrorKind {
-  usage,              // a call in the wrong order, or an option that is out of its range
-  bad_input,          // a file or an array that is not what it should be
-  bad_start,          // cloth that begins through itself or the body, where that is to be an error
-  simulation_failed,  // a simulation did not come to the state that was needed of it
+  usage,              // a call in the wrong order, or an option that is out of range
+  bad_input,          // a file or an array with invalid contents
+  bad_start,          // cloth that intersects itself or the body at the start, where that is to be an error
+  simulation_failed,  // a simulation did not reach the state that was needed
   io,                 // a file that cannot be read or written
   resource_limit,     // more than the machine has, or than was allowed
   interrupted,        // the caller asked for an end, and there is no result
@@ -40,7 +40,7 @@ class InputError : public Error {
   // either may be empty.
   InputError(std::string_view where, std::string_view place, std::string_view expected, std::string_view got);
 
-  // The same, about what is at `path` of the model that was given ("/cloth/0/pins/2"): who read that from a file completes the message
+  // The same, about the element at `path` of a model ("/cloth/0/pins/2"): the caller that read the model from a file adds file and line
   // (io/json_places.hpp).
   InputError of(std::string_view path) const;
   // The same with `where` before its message, unless that begins with it.
@@ -66,7 +66,7 @@ class IoError : public Error {
 // `name` with control characters and bytes that are not UTF-8 replaced, and cut to a length fit for one line of a log.
 std::string printable(std::string_view name);
 
-// "a, b or c": what may stand somewhere.
+// "a, b or c": the allowed words.
 std::string alternatives(std::span<const std::string> names);
 
 // The candidate nearest to `name` by edit distance, for "did you mean"; empty when there is none.

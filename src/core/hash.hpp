@@ -1,7 +1,7 @@
 // core/hash.hpp: 64-bit fingerprints of bits; not for security.
 //
 //   Hash       FNV-1a: `state_hash`, `input_hash`, golden tests
-//   Checksum   of a frame or a file: whether it is what was written.  Eight bytes at a time, as every step is one-to-one in the state
+//   Checksum   of a frame or a file: whether it is as it was written.  Eight bytes at a time, as every step is one-to-one in the state
 //              and in the word: two texts of one length that differ in one word never have the same.
 #pragma once
 #include <cstddef>
@@ -21,7 +21,7 @@ inline std::string hex_of(std::uint64_t value) {
   return text;
 }
 
-// In pieces, of whose lengths all but the last are multiples of eight.
+// May be called with pieces; all but the last must have a length that is a multiple of eight.
 class Checksum {
  public:
   explicit Checksum(std::uint64_t size_bytes) : value_(0x9e3779b97f4a7c15ULL ^ size_bytes) {}
@@ -32,7 +32,7 @@ class Checksum {
       std::memcpy(&word, bytes, 8);
       value_ = after(word);
     }
-    if (size > 0) std::memcpy(&rest_, bytes, size);  // of nothing there may be no pointer
+    if (size > 0) std::memcpy(&rest_, bytes, size);  // an empty range may have a null pointer
   }
   std::uint64_t value() const { return after(rest_); }
 
@@ -62,7 +62,7 @@ class Hash {
   void add(std::span<const T> values) {
     add_bytes(values.data(), values.size_bytes());
   }
-  // With their number, so that what follows cannot be taken for a part of them.
+  // With their number, so that the next item cannot be taken for a part of them.
   template <class T>
   void add_counted(std::span<const T> values) {
     const std::uint64_t size = values.size();
@@ -83,7 +83,7 @@ inline std::uint64_t hash_of_text(std::string_view text) {
   return hash.value();
 }
 
-// Of several hashes as one; their order counts.
+// Combines several hashes; their order counts.
 inline std::uint64_t combined(std::initializer_list<std::uint64_t> hashes) {
   Hash hash;
   hash.add_counted(std::span(hashes.begin(), hashes.size()));

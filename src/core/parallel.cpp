@@ -67,7 +67,7 @@ int usable_cores() { return tbb::info::default_concurrency(); }
 
 namespace {
 
-// How many threads there may be at once, with the caller.
+// The largest number of threads at once, the caller included.
 int threads_given(int wanted) {
   std::mutex mutex;
   std::condition_variable counted;
@@ -80,7 +80,7 @@ int threads_given(int wanted) {
         std::unique_lock lock(mutex);
         counted.wait(lock, [&] { return done; });
       });
-  } catch (const std::system_error&) {  // refused: those that there are
+  } catch (const std::system_error&) {  // refused: use the threads that there are
   }
   {
     const std::lock_guard lock(mutex);

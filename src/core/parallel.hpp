@@ -1,4 +1,4 @@
-// core/parallel.hpp: loops on several threads whose result does not depend on how many.
+// core/parallel.hpp: parallel loops whose result does not depend on the number of threads.
 //
 // Work is cut into blocks of a fixed size, never into "as many parts as threads".  A body that writes
 // only to its own indices, and reductions that add the blocks in order, give the same bits on 1 or 64 threads.
@@ -23,14 +23,14 @@ void parallel_for(std::size_t count, std::size_t grain, Body&& body) {
 // Runs `work` with at most `threads` threads (0: one per core) for the parallel loops inside it.
 void with_threads(int threads, const std::function<void()>& work);
 
-// How many threads the loops of the caller may use.
+// The number of threads that the caller's loops may use.
 int available_threads();
 
 // Cores that the system lets this process use.
 int usable_cores();
 
-// Starts that many threads (0: one per core) for the loops to come, as many as the system gives, and returns how many there are: at least
-// the caller.  Without it they start when they are first needed, and a thread that is refused then ends the program.
+// Starts that many threads (0: one per core) for later loops, or as many as the system gives, and returns their number, the caller included.
+// Without it they start when they are first needed, and a thread that is refused then ends the program.
 int start_threads(int threads);
 
 }  // namespace toile::internal

@@ -1,8 +1,8 @@
-// core/pool_order.hpp: what the thread pool orders, told to ThreadSanitizer.
+// core/pool_order.hpp: tells ThreadSanitizer how the thread pool orders its work (happens-before).
 //
-// The pool's library is not instrumented, so what it orders by its own atomics looks like a race of whoever hands out work with whoever does
-// it.  In builds with ThreadSanitizer the files that use the library are not instrumented either (src/CMakeLists.txt), and say it here.
-// Two addresses, not one: work that is handed out together is not ordered among itself, and races within it are what is looked for.
+// The pool's library is not instrumented, so the order that its atomics make is unknown to the sanitizer: the thread that hands out work
+// seems to race with the workers.  In such builds the files that use the library are not instrumented either (src/CMakeLists.txt), and
+// state the order here.  Two addresses, not one: tasks that are handed out together are not ordered, and their races must be found.
 #pragma once
 
 #ifdef TOILE_THREAD_SANITIZER

@@ -1,11 +1,11 @@
-// core/state_archive.hpp: what a simulation must remember between two frames, as bytes and back.
+// core/state_archive.hpp: serialises the state of a simulation between two frames.
 //
-// A class names its memory once, for both directions, in the order in which it is stored:
+// A class names its state once, for both directions, in the order in which it is stored:
 //
 //   template <class Archive>
 //   void remember(Archive& archive) { archive(time_s_, memory_); archive.fixed(touch_); }
 //
-// so that what is written and what is read cannot differ.  Bits come back as they were, -0 and NaN too.
+// so that writing and reading cannot differ.  Bits come back as they were, -0 and NaN too.
 //
 // Easily got wrong: a cache that does not change results has no place here, and everything that does must be here: the tests of
 // sim/resume compare a run that goes on with one that was never interrupted, bit by bit.
@@ -36,7 +36,7 @@ class StateWriter {
   void operator()(T&... values) {
     (put(values), ...);
   }
-  // A vector whose length follows from the scene: the reader refuses another one.
+  // A vector whose length follows from the scene: the reader refuses any other length.
   template <class T>
   void fixed(std::vector<T>& values) {
     put(values);
@@ -111,7 +111,7 @@ class StateReader {
     get(values);
     if (values.size() != expected) fail(std::to_string(expected) + " entries", std::to_string(values.size()));
   }
-  // Nothing may be left.
+  // Throws unless all bytes have been read.
   void end() const {
     if (at_ != bytes_.size()) fail("the end of the state", std::to_string(bytes_.size() - at_) + " bytes more");
   }
@@ -125,7 +125,7 @@ class StateReader {
     if (size > 0) std::memcpy(data, bytes_.data() + at_, size);
     at_ += size;
   }
-  // A count is believed only as far as there are bytes for it.
+  // A count is accepted only if there are bytes for it.
   std::size_t count(std::size_t least_bytes_each) {
     std::uint64_t n = 0;
     raw(&n, sizeof n);

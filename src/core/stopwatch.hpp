@@ -1,4 +1,4 @@
-// core/stopwatch.hpp: wall time for reports.  Never read where a decision is made.
+// core/stopwatch.hpp: wall time for reports.  Never used for a decision.
 #pragma once
 #include <chrono>
 

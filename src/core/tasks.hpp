@@ -13,7 +13,7 @@ class Tasks {
   Tasks(const Tasks&) = delete;
   Tasks& operator=(const Tasks&) = delete;
 
-  // work(of), some time until wait() returns.  It allocates nothing.
+  // Runs work(of) at some time before wait() returns.  Allocates nothing.
   void run(void (*work)(void*), void* of);
   void wait();
 

@@ -37,7 +37,7 @@ void Team::run(const std::function<void(int, int)>& work) {
   begun_.fetch_add(1, std::memory_order_release);
   work(0, present_);
   barrier();       // all have returned
-  tasks_->wait();  // of those who came late there is nothing left
+  tasks_->wait();  // tasks that came too late have ended as well
 }
 
 void Team::join() {

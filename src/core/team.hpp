@@ -1,10 +1,10 @@
-// core/team.hpp: a few threads that work in step, for loops too short to be handed out as tasks.
+// core/team.hpp: a team of threads with barriers, for loops too short for a fork and join each.
 //
-// One iteration of the linear solver is some hundred microseconds with half a dozen places where all must have arrived; a
-// scheduler's fork and join at each would cost as much as the work.  So its threads are taken once for a whole run, from the pool of
-// core/parallel.hpp: threads of its own would share a core with the pool's, which look for work for a while after every loop.
-// Members wait by spinning, and give their core away when the wait grows long: on a machine with other work a spinning member would
-// keep the one it waits for from running.
+// One iteration of the linear solver takes some hundred microseconds and has half a dozen barriers; a scheduler's fork and join at
+// each would cost as much as the work.  So its threads are taken once for a whole run, from the pool of core/parallel.hpp: threads
+// of its own would share a core with the pool's, which spin for a while after every loop.
+// Members wait by spinning, and yield their core when the wait grows long: on a busy machine a spinning member would keep the
+// member that it waits for from running.
 #pragma once
 #include "core/tasks.hpp"
 
@@ -23,16 +23,16 @@ class Team {
 
   int members() const { return members_; }
 
-  // work(member, present) on every member that is present at once; returns when all have returned.  Threads of the pool that do not come
-  // soon have other work, and are left out: what is done must not depend on how many do it.  `work` must not throw, and all members
-  // must pass the same barriers.
+  // Runs work(member, present) on every member that is present at the same time; returns when all have returned.  Threads of the pool
+  // that do not come soon are busy, and are left out: the result must not depend on the number present.  `work` must not throw, and all
+  // members must pass the same barriers.
   void run(const std::function<void(int member, int present)>& work);
 
-  // How often a member has waited so long that it gave its core away, since the last call.  Many: the machine has other work, and one
-  // member alone would be faster.
+  // How often a member has waited so long that it yielded its core, since the last call.  Many: the machine is busy, and one member
+  // alone would be faster.
   int take_long_waits() { return long_waits_.exchange(0, std::memory_order_relaxed); }
 
-  // Inside run: waits until every member is here.  What each wrote before is seen by all after.
+  // Inside run: waits until every member is here.  Writes before it are visible to all members after it.
   void barrier();
 
  private:
@@ -42,7 +42,7 @@ class Team {
   int members_;
   const std::function<void(int, int)>* work_ = nullptr;
   std::unique_ptr<Tasks> tasks_;
-  std::atomic<unsigned> came_{0};  // of the others, to this run; with a bit that says that it has begun
+  std::atomic<unsigned> came_{0};  // the other members that have come to this run, and a bit: it has begun
   int present_ = 1;                // in this run, with the caller
   std::atomic<int> arrived_{0};
   std::atomic<unsigned> passed_{0};  // barriers passed

@@ -1,4 +1,4 @@
-// core/types.hpp: the few types that every module speaks.
+// core/types.hpp: the types that every module uses.
 //
 // World: SI units, y up, right-handed.  `Vec3s` always means one entry per particle.
 #pragma once
@@ -12,7 +12,7 @@
 namespace toile::internal {
 
 using Index = std::int32_t;  // a particle, triangle, edge ...; -1 where documented means "none"
-// As the containers of the standard library want it.
+// As an index of the standard library's containers.
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 using Vec2 = Eigen::Vector2d;

@@ -1,11 +1,11 @@
-// core/utf8.hpp: whether bytes that came from outside are text.
+// core/utf8.hpp: whether bytes are valid UTF-8.
 #pragma once
 #include <cstddef>
 #include <string_view>
 
 namespace toile::internal {
 
-// Bytes of the character that begins the text, which is not empty; 0: it is not UTF-8 (overlong, a surrogate, beyond U+10FFFF, cut).
+// Length in bytes of the first character of a text that is not empty; 0: not UTF-8 (overlong, a surrogate, beyond U+10FFFF, cut).
 inline std::size_t utf8_character_bytes(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);

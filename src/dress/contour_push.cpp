@@ -11,7 +11,7 @@ namespace toile::internal {
 namespace {
 
 constexpr double push_share = 0.6;    // of the mean edge
-constexpr double least_sweep = 1e-3;  // of it: a sweep that hardly takes the contour along is no cheaper than that
+constexpr double least_sweep = 1e-3;  // of the edge: the least cost of a sweep that hardly moves the contour
 constexpr double least_sine = 0.1;
 
 std::vector<double> particle_areas(std::span<const Triangle> triangles, std::span<const Vec3> x) {

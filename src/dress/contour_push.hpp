@@ -1,9 +1,9 @@
-// dress/contour_push.hpp: where a contour of cloth with cloth is to be pushed so that it goes away.                    (L4)
+// dress/contour_push.hpp: the directions that remove an intersection contour of cloth with cloth.                      (L4)
 //
-//   a contour that cuts something off   over the part that takes least to sweep, by both surfaces     contact/contour_motion
-//   one that cuts nothing off           shorter
+//   a contour that cuts a part off      over the part that is cheapest to sweep, by both surfaces     contact/contour_motion
+//   one that cuts no part off           shorter
 //
-// What pushes, springs in a trial or drag in a run, is its caller's.
+// The caller applies the push, by springs in a trial or by drag in a run.
 #pragma once
 #include "assembly/implicit_row.hpp"
 #include "contact/contour_motion.hpp"
@@ -14,15 +14,15 @@
 
 namespace toile::internal {
 
-// `all`: triangles of the cloth, and of a body behind them (contact/intersection_contours.hpp).  All are kept by reference.
+// `all`: triangles of the cloth, and of a body behind them (contact/intersection_contours.hpp).  All are held by reference.
 class ContourPush {
  public:
-  enum class Way { cheapest, shorter_too, other_side };  // cheapest: of the two parts that it cuts off
+  enum class Way { cheapest, shorter_too, other_side };  // cheapest: the cheaper of the two parts
 
   ContourPush(const Topology& topology, std::span<const Triangle> all, std::span<const Vec3> x);
 
   // Calls pull(point, move) with moves of about 0.6 `edge_m`, the mean edge of the cloth, and marks the particles of the
-  // part that is swept over; one larger than `largest_part` of its surface is not.  Returns what is left to do, m^2.
+  // part that is swept; parts larger than `largest_part` of their surface are not.  Returns the area left to sweep, m^2.
   using Pull = std::function<void(const ContourPull&, const Vec3& move_m)>;
   double operator()(const IntersectionContour& contour, std::span<const SurfaceCrossing> crossings,
                     std::span<const Vec3> x, Way way, double edge_m, double largest_part, std::vector<char>& marked,
@@ -36,7 +36,7 @@ class ContourPush {
   SurfaceRegions regions_;
 };
 
-// Between the point's particles, along a move of it that is not zero: what pulls is for the caller to fill in.
+// A spring between the point's particles, along a nonzero move of it; force and stiffness are the caller's to fill in.
 LinearSpring spring_along(const ContourPull& point, const Vec3& move_m);
 
 // Marks the particles of a crossing's edge and triangle.

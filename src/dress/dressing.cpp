@@ -10,7 +10,7 @@
 namespace toile::internal {
 namespace {
 
-// The garment's part, fabrics and elastic behind those of the outfit; its mesh is not there yet.
+// The garment's part, fabrics and elastic after those of the outfit; its mesh is added later.
 void add_part(Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric> fabrics,
               std::span<const Vec2> rest_stretch) {
   OutfitPart part;
@@ -23,7 +23,7 @@ void add_part(Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric
   outfit.seams += static_cast<int>(garment.seams.size());
 }
 
-// The mesh of what was worn and the garment, welded.
+// The welded mesh of the garments already worn and the new one.
 void weld_on(Outfit& outfit, const WeldedMesh& welded) {
   const Index worn_before = outfit.mesh.particle_count;
   outfit.mesh = welded.mesh;
@@ -60,7 +60,7 @@ Dressing::Dressing(const Outfit& outfit, const GarmentMesh& garment, std::span<c
 
 std::string Dressing::explain() const {
   constexpr std::size_t most = 5;
-  if (sewing_->weld_obstacle()) {  // the gaps are small, and not what is in the way
+  if (sewing_->weld_obstacle()) {  // the gaps are small, and not the obstacle
     const Vec3 p = *sewing_->weld_obstacle();
     return fmt::sprintf(
         "every seam is closed to %.1f mm, but the weld would push cloth through cloth near (%.2f, %.2f, %.2f) m",
@@ -106,7 +106,7 @@ bool Dressing::take_apart(std::span<const Triangle> body, std::span<const Vec3> 
   return true;
 }
 
-// Of panels that pass through each other or through the outfit.
+// Crossings of panels with each other or with the outfit.
 bool Dressing::switch_off_tangles(const Vec3s& x, std::vector<double>& scale) const {
   const Topology topology = build_topology(panels_.mesh.particle_count, panels_.mesh.triangles);
   Tangles tangles(topology, panels_.mesh.triangles);

@@ -8,12 +8,12 @@
 namespace toile::internal {
 namespace {
 
-// From the weld: it waits; arms come out; they are lowered, and are down before the body is full.
+// Times since the weld: it waits; arms come out; they are lowered, and are down before the body is full.
 constexpr double waits_s = 0.3, out_s = 0.4, lowers_s = 0.4, grows_at_s = 0.6, grows_s = 1;
-// A drawn-in arm ends so far before the hem of its sleeve that a cuff closes in front of the hand, not around it; but past its root.  Of six random garments
+// A drawn-in arm ends before the hem of its sleeve, so that a cuff closes in front of the hand, not around it; but past its root.  Of six random garments
 // with sleeves, two of the four that are blocked with the arm 8 cm past the hem close with it 4 cm before; of four of the six, 15 cm before changes none.
 constexpr double before_hem_m = 0.04, past_root_m = 0.08;
-// The shoulder turns with the arm, of the height: fully from beyond the armpit, less and less towards the neck.
+// The shoulder turns with the arm: fully from the armpit outwards, less towards the neck.  Shares of the height.
 constexpr double turns_from = -0.05, turns_fully = 0.02;
 
 double smooth(double s) {

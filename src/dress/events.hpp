@@ -1,4 +1,4 @@
-// dress/events.hpp: what happens to cloth, or around it, at times that count from the first frame.
+// dress/events.hpp: events that act on the cloth, at times since the first frame.
 #pragma once
 #include "dress/keyed.hpp"
 #include "dress/rigid_path.hpp"
@@ -14,27 +14,27 @@ namespace toile::internal {
 struct TimedPin {
   Pin pin;
   double from_s = 0, to_s = std::numeric_limits<double>::infinity();
-  RigidPath moves;           // if any, from where the particle is when it is taken
-  std::optional<Vec3> from;  // where it would have been before the moves began; once it is taken
-  bool on_body = false;      // it goes where the body takes it, from where it is when it is taken
+  RigidPath moves;           // optional, relative to the particle's position when it is grabbed
+  std::optional<Vec3> from;  // the preimage under `moves` of its position when it was grabbed
+  bool on_body = false;      // the body carries it, from its position when it is grabbed
 };
-struct TimedDrag {  // a hand that holds the cloth for a while
+struct TimedDrag {  // a hand that holds the cloth from from_s to to_s
   Drag drag;
   double from_s = 0, to_s = 0;
-  Vec3 near_m{0, 0, 0};  // it takes the particle nearest to this place
+  Vec3 near_m{0, 0, 0};  // it grabs the particle nearest to this place
 };
 struct PanelInTime {
   std::vector<RestStretchKey> rest_stretch_path;
   std::vector<StiffnessKey> stiffness_path;
   double pressure_Pa = 0;
-  std::vector<PressureKey> pressure_path;  // takes the constant's place
+  std::vector<PressureKey> pressure_path;  // replaces the constant
 };
 struct TimedPanel {
   Index panel = 0;
   PanelInTime own;
 };
 struct TimedFriction {
-  std::optional<Index> collider;  // absent: of all that have none of their own
+  std::optional<Index> collider;  // absent: all without a value of their own
   std::vector<FrictionKey> keys;
 };
 struct Events {

@@ -9,7 +9,7 @@
 namespace toile::internal {
 namespace {
 
-// After a weld it grows as the pull of elastic does.
+// After a weld it is ramped up like elastic.
 std::unique_ptr<Force> pressure_of(const OutfitRun& run) {
   const auto now = [&run](double t_s, std::span<double> panel_Pa) {
     for (const auto& [panel, own] : run.events().panels)

@@ -1,4 +1,4 @@
-// dress/forces.hpp: the forces on the cloth of a run, besides gravity, one line each.               docs/howto/add-a-force.md
+// dress/forces.hpp: the external forces of a run besides gravity, one line each.                    docs/howto/add-a-force.md
 #pragma once
 #include "assembly/force.hpp"
 #include "dress/outfit_run.hpp"
@@ -8,7 +8,7 @@
 
 namespace toile::internal {
 
-// In the order in which they are added.  What they read of the run they read in every step: it must outlive them.
+// In the order in which they are added.  They read the run in every step: it must outlive them.
 std::vector<std::unique_ptr<Force>> forces_of(const OutfitRun& run);
 
 // Whether any of them may carry cloth upwards.

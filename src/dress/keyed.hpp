@@ -1,4 +1,4 @@
-// dress/keyed.hpp: values that change in time by keys: straight from one to the next, at rest before the first and after the last.
+// dress/keyed.hpp: keyframed values: linear between keys, constant before the first and after the last.
 #pragma once
 #include "core/types.hpp"
 
@@ -7,8 +7,8 @@
 
 namespace toile::internal {
 
-// Of all keys of one value the times ascend.
-struct VectorKey {  // a place, m; gravity, m/s^2; wind, m/s
+// The keys of one value are in ascending order of time.
+struct VectorKey {  // a position, m; gravity, m/s^2; wind, m/s
   double t_s = 0;
   Vec3 x{0, 0, 0};
 };
@@ -33,7 +33,7 @@ template <class Value>
 Value between(const Value& from, const Value& to, double share) {
   return (1 - share) * from + share * to;
 }
-// Another order of the same sum; its bits are those of runs that were made.
+// Not std::lerp: this order of the sum has the bits of existing runs.
 inline Vec2 between(const Vec2& from, const Vec2& to, double share) { return from + share * (to - from); }
 
 // `keys` are not empty.

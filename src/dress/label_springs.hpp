@@ -1,8 +1,8 @@
-// dress/label_springs.hpp: edges that the pattern wants at a height of the body, a waist seam at the waist.
+// dress/label_springs.hpp: springs that hold labelled edges at a height of the body, a waist seam at the waist.
 //
 //   F = min( k |y_wanted - y|, f_max ) up or down,      f_max = 20 N per metre of edge,  k = f_max / 2 cm
 //
-// Gently.  Of what hangs from the shoulders only once the seams are closed: held from the start, a waist pushes the armholes above the arms.
+// The force is small.  On a garment that hangs from the shoulders it acts only once the seams are closed: before, it would push the armholes above the arms.
 #pragma once
 #include "garment/garment_mesh.hpp"
 #include "step/implicit_euler.hpp"
@@ -23,10 +23,10 @@ struct LabelHeight {
 class LabelSprings {
  public:
   LabelSprings() = default;
-  // Labels that no edge carries do nothing.
+  // Labels without an edge do nothing.
   LabelSprings(const GarmentMesh& garment, std::span<const LabelHeight> heights);
 
-  // Edges with this label to which something is sewn, each particle at 5 cm below where its panel is now.
+  // Sewn edges with this label; each particle is held at 5 cm below its present place.
   static LabelSprings as_placed(const GarmentMesh& garment, std::string_view label);
 
   bool empty() const { return held_.empty(); }

@@ -7,7 +7,7 @@
 namespace toile::internal {
 namespace {
 
-// Every triangle is cut as it is: rest lengths are those of x.  The threads of neighbours do not line up, which is why the
+// The uv of every triangle is its present shape: rest lengths are those of x.  The threads of neighbours do not line up, which is why the
 // fabric is the same both ways.
 ClothMesh cut_as_it_is(std::span<const Triangle> triangles, std::span<const Vec3> x) {
   ClothMesh mesh;

@@ -1,6 +1,6 @@
-// dress/model_as_it_is.hpp: a cloth without a pattern, whose rest shape is the one it has.
+// dress/model_as_it_is.hpp: a cloth without a pattern, whose rest shape is its present shape.
 //
-// Every triangle is laid flat on its own: no uv is needed, and rest lengths are exactly those of x.  Rest angles are those of x too.
+// Every triangle is flattened by itself: no uv is needed, and rest lengths are exactly those of x.  So are rest angles.
 //
 // Easily got wrong: the threads of neighbours do not line up, so the fabric must be the same along both.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace toile::internal {
 
-// Without gravity.  No triangle may be without area.
+// Without gravity.  Every triangle must have an area.
 ClothModel model_as_it_is(std::span<const Triangle> triangles, std::span<const Vec3> x, const Fabric& fabric);
 
 }  // namespace toile::internal

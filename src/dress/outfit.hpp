@@ -1,7 +1,7 @@
-// dress/outfit.hpp: garments that are worn together, as one cloth: what is inside comes first.
+// dress/outfit.hpp: garments that are worn together, as one cloth; inner garments come first.
 //
-// A garment that is sewn around others is meshed apart, then `over` puts its panels behind the particles that are worn
-// already; those stand still while it is sewn, and touch it like any cloth.  The weld of the whole is the new outfit.
+// A garment that is sewn around others is meshed by itself, then `over` appends its panels to the garments already
+// worn; those stand still while it is sewn, and touch it like any cloth.  The weld of all is the new outfit.
 #pragma once
 #include "assembly/cloth_model.hpp"
 #include "garment/garment_mesh.hpp"
@@ -15,7 +15,7 @@ namespace toile::internal {
 struct OutfitPart {  // one garment, or a grid
   std::string name;
   Index first_panel = 0, panels = 0;  // of Outfit::mesh
-  Index particles = 0;                // the parts follow each other
+  Index particles = 0;                // parts are contiguous
 };
 
 struct Outfit {
@@ -29,7 +29,7 @@ struct Outfit {
 
   Index part_of_panel(Index panel) const;
 
-  // What changes from frame to frame (core/state_archive.hpp); the rest follows from the garments.
+  // The state between frames (core/state_archive.hpp); the rest follows from the garments.
   template <class Archive>
   void remember(Archive& archive) {
     archive.fixed(state.x);
@@ -39,11 +39,11 @@ struct Outfit {
   }
 };
 
-// Appends a garment (or a grid) whose particles are where they shall be: nothing of it is sewn or welded any more.
+// Appends a garment (or a grid) at its final positions, without sewing or welding.
 void put_behind(Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric> fabrics,
                 std::span<const Vec2> rest_stretch);
 
-// The outfit's particles as they lie, then the panels of `garment` as they are placed.  Its seams, labels and classes are renumbered;
+// The outfit's particles at their positions, then the placed panels of `garment`.  Its seams, labels and classes are renumbered;
 // those of the outfit are welded already.
 GarmentMesh over(const Outfit& outfit, const GarmentMesh& garment);
 

@@ -10,12 +10,12 @@
 namespace toile::internal {
 namespace {
 
-// What moves faster than this is not about to rest, and solved no better than elsewhere.  A dress of five gathered tiers takes half the
-// iterations while it falls; at 0.01, 0.05 and 0.2 m/s four garments take 89, 95 and 89 % of what they took until they rest.
+// Faster cloth is not about to rest, and is solved no better than elsewhere.  A dress of five gathered tiers takes half the
+// iterations while it falls; at 0.01, 0.05 and 0.2 m/s four garments take 89, 95 and 89 % of the iterations until rest.
 constexpr double slow_m_per_s = 0.05;
 constexpr double slow_share = 0.99;  // of the particles that are slower: as rest is judged
 
-// What is taken goes where its moves lead it.
+// Moves a grabbed particle along its path.
 void lead(TimedPin& timed) {
   if (timed.from)
     timed.pin.path = [moves = timed.moves, from = *timed.from](double t_s) { return moves.place(t_s, from); };
@@ -84,7 +84,7 @@ std::vector<Vec2> OutfitRun::panel_rest_stretch() const {
   return b;
 }
 
-// Of what was read: the model is made to agree.
+// After reading a state: the model is made to agree.
 void OutfitRun::take_up(std::span<const Vec2> panel_rest_stretch) {
   for (std::size_t p = 0; p < panel_rest_stretch.size(); ++p)
     set_panel_rest_stretch(model_, static_cast<Index>(p), panel_rest_stretch[p]);
@@ -129,7 +129,7 @@ void OutfitRun::set_pressure(Index panel, double Pa) {
   changed_.pressure_Pa[at(panel)] = Pa;
 }
 
-// What the phase leaves of gravity, elastic, friction and labels.
+// Applies the phase's shares of gravity, elastic, friction and labels.
 void OutfitRun::share_out() {
   const double t_s = time_s();
   label_strength_ = phase_.labels.at(t_s);
@@ -143,7 +143,7 @@ void OutfitRun::choose_steps() {
   stepper_->integrator().set_slow_motion(phase_.pace.slow_motion.value_or(options_.step.slow_motion));
 }
 
-// Of the coming frame.
+// For the coming frame.
 void OutfitRun::choose_tolerance() {
   const double tolerance = options_.step.pcg.tolerance, slow = std::min(tolerance, phase_.pace.slow_tolerance);
   stepper_->integrator().set_tolerance(slow < tolerance && is_slow() ? slow : tolerance);
@@ -181,7 +181,7 @@ void OutfitRun::take_and_let_go() {
   }
 }
 
-// What the scene says happens in the coming frame.
+// The scene's events in the coming frame.
 void OutfitRun::happen() {
   const double end_s = time_s() + frame_s_;
   take_and_let_go();
@@ -226,7 +226,7 @@ FrameReport OutfitRun::frame(double length_s) {
   const bool let_through = std::exchange(without_room_, without_room) != without_room;
   if (let_through) tangles_->look_again();
   if (tangles_->any() || let_through) tangles_->find(outfit_->state.x);
-  tangles_->switch_off(thickness);  // also where sewing had left it so
+  tangles_->switch_off(thickness);  // also where sewing left it off
   stepper_->integrator().contact_rows().set_thickness_scale(thickness);
   choose_tolerance();
   const FrameReport report = stepper_->advance(outfit_->state, time_s(), frame_s_);

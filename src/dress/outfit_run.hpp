@@ -1,5 +1,5 @@
-// dress/outfit_run.hpp: an outfit in time, from the weld of its last garment on: phase after phase (dress/phase.hpp) on one integrator, which keeps
-// what it knows of contacts and where friction holds them.  The next garment makes another mesh of it, and another run.
+// dress/outfit_run.hpp: simulates an outfit from the weld of its last garment on: phase after phase (dress/phase.hpp) on one integrator, which
+// keeps its contacts and their friction.  The next garment makes a new mesh, and a new run.
 #pragma once
 #include "assembly/air.hpp"
 #include "dress/events.hpp"
@@ -24,9 +24,9 @@ struct OutfitRunOptions {
   std::function<bool()> stop;        // asked before every step; may be empty
 };
 
-// The garment that was put on last.
+// The last garment that was put on.
 struct NewGarment {
-  Index worn_before = 0;  // particles: the first of the outfit
+  Index worn_before = 0;  // the number of particles of the garments worn before; they come first
   LabelSprings labels;    // hold it for a while
 };
 
@@ -37,26 +37,26 @@ class OutfitRun {
   OutfitRun(const OutfitRun&) = delete;
   OutfitRun& operator=(const OutfitRun&) = delete;
 
-  // Of what is simulated from now on; its clock starts, and the body stands.  Before the first: all is as drawn, a step a frame.
+  // Starts a phase; its clock starts at 0, and the body stands.  Without any phase: as_drawn, with one step per frame.
   void begin(const Phase& phase);
   // Advances by one frame, or by another length.
   FrameReport frame() { return frame(1 / options_.fps); }
   FrameReport frame(double length_s);
   void set_events(Events events) { events_ = std::move(events); }
   const Events& events() const { return events_; }
-  // Between two frames pins and hands may come, go and be led elsewhere.
+  // Pins and hands may be added, removed and moved between two frames.
   Events& events() { return events_; }
   void set_gravity(const Vec3& m_per_s2) { gravity_m_per_s2_ = m_per_s2; }
-  // Of one collider, or of all that have none of their own.
+  // For one collider, or for all without a value of their own.
   void set_friction(std::optional<Index> collider, double friction);
   void set_stiffness(Index panel, const StiffnessShare& share);
-  void set_pressure(Index panel, double Pa);  // in place of what the events say of it
+  void set_pressure(Index panel, double Pa);  // replaces that of the events
   void set_wind(const Vec3& m_per_s) { wind_m_per_s_ = m_per_s; }
-  // What forces ask (dress/forces.hpp).
+  // Read by forces (dress/forces.hpp).
   const OutfitRunOptions& options() const { return options_; }
   const Vec3& wind_m_per_s() const { return wind_m_per_s_; }  // of the frame
-  double grown() const { return ramped_; }  // share of elastic, and of whatever else grows after the weld
-  // From the next frame on the body moves: at 0 s it is where it is now.  Rest is not awaited any more.
+  double grown() const { return ramped_; }  // share of elastic, and of all that is ramped up after the weld
+  // From the next frame on the body moves, from its present positions at 0 s.  The run no longer ends at rest.
   void start_motion(BodyAt body_at);
   double motion_from_s() const { return motion_start_s_; }
 
@@ -73,8 +73,8 @@ class OutfitRun {
   }
   std::span<const Pin> pins() const { return world_.pins; }  // of the last frame
 
-  // What outlives a frame (core/state_archive.hpp), without the outfit, which is its owner's.  To be read back once the events are set and, of a run
-  // whose body moves, start_motion has been called.
+  // The state between frames (core/state_archive.hpp), without the outfit, which belongs to the owner.  Restore it after setting the events and, in a
+  // run whose body moves, after start_motion.
   template <class Archive>
   void remember(Archive& archive) {
     std::vector<Vec2> b = panel_rest_stretch();
@@ -98,7 +98,7 @@ class OutfitRun {
   void change_in_time(double end_s);
   void take_and_let_go();
 
-  // What was set since the run began; absent: as it was.
+  // Values set since the run began; absent: unchanged.
   struct Changed {
     std::optional<double> friction;
     std::vector<std::optional<double>> collider_friction;
@@ -113,18 +113,18 @@ class OutfitRun {
   OutfitRunOptions options_;
   Outfit* outfit_;
   NewGarment garment_;
-  std::vector<Pin> worn_pins_;  // hold what was worn before
+  std::vector<Pin> worn_pins_;  // hold the garments worn before
   ClothModel model_;
   StepWorld world_;
   Phase phase_;
   PhaseSeconds seconds_before_;
   std::optional<Tangles> tangles_;
-  long without_room_ = 0;  // steps in which the body let cloth pass (step/flypaper.hpp), by the last look
+  long without_room_ = 0;  // last read count of steps with a pinch without room (step/flypaper.hpp)
   double label_strength_ = 0, motion_start_s_ = 0, ramped_ = -1;
   BodyAt motion_;
   Changed changed_;
   Events events_;
-  Vec3 gravity_m_per_s2_{0, 0, 0};  // when it has grown to all of it
+  Vec3 gravity_m_per_s2_{0, 0, 0};  // at its full value
   Vec3 wind_m_per_s_{0, 0, 0};
   long frames_ = 0;  // of one length, since
   double frames_from_s_ = 0, frame_s_ = 0;

@@ -1,6 +1,6 @@
-// dress/phase.hpp: what holds for cloth over a stretch of time: shares of gravity, elastic and friction, and how its steps are made.
+// dress/phase.hpp: the parameters of a phase of a run: shares of gravity, elastic and friction, and the step control.
 //
-//   after_weld      0.2 s weightless, 0.3 s in which gravity and elastic grow; what was worn before stands still that long.
+//   after_weld      0.2 s weightless, 0.3 s in which gravity and elastic grow; the garments worn before stand still that long.
 //                   A first garment slips on the body for 1 s before friction holds it; labels let go between 0.5 and 1 s.
 //   within_growing  as just welded, for as long as the body grows: labels hold, elastic waits, nothing sticks
 //   coming_apart    the same without weight
@@ -20,9 +20,9 @@ struct Ramp {
   }
 };
 
-// How steps are made.
+// Step control.
 struct Pace {
-  double step_max_s = 1.0 / 60;       // where the scene says nothing
+  double step_max_s = 1.0 / 60;       // unless the scene sets it
   std::optional<double> slow_motion;  // instead of StepOptions::slow_motion
   double slow_tolerance =
       std::numeric_limits<double>::infinity();  // of the solver at most, once nearly all cloth is slow
@@ -32,16 +32,16 @@ constexpr Pace steps_of(double step_max_s) {
   pace.step_max_s = step_max_s;
   return pace;
 }
-// While rest is awaited: it takes as many steps, however long they are, so each is solved better; what turns slowly is not to be braked,
-// and what a solve leaves undone lets folds drift.
+// For a phase that ends at rest: the number of steps does not depend on their length, so each is solved better; slow turns must not be
+// braked, and the residual of a solve lets folds drift.
 inline constexpr Pace awaiting_rest{1.0 / 30, 0.01, 0.002};
 
 struct Phase {
-  Ramp gravity, elastic, friction;  // shares of what the run has
+  Ramp gravity, elastic, friction;  // shares of the run's values
   Ramp labels;                      // strength of the labels that hold a new garment
-  double held_until_s = 0;          // what was worn before stands still so long
+  double held_until_s = 0;          // the garments worn before stand still until then
   double settled_s = 0;             // from then on gravity and elastic are in full, and thinned layers grow back
-  Pace pace, moving;                // before the body moves, and once it does
+  Pace pace, moving;                // before the body moves, and afterwards
 };
 
 inline constexpr double settling_s = 0.5;  // after a weld, until gravity and elastic are in full

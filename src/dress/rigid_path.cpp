@@ -8,7 +8,7 @@
 
 namespace toile::internal {
 
-// The same convention as a panel's, and by the same code.
+// The convention of a panel's rotation, by the same code.
 Mat3 rotation_from_degrees(const Vec3& rotation_deg) {
   Panel panel;
   panel.rotation_deg = rotation_deg;

@@ -1,7 +1,7 @@
-// dress/rigid_path.hpp: how a solid, or what holds a part of a cloth, moves: shifted, turned and scaled about a point.
+// dress/rigid_path.hpp: the keyframed motion of a solid or of pins: shift, rotation and scale about a point.
 //
 //   x(t) = c + shift(t) + scale(t) R(t) (x_0 - c),   R = Rz Ry Rx
-// Every number goes straight from key to key, angles too, so that 720 degrees are two turns; it stays before the first key
+// All numbers are linear between keys, angles too, so that 720 degrees are two turns, and constant before the first key
 // and after the last.
 #pragma once
 #include "core/types.hpp"
@@ -13,7 +13,7 @@
 
 namespace toile::internal {
 
-// Nothing that a scene leads is faster: contacts are found along straight ways within a step.
+// The speed limit of keyframed motion: contacts are found on straight motions within a step.
 inline constexpr double most_led_m_per_s = 100;
 
 struct RigidKey {
@@ -28,8 +28,8 @@ Mat3 rotation_from_degrees(const Vec3& rotation_deg);
 
 class RigidPath {
  public:
-  RigidPath() = default;  // nothing moves
-  // Times ascend.
+  RigidPath() = default;  // no motion
+  // Keys in ascending order of time.
   RigidPath(std::vector<RigidKey> keys, const Vec3& centre) : keys_(std::move(keys)), centre_(centre) {}
 
   bool empty() const { return keys_.empty(); }
@@ -39,17 +39,17 @@ class RigidPath {
   Vec3& centre() { return centre_; }
   double duration_s() const { return keys_.empty() ? 0 : keys_.back().t_s; }
 
-  // The fastest piece, by the key at its end: no point that was within `reach_m` of the centre is faster on it.
+  // The fastest interval, by the key at its end: no point within `reach_m` of the centre at the start is faster in it.
   struct Fastest {
     std::size_t key = 0;
     double m_per_s = 0;
   };
   Fastest fastest(double reach_m) const;
 
-  // Where it has taken what was at `x` before it began; a whole surface at once, or a point.
+  // Maps points `x` at the start of the motion to t_s; a whole surface at once, or a point.
   void place(double t_s, std::span<const Vec3> x, std::span<Vec3> placed) const;
   Vec3 place(double t_s, const Vec3& x) const;
-  // What was at the result before it began is at `x` at t_s.
+  // The inverse of place(t_s, .).
   Vec3 before(double t_s, const Vec3& x) const;
 
  private:

@@ -11,10 +11,10 @@ namespace toile::internal {
 namespace {
 
 constexpr int most_escalations = 3;  // thin layers, then two doublings of the pull
-constexpr int lets_through = 2;      // from here on what seams have caught
+constexpr int lets_through = 2;      // from this escalation on folds caught in seams may pass through
 constexpr double thinning_per_frame = 0.95;
 constexpr double least_thickness = 0.1, thickness_growth = 1.1;  // per frame of the drape
-constexpr double coincident_m = 1e-7;  // below it the direction of a pair means nothing: its spring is isotropic
+constexpr double coincident_m = 1e-7;  // below it a pair has no reliable direction: its spring is isotropic
 
 // [particle] mass-weighted mean over the class that `merged` names, at the class's own particle.
 std::vector<Vec3> class_means(std::span<const Index> merged, std::span<const double> mass_kg, std::span<const Vec3> a) {
@@ -65,7 +65,7 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
   for (Fabric& fabric : stiff) {
     fabric.bend_u_N_m = std::max(fabric.bend_u_N_m, options.bend_N_m);
     fabric.bend_v_N_m = std::max(fabric.bend_v_N_m, options.bend_N_m);
-    fabric.strain_limit = 0;  // seams that close pull harder than cloth that is worn
+    fabric.strain_limit = 0;  // closing seams pull harder than worn cloth may be
   }
   model_ = build_model(garment.mesh, stiff, weightless);
   soften_gathered_panels(model_, fabrics, stiff, weightless, options.gathered_bend_share);
@@ -156,7 +156,7 @@ void Sewing::set_thickness_scale(std::vector<double> scale) {
 void Sewing::go_on(Vec3s x, std::vector<double> scale) {
   for (double& s : scale) s *= options_.thickness_scale;
   state_ = {std::move(x), Vec3s(scale.size(), Vec3::Zero())};
-  start_stepper();  // what it remembers of contacts is of cloth that was elsewhere
+  start_stepper();  // its memory of contacts belongs to the old positions
   set_thickness_scale(std::move(scale));
   escalations_ = 0;
   pull_factor_ = 1;
@@ -174,7 +174,7 @@ FrameReport Sewing::frame() {
   report = stepper_->advance(state_, time_s_, frame_s);
   if (report.interrupted) return report;
   time_s_ += frame_s;
-  if (!report.ok) {  // cloth that is drawn over what it is too small for gives way somewhere: the seam says why
+  if (!report.ok) {  // cloth too small for the body under it collapses somewhere: the seam gives the reason
     const std::vector<SeamGap> open = gaps();
     const bool taut =
         !open.empty() && open.front().gap_m >= options_.weld_gap_m && open.front().stretch > options_.taut;
@@ -185,7 +185,7 @@ FrameReport Sewing::frame() {
   return report;
 }
 
-// As the seams close, so does the thread.
+// The gathering thread closes with its seam.
 void Sewing::pull_gathers() {
   const double share = longest_m_ > 0 ? std::min(1.0, options_.closing_speed_m_per_s * time_s_ / longest_m_) : 1;
   if (share != model_.gathered) set_gathers(model_, share);
@@ -224,7 +224,7 @@ void Sewing::judge_progress() {
   best_time_s_ = time_s_;
 }
 
-// Moves every class to where it will be welded, and the cloth around it out of the way.  Returns where that would pass cloth through cloth.
+// Moves every class to its place of welding, and the cloth around it aside.  Returns the impacts where cloth would pass through cloth.
 std::vector<Impact> Sewing::close_seams(Vec3s& end) {
   const std::vector<Vec3> joined = class_means(garment_->merged, model_.mass_kg, state_.x);
   std::vector<double> inverse_mass(state_.x.size(), 0);
@@ -242,8 +242,8 @@ std::vector<Impact> Sewing::close_seams(Vec3s& end) {
   return {filter.left().begin(), filter.left().end()};
 }
 
-// A fold between the two sides of a seam that has closed around it never comes out.  Its contact goes, and what then passes through is
-// untangled after the weld (dress/untangle.hpp); what is larger than a fold stays in the way.
+// A fold between the two sides of a seam that has closed around it never comes out.  Its contact is switched off, and its crossings are
+// untangled after the weld (dress/untangle.hpp); parts larger than a fold stay in the way.
 void Sewing::let_through(std::span<const Impact> caught) {
   std::vector<char> sewn(state_.x.size(), 0), off(state_.x.size(), 0);
   for (const SeamPair& pair : garment_->pairs) sewn[at(pair.a)] = sewn[at(pair.b)] = 1;

@@ -5,13 +5,13 @@
 //   pull        F = min( k (|d| - l)+, f_max ) along d,     f_max = 300 N per metre of seam,  k = f_max / 3 mm
 //   in A        secant stiffness F / (|d| - l) along d, the geometric F / |d| across it, damping 0.02 s x the secant
 //
-// What keeps it calm: gravity is off (with it on, folds get caught), cloth is as stiff as leather until the weld (or the tips of panels roll
-// up and the corner of four panels never closes), the body is slippery (or a hem caught on the hips holds the shoulders open), and the safe
-// filter of the step never lets cloth pass through cloth.
+// For stability gravity is off (with it on, folds get caught), cloth bends as stiffly as leather until the weld (or the tips of panels roll
+// up and the corner of four panels never closes), and the body has no friction (or a hem caught on the hips holds the shoulders open).  The
+// safe filter of the step never lets cloth pass through cloth.
 //
 // If a seam still gapes when l = 0, the layers of cloth around the gap are thinned; then f_max doubles, at most twice, and folds that are
-// caught between the sides of a seam lose their contact; then the garment is blocked, by seam: who sews it may take apart what is in the way
-// and go_on() (dress/dressing.hpp).  Cloth that is stretched by a fifth beside the gap is blocked at once.  The last millimetre is left to the
+// caught between the sides of a seam lose their contact; then the garment is blocked, by seam: the caller may remove the obstacles and go_on()
+// (dress/dressing.hpp).  Cloth that is stretched by a fifth beside the gap is blocked at once.  The last millimetre is left to the
 // weld, which waits while it would push guarded cloth through cloth.
 #pragma once
 #include "dress/label_springs.hpp"
@@ -27,7 +27,7 @@ namespace toile::internal {
 struct SewingOptions {
   double closing_speed_m_per_s = 0.5;  // of the widest pair
   double pull_N_per_m = 300;
-  double give_m = 3e-3;    // at this gap beyond l the pull is at its limit
+  double give_m = 3e-3;    // the pull reaches its limit at this gap beyond l
   double bend_N_m = 1e-3;  // bending rigidity until the weld, at least: a hundred times cotton's
   double gathered_bend_share =
       0.1;                 // of bend_N_m, in panels that are gathered: at 5:1 and 1 cm the whole of it leaves 6 mm open
@@ -39,19 +39,19 @@ struct SewingOptions {
       0.25;  // of the mean edge: a gap this small is welded where a seam stops closing (a fitted shoulder under tension)
   double patience_s = 0.2;       // without progress, before layers are thinned, and before each doubling of the pull
   double too_small = 0.2;        // stretch beside an open seam at which pulling harder is given up
-  double taut = 0.05;            // likewise, from which on the size is said to be why the seam is open
+  double taut = 0.05;            // likewise, above it the size is reported as the reason for the open seam
   double thickness_scale = 1.6;  // of the fabrics' contact distance, while sewing
   double thinnest = 0.2;         // the same, within `thin_radius_m` of a seam that will not close
   double thin_radius_m = 0.03;
-  double largest_fold_m = 0.1;  // that is let through where a seam has closed around it; 0: none is
+  double largest_fold_m = 0.1;  // of a fold that may pass through where a seam has closed around it; 0: none
   double fps = 60;
   double step_max_s = 1.0 / 60;
   bool paper_scaling = false;  // assembly/cloth_model.hpp
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
-  Index held_particles = 0;                // the first so many stand still: what is worn already under the garment
-  std::vector<LabelHeight> label_heights;  // where labelled edges belong; held once the seams are closed
-  bool labels_hold_panels = false;         // from the start: heavy panels would pull a waist down to where they hang
-  // Edges that sink no farther than 5 cm until every l is 0: wide tiers would pull a bodice off the shoulders.
+  Index held_particles = 0;                // these first particles stand still: the garments already worn underneath
+  std::vector<LabelHeight> label_heights;  // of labelled edges; they are held once the seams are closed
+  bool labels_hold_panels = false;         // from the start: else heavy panels would pull a waist down
+  // Edges that may sink no farther than 5 cm until every l is 0: else wide tiers would pull a bodice off the shoulders.
   std::string kept_label;
   std::function<bool()> stop;  // asked before every step
 };
@@ -81,15 +81,15 @@ class Sewing {
   double closed_share() const;  // 0 ... 1 of the way, for a progress bar
   const ClothState& state() const { return state_; }
   const ClothModel& model() const { return model_; }
-  // Of the fabrics' contact distance, per particle; 0 switches the contact of layers off there (cloth that crosses itself at the start).
+  // Factor on the fabrics' contact distance, per particle; 0 switches the contact of layers off (cloth that crosses itself at the start).
   const std::vector<double>& thickness_scale() const { return thickness_scale_; }
   void set_thickness_scale(std::vector<double> scale);
-  // Once blocked: from x, at rest, with every layer as thick as at first but where `scale` is 0.
+  // Once blocked: goes on from x, at rest, with every layer at its first thickness except where `scale` is 0.
   void go_on(Vec3s x, std::vector<double> scale);
   // Seams by gap, widest first.
   std::vector<SeamGap> gaps() const;
   double widest_gap_m() const;
-  // Places in GarmentMesh::pairs of those that are wider apart than `welded_m`, ascending.
+  // Indices into GarmentMesh::pairs of the pairs wider apart than `welded_m`, ascending.
   std::vector<Index> open_pairs(double welded_m) const;
   double mean_edge_m() const { return mean_edge_m_; }
   // Where the last attempt to weld would have pushed cloth through cloth.
@@ -97,7 +97,7 @@ class Sewing {
   const ImplicitEuler& integrator() const { return stepper_->integrator(); }
   PhaseSeconds seconds() const { return stepper_->integrator().seconds(); }
 
-  // What outlives a frame (core/state_archive.hpp).
+  // The state between frames (core/state_archive.hpp).
   template <class Archive>
   void remember(Archive& archive) {
     archive.fixed(state_.x);

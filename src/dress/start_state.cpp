@@ -21,7 +21,7 @@ bool is_closed(std::span<const Vec3> x, std::span<const Triangle> triangles) {
   return true;
 }
 
-// Of the triangles of one part, in the pattern.
+// The mean edge of one part's triangles, in the pattern.
 double mean_edge_m(const ClothMesh& mesh, const OutfitPart& part) {
   double sum = 0;
   std::size_t count = 0;

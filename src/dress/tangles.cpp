@@ -8,12 +8,12 @@ namespace toile::internal {
 namespace {
 
 constexpr double guarded_again = 0.1;                   // from here the thickness grows
-constexpr int unguarded_rings = 2;                      // around what crosses
+constexpr int unguarded_rings = 2;                      // of particles around a crossing
 constexpr int looks_per_ring = 4, most_more_rings = 6;  // without progress
-constexpr double largest_part = 0.1;  // of a surface that may be swept over: more of it is not what went through
-constexpr double drag_N_s_per_m = 5;  // per point of a contour; as much again with every look without progress, up to
-constexpr int most_drag = 20;         // times as much: the last creases are held shut by their threads
-constexpr double moves_in_s = 1.0 / 30;  // what it is to be moved: it goes no faster
+constexpr double largest_part = 0.1;     // of a surface that may be swept: a larger part did not pass through
+constexpr double drag_N_s_per_m = 5;     // per point of a contour; as much again per look without progress, up to
+constexpr int most_drag = 20;            // times as much: the last creases are held shut by their threads
+constexpr double moves_in_s = 1.0 / 30;  // the time for a move: it goes no faster
 constexpr int patience = 20;             // looks without progress until contours are pushed another way
 constexpr int ways = 3;
 

@@ -1,9 +1,9 @@
-// dress/tangles.hpp: places where cloth passes through cloth when a run begins, or when the body lets go of it.           (L4)
+// dress/tangles.hpp: resolves crossings of cloth with cloth from the start of a run, or out of a pinch.                   (L4)
 //
-// The safe filter keeps every pair on the side where it is, which would hold a crossing for good.  Around each
-// contour contact is therefore switched off, and drag pushes it the way that takes least (dress/contour_push.hpp) until it is gone;
-// then the particles are guarded like all others, thinly at first.  (Sewing only switches off, and does not look again: what it
-// leaves so, the first frame of the drape gives back.)
+// The safe filter keeps every pair on its side, which would make a crossing permanent.  Around each contour contact is
+// therefore switched off, and drag pushes it the cheapest way (dress/contour_push.hpp) until it is gone; then the particles are
+// guarded like all others, with a small thickness at first.  (Sewing only switches contact off; the first frame of the drape
+// switches it on again.)
 #pragma once
 #include "assembly/implicit_row.hpp"
 #include "contact/crossing_finder.hpp"
@@ -21,21 +21,21 @@ class Tangles {
   // Both are kept by reference.
   Tangles(const Topology& topology, std::span<const Triangle> triangles);
 
-  // Looks for crossings at x.  After a look that found none it does nothing, until it is told to: the filter lets no new ones come.
+  // Looks for crossings at x.  After a look that found none it does nothing until requested: the filter prevents new ones.
   void find(const Vec3s& x);
-  // What the body pinches is not guarded (step/flypaper.hpp); while it does, no progress is expected.
+  // Pinched cloth is not guarded (step/flypaper.hpp); during a pinch no progress is expected.
   void look_again() {
     over_ = false;
     fewest_ = 0;
   }
   bool any() const { return any_; }
-  // Sets the scale of the particles around them to 0 (ContactRows::set_thickness_scale), and gives those that were 0 and
-  // have no crossing beside them any more a tenth.
+  // Sets the scale of the particles around crossings to 0 (ContactRows::set_thickness_scale), and to a tenth for those that
+  // were 0 and have no crossing beside them any more.
   void switch_off(std::vector<double>& thickness_scale) const;
-  // What pushes them apart from now to the next look.
+  // The drag that pushes them apart until the next look.
   void append_springs(std::vector<LinearSpring>& springs) const;
 
-  // Between two looks (core/state_archive.hpp).
+  // The state between two looks (core/state_archive.hpp).
   template <class Archive>
   void remember(Archive& archive) {
     archive(over_, any_, fewest_, waited_, edge_m_, first_pushed_);
@@ -59,7 +59,7 @@ class Tangles {
   std::vector<char> unguarded_;           // [particle]
   std::vector<LinearSpring> springs_;
   bool over_ = false, any_ = false;
-  std::size_t fewest_ = 0;  // crossings of all looks since there were none, or the body pinched
+  std::size_t fewest_ = 0;  // the fewest crossings since there were none, or since a pinch
   int waited_ = 0;          // looks since then
 };
 

@@ -1,4 +1,4 @@
-// dress/untangle.cpp: see the header.  `Untangler` holds what stays the same over the trials; untangle() decides which states
+// dress/untangle.cpp: see the header.  `Untangler` holds the data common to all trials; untangle() decides which states
 // are kept.
 #include "dress/untangle.hpp"
 
@@ -28,9 +28,9 @@ constexpr double gap_m = 0.2 * edge_m;   // to the body
 constexpr double reach_m = 60 * edge_m;  // how deep in the body a particle may be
 constexpr int unguarded_rings = 2;
 constexpr int ways = 3;         // to push a contour
-constexpr int eased_rings = 4;  // around tangles that no way undoes, doubled every time
+constexpr int eased_rings = 4;  // around contours that no way removes, doubled every time
 constexpr double eased_bend_N_m = 1e-3;
-constexpr int most_undone = 8;      // rounds of taking back what a trial made
+constexpr int most_undone = 8;      // rounds of undoing contours that a trial made
 constexpr double progress = 0.995;  // a trial that leaves less than this share of the least so far
 constexpr double most_work = 7e5;   // particles times trials: about 7 s on two cores
 constexpr int most_settling = 30, most_halved = 3;
@@ -48,7 +48,7 @@ Fabric fabric() {
   return f;
 }
 
-// Everything that is known of one state.
+// The crossings and contours of one state.
 struct Look {
   std::vector<SurfaceCrossing> crossings;
   std::vector<IntersectionContour> contours;
@@ -122,7 +122,7 @@ class Untangler {
   void begin() {
     StepOptions options;
     options.pcg.tolerance = 1e-2;
-    options.relinearisations = 0;  // a trial: how far its threads stretch decides nothing
+    options.relinearisations = 0;  // stretch does not matter in a trial
     options.flypaper = false;
     options.max_passes = 3;
     step_.emplace(model_, world_, options);
@@ -144,8 +144,8 @@ class Untangler {
   }
 
  public:
-  // Creases around contours are forgotten: there the cloth wants to be flat.  What was modelled folded into itself would
-  // otherwise fold back.
+  // Rest angles around contours become flat.  Cloth that was modelled folded into itself would otherwise fold
+  // back.
   void ease(const Look& seen, int rings) {
     std::vector<char> flat(all_x_.size(), 0);
     for (const SurfaceCrossing& crossing : seen.crossings) mark_particles(crossing, all_, flat);
@@ -215,7 +215,7 @@ class Untangler {
     return of_body(first.edge[0]) || of_body_triangle(first.triangle);
   }
 
-  // `move` of the point, by springs along it; none for what is the body's.
+  // Moves the point by `move`, by springs along it; points of the body get none.
   void pull(const ContourPull& pull, const Vec3& move_m, double stiffness_N_per_m = push_N_per_m) {
     const double length = move_m.norm();
     if (length <= 0 || of_body(pull.particle[0])) return;
@@ -258,7 +258,7 @@ class Untangler {
     }
   }
 
-  // What is inside the body goes to its surface, and what is too near a little away.  Returns area times depth / edge.
+  // Moves cloth inside the body to its surface, and cloth too near a little away.  Returns area times depth / edge.
   double push_out(const Vec3s& x) {
     if (!surface_) return 0;
     near_.resize(x.size());
@@ -274,7 +274,7 @@ class Untangler {
     return left;
   }
 
-  // Contours of cloth with cloth that have nothing to do with those at x (the body pushes by itself): their particles go back half of the way, until there is none.
+  // New contours of cloth with cloth, unrelated to those at x (the body pushes by itself): their particles go back half of the way, until there is none.
   void undo_new(const Vec3s& x, Vec3s& end) {
     for (int round = 0; round <= most_undone; ++round) {
       const Look made = look(end);

@@ -1,15 +1,15 @@
-// dress/untangle.hpp: cloth that passes through itself or a body is relaxed until it does not.        docs/untangle.md (L4)
+// dress/untangle.hpp: relaxes cloth that passes through itself or a body until it does not.            docs/untangle.md (L4)
 //
 //   repeat   crossings of the cloth with itself and with the body                            contact/crossing_finder, exact
-//            contours, what they cut off                                                     contact/intersection_contours
-//            every contour is pushed over the smaller part that it cuts off; one that cuts nothing off is shortened;
-//            what is inside the body is pushed out                                           contact/contour_motion
+//            contours, and the parts that they cut off                                                     contact/intersection_contours
+//            every contour is pushed over the smaller part that it cuts off; one that cuts no part off is shortened;
+//            cloth inside the body is pushed out                                           contact/contour_motion
 //            one implicit step without gravity and from rest, the cloth as given being its rest shape
 //            contours that the step made elsewhere are undone
 //
 // Contact is off around the contours and on everywhere else (ContactRows::set_thickness_scale).  A trial may pass through
-// states with more crossings, as a curve that moves over a mesh does; what is kept, and returned, is always the state
-// with the fewest: never more than at the start.
+// states with more crossings, as a curve that moves over a mesh does; the result is always the state with the fewest:
+// never more than at the start.
 //
 // The length unit does not matter: the cloth is scaled, by a power of two, so that its mean edge is about a centimetre.
 //
@@ -27,11 +27,11 @@ namespace toile::internal {
 struct UntangleOptions {
   int most_iterations = 0;  // trials; 0: 600, and fewer for more than 1,170 particles
   int patience = 20;        // trials without progress until contours are pushed another way
-  int most_in_vain = 0;     // trials since there were fewest crossings until it gives up; 0: it does not
+  int most_in_vain = 0;     // trials since the fewest crossings until it gives up; 0: never
   std::vector<Index> held;  // particles that stay where they are, to the bit
 };
 
-// What passes through what, wherever it is.
+// A remaining intersection.
 struct Tangle {
   bool closed = false, with_body = false;
   double length = 0;                            // in the unit of the input
@@ -51,7 +51,7 @@ struct UntangleReport {
   std::vector<Tangle> before, left;
 };
 
-// Moves `x`.  A body must be closed (mesh/check.hpp) or absent; it stays where it is.  Throws InputError for what
+// Moves `x`.  A body must be closed (mesh/check.hpp) or absent; it is not moved.  Throws InputError for a mesh that
 // check_triangles refuses.  `keep_going` is asked before every trial with the crossings so far; false ends.
 UntangleReport untangle(std::span<const Triangle> cloth, Vec3s& x, std::span<const Triangle> body,
                         std::span<const Vec3> body_x, const UntangleOptions& options = {},

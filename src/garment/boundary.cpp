@@ -72,7 +72,7 @@ std::vector<Index> find_pieces(const Pattern& pattern, std::span<const Index> re
   return piece;
 }
 
-// The edges that are open from `side` on, as far as they go round.
+// The open edges from `side` on, until they return to it.
 Opening walk_along(const Pattern& pattern, const Partners& partner, std::size_t edges, Side side,
                    std::map<Side, char>& passed) {
   Opening opening;

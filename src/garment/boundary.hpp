@@ -1,9 +1,9 @@
 // garment/boundary.hpp: the openings of a garment, from its pattern alone.
 //
-// Sewn, the edges that no stitch names form closed curves.  From the end of one the walk goes on with the next edge of the panel; where
-// that is sewn, it crosses the seam and goes on from the edge there, and so around the corner to the next edge that is open.
+// In the sewn garment the edges without a stitch form closed curves.  From the end of one the walk goes on with the next edge of the panel;
+// if that is sewn, it crosses the seam and goes on from the edge there, and so around the corner to the next open edge.
 //
-// What is easily got wrong: a seam "right to wrong" joins start with start, and the walk then passes the other panel backwards.
+// Easily got wrong: a seam "right to wrong" joins start with start, and the walk then passes the other panel backwards.
 #pragma once
 #include "garment/pattern.hpp"
 
@@ -18,7 +18,7 @@ struct Opening {
   Index piece = -1;
 };
 
-struct GarmentPiece {  // panels that hang together by seams
+struct GarmentPiece {  // panels connected by seams
   std::vector<Index> panels;
   double area_m2 = 0;
   Vec3 middle_m{0, 0, 0};  // weighted by area
@@ -30,7 +30,7 @@ struct Boundary {
   std::vector<Opening> openings;     // in the order of their first edges
 };
 
-// All outlines must be loops, and every stitch name two edges that no other names.
+// All outlines must be loops, and every stitch must name two edges that no other stitch names.
 Boundary find_boundary(const Pattern& pattern);
 
 }  // namespace toile::internal

@@ -5,7 +5,7 @@
 // Lawson's flips (1977) with the exact in-circle test then make every inner edge Delaunay.
 //
 // Every triangle is counter-clockwise with positive area on the grid at all times, also between the calls.
-// What a reader may get wrong: edge k of a triangle is the edge opposite its corner k.
+// Easily got wrong: edge k of a triangle is the edge opposite its corner k.
 #pragma once
 #include "core/types.hpp"
 #include "garment/exact_predicates.hpp"

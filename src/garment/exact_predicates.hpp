@@ -1,4 +1,4 @@
-// garment/exact_predicates.hpp: on which side of a line and of a circle a point lies, without rounding.
+// garment/exact_predicates.hpp: exact orientation and in-circle tests.
 //
 // Points are integers on a grid of 2^-20 m (0.95 micrometre).  Bit budget, for coordinates |x|, |y| < 2^25 (32 m):
 //     a difference of two coordinates       < 2^26
@@ -8,7 +8,7 @@
 // An outline is centred on the origin and may reach 16 m from it (2^24): one bit is spare.
 //
 // The answers are exact for grid points.  An outline point given in floating point may lie up to 2^-21 m per axis
-// from its grid point, so what is exactly true on the grid is true of the given points to within one grid step.
+// from its grid point, so results that are exact on the grid hold for the given points to within one grid step.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -20,8 +20,8 @@ constexpr double pi = std::numbers::pi;
 constexpr double flared_rad = 200.0 / 180 * pi;
 constexpr double spread_rad = 60.0 / 180 * pi;  // between the lines from the centre and the vertical, in the mean
 constexpr int waves = 3;
-constexpr double flat_m = 1e-3;  // panels that are folded or bent already stay as they are,
-constexpr double upright = 0.3;  // and those whose normal leans by more than 17 degrees
+constexpr double flat_m = 1e-3;  // panels that are folded or bent already are left alone,
+constexpr double upright = 0.3;  // and so are those whose normal leans by more than 17 degrees
 constexpr double round = 0.1;    // of the radius: how far the inner side may be from a circle
 constexpr double like = 0.1;     // of their angles: rings that can be one cone
 constexpr double arc_share =
@@ -39,7 +39,7 @@ struct Ring {
 
 double turn(const Vec2& a, const Vec2& b) { return ieee_atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)); }
 
-// Particles of the outline, counter-clockwise as seen from outside; empty where it has a hole.
+// Particles of the outline, counter-clockwise as seen from outside; empty if the panel has a hole.
 std::vector<Index> outline_of(std::span<const Triangle> triangles, bool reversed) {
   std::map<std::pair<Index, Index>, int> sides;
   for (const Triangle& t : triangles)
@@ -59,7 +59,7 @@ std::vector<Index> outline_of(std::span<const Triangle> triangles, bool reversed
   return outline;
 }
 
-// Of the particles in a row along the outline between whose neighbours it turns most to the outside: the row, and by how much.
+// The run of particles along the outline over which it turns most to the outside, and the angle of that turn.
 struct Hollow {
   std::size_t first = 0, count = 0;
   double turn_rad = 0;
@@ -186,7 +186,7 @@ class Wave {
   std::vector<double> length_;  // [sample] from one end
 };
 
-// The ring that each is sewn to the outside of: -1 if none.
+// For each ring the ring to whose outside it is sewn; -1: none.
 std::vector<int> above(const GarmentMesh& garment, const std::vector<Ring>& rings) {
   std::vector<int> ring_at(garment.mesh.panel_names.size(), -1), up(rings.size(), -1);
   for (std::size_t r = 0; r < rings.size(); ++r) ring_at[at(rings[r].panel)] = static_cast<int>(r);

@@ -20,7 +20,7 @@ double signed_area(const Ring& ring, const std::vector<Vec2>& points) {
   return twice / 2;
 }
 
-// Cuts the one piece that has both ends of the line.  False for a line that runs outside: it leaves pieces that go round in opposite directions.
+// Cuts the piece that has both ends of the line.  False for a line that runs outside: it leaves pieces of opposite orientation.
 bool cut(std::vector<Ring>& pieces, const FoldLine& line, const Ring& between, const std::vector<Vec2>& points,
          const std::string& name) {
   if (line.from == line.to) throw FoldError(name, line, "two ends", "a line that ends where it begins");
@@ -93,7 +93,7 @@ FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<con
       folded.mesh.triangles.push_back({number(t[0]), number(t[1]), number(t[2])});
     points.insert(points.end(), mesh.points.begin() + static_cast<std::ptrdiff_t>(piece.size()), mesh.points.end());
   }
-  if (outside) throw *outside;  // once lines that meet others are told
+  if (outside) throw *outside;  // errors of lines that meet others come first
   return folded;
 }
 

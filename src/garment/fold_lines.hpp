@@ -3,7 +3,7 @@
 // Each line cuts the outline in two.  The pieces are triangulated one by one and share the points on the line, so the
 // line needs no recovery inside the triangulation: to each piece it is outline, which nothing may flip or cut.
 //
-// What a caller may get wrong: lines end at points of the outline.  One that ends on another line or crosses it leaves
+// Easily got wrong: lines end at points of the outline.  One that ends on another line or crosses it leaves
 // no simple piece and is refused.
 #pragma once
 #include "core/error.hpp"
@@ -19,12 +19,12 @@ namespace toile::internal {
 
 struct FoldLine {
   Index from = 0, to = 0;     // points of the outline
-  std::vector<Vec2> between;  // the points on the way, in order, m
-  std::string name = {};      // for an error; empty: "fold 1"
+  std::vector<Vec2> between;  // the points between, in order, m
+  std::string name = {};      // for messages; empty: "fold 1"
   std::string path = {};      // of InputError
 };
 
-// Of a line that cannot cut the panel: names it by itself.
+// A line that cannot cut the panel; the message names the line.
 class FoldError : public InputError {
  public:
   FoldError(const std::string& name, const FoldLine& line, std::string_view expected, std::string_view got)

@@ -139,7 +139,7 @@ void merge_pairs(GarmentMesh& garment) {
   garment.merged = merged.representatives();
 }
 
-// Corners that become one particle without a seam between them: they close with the first seam of their panel.
+// Corners that become one particle although no seam joins them: they close with the first seam of their panel.
 void add_join(GarmentMesh& garment, const Pattern& pattern, const CornerJoin& join,
               const std::vector<MeshedPanel>& meshed, double share_m) {
   const auto particle = [&](Index panel, Index corner) {
@@ -268,7 +268,7 @@ WeldedMesh weld(const GarmentMesh& garment) {
   }
   const Topology topology = build_topology(count, welded.mesh.triangles);
   const BlockPattern pattern = pattern_of_cloth(count, welded.mesh.triangles, topology.hinges);
-  // Pieces keep their order, so that what was worn before stays in front of what is new; within one the pattern's places count.
+  // Components keep their order, so that the garments already worn stay before the new one; within one, the order is BlockPattern's.
   std::vector<Index> row_at(at(count)), place(at(count));
   std::iota(row_at.begin(), row_at.end(), 0);
   std::sort(row_at.begin(), row_at.end(), [&](Index i, Index j) {

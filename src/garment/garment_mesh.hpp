@@ -29,7 +29,7 @@ struct Seam {
   double length_a_m = 0, length_b_m = 0;
 };
 
-struct LabelledEdge {  // an edge the pattern wants at a place of the body: "lower_interface", "strapless_top" ...
+struct LabelledEdge {  // an edge that belongs at a place of the body: "lower_interface", "strapless_top" ...
   std::string label;
   std::vector<Index> particles;
 };
@@ -47,9 +47,9 @@ struct GarmentMesh {
   bool legacy_frame = false;
   bool pleated = false;  // panels with pleats begin folded, and stay so while they are sewn
 
-  // Takes these of `pairs` away (their places, ascending): the weld leaves them open.
+  // Removes these `pairs` (indices, ascending): the weld leaves them open.
   void leave_open(std::span<const Index> open_pairs);
-  std::vector<Index> panel_of_particle() const;  // -1: of a particle in no triangle
+  std::vector<Index> panel_of_particle() const;  // -1: a particle without a triangle
 };
 
 struct MeshQuality {  // for reports
@@ -61,7 +61,7 @@ MeshQuality mesh_quality(const ClothMesh& mesh);
 // nearer) or closing into a one-sided surface.
 GarmentMesh mesh_garment(const Pattern& pattern, double resolution_m);
 
-// The same with the edge length chosen such that the welded garment has `particles` particles, within 1 %.  Whole rows of
+// The same with the edge length that gives the welded garment `particles` particles, within 1 %.  Whole rows of
 // triangles make the count jump with the edge length; at a jump the first panels are meshed on its one side and the others
 // on the other.  Throws InputError naming the nearest count when that is not enough (or for particles outside
 // 20 ... 2,000,000).
@@ -74,9 +74,9 @@ CountedGarment mesh_garment_to_count(const Pattern& pattern, int particles);
 // Particles of the welded garment.
 int welded_count(const GarmentMesh& garment);
 
-// The welded cloth: classes of `merged` become one particle each, numbered such that neighbours' numbers are near each other: what walks
-// along the particles finds in the cache what it needs (assembly/block_pattern.hpp).  Pieces that no triangle connects follow each other in the
-// order of their first particles: of an outfit, what is worn comes before what is new.
+// The welded cloth: classes of `merged` become one particle each, numbered so that neighbours have near numbers, for cache locality
+// (assembly/block_pattern.hpp).  Connected components follow each other in the order of their first particles: in an outfit the garments
+// already worn come before the new one.
 struct WeldedMesh {
   ClothMesh mesh;
   std::vector<Index> particle_of;  // [unwelded particle] welded particle

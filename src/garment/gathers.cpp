@@ -11,7 +11,7 @@
 namespace toile::internal {
 namespace {
 
-// Of the area as drawn.  Three lengths that leave a triangle less, or are none of a triangle, do not become its shape: it stays as drawn.
+// Of the area as drawn.  A triangle that would get less, or whose three lengths violate the triangle inequality, stays as drawn.
 constexpr double least_area = 0.02;
 constexpr double fine_edge_m = 0.01;
 
@@ -33,7 +33,7 @@ Mat2 metric(const std::array<Vec2, 3>& uv, const std::array<double, 3>& side_m) 
   return inverse.transpose() * gram * inverse;
 }
 
-// The symmetric positive root of a symmetric positive matrix, by Cayley and Hamilton.
+// The square root of a symmetric positive definite matrix, by Cayley and Hamilton.
 Mat2 root(const Mat2& g) {
   const double area = std::sqrt(g.determinant());
   return (g + area * Mat2::Identity()) / std::sqrt(g.trace() + 2 * area);
@@ -112,7 +112,7 @@ class Gathering {
   }
 
   const ClothMesh& mesh_;
-  std::map<Pair, int> triangles_of_;          // [edge] how many
+  std::map<Pair, int> triangles_of_;          // [edge] the number of its triangles
   std::map<Pair, double> sewn_;               // [edge on a gathered seam] rest length
   std::vector<std::vector<Piece>> pieces_;    // [panel]
   std::vector<Eigen::AlignedBox2d> reached_;  // [panel] around its pieces; empty of a panel without

@@ -1,7 +1,7 @@
-// garment/gathers.hpp: the shape at rest of cloth that a gathering thread holds together.                 docs/theory/sewing.md
+// garment/gathers.hpp: the rest shape of cloth along a gathered seam.                                     docs/theory/sewing.md
 //
 // Both sides of a seam share every particle, so the seam has one length.  Of two rest lengths that differ by more than ease the triangles on
-// either side can only pull each other to something in between.  A thread that gathers decides this in favour of the short side:
+// either side would only pull each other to a length in between.  A gathering thread decides in favour of the short side:
 //
 //   along the seam   rest length = drawn length x s(d),     s(d) = 1/r + (1 - 1/r) min(1, d / reach)
 //   across           as drawn
@@ -20,12 +20,12 @@ namespace toile::internal {
 
 // Longer / shorter side, above which a seam is gathered and not eased.  Ease of 1.10 stretches the short side by 1.4 %, in proportion.
 constexpr double gathered_ratio = 1.15;
-// How far from the seam cloth is gathered, m, and at least so many edges.  What must fold fits in there: at 5:1 and 1 cm, p99 of stretch is
+// How far from the seam cloth is gathered, m, and at least so many edges.  The folds fit in there: at 5:1 and 1 cm, p99 of stretch is
 // 3.3 % with 3 cm, 2.6 % with 3.5; with 4 cm a step collapsed.
 constexpr double gather_reach_m = 0.035;
 constexpr double gather_reach_edges = 2;
 
-// Edge length of the mesh within reach of a gathered seam: 1 cm where the rest is between that and 2 cm, half of what is longer.  A fold is
+// Edge length of the mesh within reach of a gathered seam: 1 cm for an edge length of 1 to 2 cm, else half of it.  A fold is
 // two edges at least, and then it is skew: at 5:1 and 2 cm throughout, p99 of stretch is 5.8 %; with 1 cm near the seam 2.1 %.
 double gather_edge_m(double resolution_m);
 

@@ -1,8 +1,8 @@
-// garment/layering.hpp: panels that are drawn on top of each other get room between them.            docs/theory/sewing.md#placement
+// garment/layering.hpp: separates panels that are drawn on top of each other.                        docs/theory/sewing.md#placement
 //
-// The tiers of a skirt, and a bodice within the circle of its skirt, are often drawn in one plane.  Sewn from there, nothing says which lies outside, and
-// cloth starts through cloth.  Of panels that cover each other nearer than `layer_gap_m`, that which hangs lower is moved outwards: tiers
-// come over what they are sewn to, skirts over bodices.  What is drawn in an order keeps it.
+// The tiers of a skirt, and a bodice within the circle of its skirt, are often drawn in one plane.  Then the order of the layers is undefined, and cloth
+// starts through cloth.  Of two panels that cover each other nearer than `layer_gap_m` the lower one is moved outwards: tiers over the panel that
+// they are sewn to, skirts over bodices.  Panels that are drawn in an order keep it.
 #pragma once
 #include "garment/garment_mesh.hpp"
 

@@ -1,7 +1,7 @@
 // garment/lint.cpp: runs the parts of the linter, and mends one thing after the other.
 //
-// What is easily got wrong: a repair may move the numbers of edges and corners.  So one is made at a time, on a file that is read anew, and
-// findings of two rounds are the same when code and panel are.
+// Easily got wrong: a repair may renumber edges and corners.  So only one is made at a time, on a file that is read again, and findings of
+// two rounds are identified by code and panel.
 #include "garment/lint.hpp"
 
 #include "garment/lint_context.hpp"
@@ -18,10 +18,10 @@
 namespace toile::internal {
 namespace {
 
-// A round mends one thing, and its time goes with the number of edges; a file with more faults is told what it was until there.
+// A round mends one fault, in time proportional to the number of edges; of a file with more faults those found so far are reported.
 constexpr std::size_t most_edge_rounds = 200'000, least_rounds = 5, most_rounds = 200;
 
-// Of a problem: what it is called when the numbers in the file may have moved.
+// Identifies a problem although the numbers in the file may have changed.
 using Kind = std::pair<std::string_view, std::string>;
 Kind kind_of(const LintFinding& finding, const Pattern& pattern) {
   return {finding.code, finding.marks.empty() ? std::string() : pattern.panels[at(finding.marks.front().panel)].name};
@@ -50,7 +50,7 @@ Round look(const Json& root, std::string_view file, const std::optional<BodyFigu
   return {std::move(context.problems), std::move(context.reading.pattern)};
 }
 
-// What an InputError says, taken apart: "<where>: <place>: expected <expected>, got <got>".
+// The parts of an InputError: "<where>: <place>: expected <expected>, got <got>".
 LintFinding finding_of(const InputError& error, std::string_view file) {
   LintFinding finding;
   finding.code = reason::unreadable;
@@ -113,7 +113,7 @@ LintContext::LintContext(const Json& file_root, std::string_view file, const std
   for (PatternFault& fault : find_faults(pattern)) {
     const bool numbers = fault.code == reason::beyond_limits;
     if (fault.panel >= 0 && numbers) wild[at(fault.panel)] = 1;
-    // A loop is looked at more closely than there.
+    // Loops are checked more closely elsewhere.
     if (fault.panel >= 0 && !numbers && !reading.sources[at(fault.panel)].is_loop) continue;
     if (fault.panel >= 0) sound[at(fault.panel)] = 0;
     if (fault.part == PatternFault::Part::stitch) fitted[at(fault.index)] = 0;
@@ -227,7 +227,7 @@ double LintContext::edge_m(const StitchSide& side) const {
 
 namespace {
 
-// One thing is mended after the other, each time on the file as it is then.
+// Mends one fault after the other, each on the file as it is then.
 class Mending {
  public:
   Mending(std::string_view text, std::string_view file, const std::optional<BodyFigures>& body)
@@ -260,7 +260,7 @@ class Mending {
       tell(round, number == 0);
       report_.usable = std::none_of(round.problems.begin(), round.problems.end(),
                                     [](const auto& p) { return p.finding.severity == Severity::error; });
-      // Errors first: what is only probable may look different after them.
+      // Errors first: warnings may look different after them.
       const auto next = std::find_if(round.problems.begin(), round.problems.end(), [&](const LintProblem& problem) {
         return problem.mend && !in_vain_.contains({kind_of(problem.finding, round.pattern), problem.finding.repair});
       });
@@ -274,11 +274,11 @@ class Mending {
   struct Attempt {
     Kind kind;
     std::string repair, before;
-    int count;         // of its kind, before
-    std::size_t told;  // in the report
+    int count;         // of its kind, before the repair
+    std::size_t told;  // index in the report
   };
 
-  // What was mended last is there as often as before: it is taken back, and not tried again.
+  // If the last repair did not reduce the faults of its kind, it is undone and not tried again.
   bool undo_in_vain() {
     if (!attempt_) return false;
     const Attempt attempt = *std::exchange(attempt_, std::nullopt);
@@ -294,7 +294,7 @@ class Mending {
     return true;
   }
 
-  // What is not in the report yet.
+  // Reports the problems that are not in the report yet.
   void tell(const Round& round, bool first) {
     std::map<Kind, int> seen;
     for (const LintProblem& problem : round.problems) {
@@ -341,8 +341,8 @@ class Mending {
   const std::string file_;
   const std::optional<BodyFigures>& body_;
   LintReport report_;
-  std::map<Kind, int> known_;  // how many of a kind are in the report and not mended
-  std::map<Kind, int> left_;   // how many the last round saw
+  std::map<Kind, int> known_;  // the number of each kind in the report that is not mended
+  std::map<Kind, int> left_;   // the number of each kind in the last round
   std::set<std::pair<Kind, std::string>> in_vain_;
   std::optional<Attempt> attempt_;
   int mended_ = 0;

@@ -1,9 +1,9 @@
-// garment/lint.hpp: what is wrong with a sewing pattern, or probably not meant: code, place, expected, got, and what can be mended.
+// garment/lint.hpp: finds errors in a sewing pattern, and parts that are probably not meant; mends those that it can.
 //
-// Every fault is found by geometry, in a file that may be too broken to be used.  Faults hide others (an outline that is open has no length),
-// so what can be mended is mended in memory and looked at again, until nothing more is found: a pattern's list is whole at once.
+// Faults are found by geometry, also in a file that is too broken to be used.  Faults hide others (an open outline has no length), so
+// repairs are made in memory and the pattern is checked again, until no new fault is found: one call lists all faults.
 //
-// What is easily got wrong: an error is what `dress` refuses, and nothing else.  All else are warnings: elastic, slits and other people exist.
+// Easily got wrong: an error is a fault that `dress` refuses, and nothing else.  All others are warnings: elastic, slits and other bodies exist.
 #pragma once
 #include "garment/lint_codes.hpp"
 #include "garment/pattern.hpp"
@@ -21,10 +21,10 @@ enum class Severity {
   error,
   warning,
   note
-};  // cannot be used; probably not meant; as it stands, but others may stumble
+};  // cannot be used; probably not meant; usable here, but other programs may refuse it
 std::string_view to_string(Severity severity);
 
-struct LintMark {  // a place in the drawing
+struct LintMark {  // a mark in the drawing
   Index panel = -1;
   Index edge = -1;     // its number in the file; -1: a point alone
   Vec2 at_m{0, 0};     // in the panel's plane
@@ -34,21 +34,21 @@ struct LintMark {  // a place in the drawing
 struct LintFinding {
   std::string_view code;  // garment/lint_codes.hpp
   Severity severity = Severity::error;
-  std::string where;    // "p.json:12:5"; the file alone for what showed only after another fault was mended
+  std::string where;    // "p.json:12:5"; the file alone for a fault that showed only after another was mended
   std::string pointer;  // into the file
   std::string place;    // panel "front", edge 3, at (12.0, 40.3) cm
   std::vector<LintMark> marks;
   std::string expected, got;
   bool mended = false;
-  std::string repair;  // what was done to mend it, or why nothing
+  std::string repair;  // how it was mended, or why not
 };
 
-// A body in numbers, for those who have one (sim/body_figures.hpp).
+// Measurements of the body, if one is given (sim/body_figures.hpp).
 struct BodyFigures {
   Vec3 low_m{0, 0, 0}, high_m{0, 0, 0};                                       // its box
   Vec3 middle_m{0, 0, 0};                                                     // of the trunk at the waist
-  double head_girth_m = 0, waist_girth_m = 0, hips_girth_m = 0, waist_m = 0;  // waist_m: its height; 0: none was found
-  // Where the tips of the shoulders and the waist are (y), for those who know them from a tape.
+  double head_girth_m = 0, waist_girth_m = 0, hips_girth_m = 0, waist_m = 0;  // waist_m: its height; 0: not found
+  // Heights (y) of the tips of the shoulders and of the waist, if measurements are given.
   std::optional<double> shoulder_m, tape_waist_m;
   std::optional<double> arm_down_deg;              // how far the arms hang below the level, the mean of both; 0: a T
   std::optional<std::array<Vec3, 2>> arm_roots_m;  // middles of the left arm and the right one at the armpits
@@ -56,10 +56,10 @@ struct BodyFigures {
 };
 
 struct LintReport {
-  std::vector<LintFinding> findings;  // in a fixed order: panels, seams, the garment; then what showed later
-  Pattern drawing;                    // as far as the file could be read: for pattern_svg.hpp
-  std::string mended_text;            // the whole file with all that could be mended; empty when nothing was
-  bool usable = false;                // no error is left, with what was mended
+  std::vector<LintFinding> findings;  // in a fixed order: panels, seams, the garment; then those that showed later
+  Pattern drawing;                    // the readable part of the file: for pattern_svg.hpp
+  std::string mended_text;            // the whole file with all repairs; empty when there are none
+  bool usable = false;                // no error is left after the repairs
   bool has_errors() const;            // in the file as it is
 };
 

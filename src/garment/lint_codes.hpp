@@ -1,4 +1,4 @@
-// garment/lint_codes.hpp: what may be wrong with a sewing pattern, by a word that never changes its meaning.   docs/reason-codes.md#patterns
+// garment/lint_codes.hpp: the codes of faults in a sewing pattern; a code never changes its meaning.           docs/reason-codes.md#patterns
 #pragma once
 #include <string_view>
 
@@ -28,7 +28,7 @@ inline constexpr std::string_view seam_to_itself = "seam_to_itself";
 inline constexpr std::string_view seam_wrong_edge = "seam_wrong_edge";
 inline constexpr std::string_view seam_twisted = "seam_twisted";
 inline constexpr std::string_view seam_unequal = "seam_unequal";
-// The garment and who is to wear it.
+// The garment and its wearer.
 inline constexpr std::string_view unit_doubtful = "unit_doubtful";
 inline constexpr std::string_view other_body = "other_body";
 inline constexpr std::string_view other_pose = "other_pose";

@@ -1,4 +1,4 @@
-// garment/lint_context.hpp: what the parts of the linter share.
+// garment/lint_context.hpp: data shared by the parts of the linter.
 #pragma once
 #include "garment/boundary.hpp"
 #include "garment/lint.hpp"
@@ -26,19 +26,19 @@ class LintContext {
   PatternReading reading;
   const Pattern& pattern;
   std::optional<BodyFigures> body;
-  std::vector<PatternFault> faults;  // of panels that are loops, and of stitches
-  std::vector<char> closed;          // [panel] its edges are a loop
-  std::vector<char> wild;            // [panel] numbers beyond what can be measured: nothing but that is said of it
-  std::vector<char> sound;           // [panel] and nothing else is wrong with it
+  std::vector<PatternFault> faults;           // of panels that are loops, and of stitches
+  std::vector<char> closed;                   // [panel] its edges are a loop
+  std::vector<char> wild;                     // [panel] numbers too large to be measured: nothing else is reported
+  std::vector<char> sound;                    // [panel] closed and without any fault
   std::vector<std::vector<double>> length_m;  // [panel][edge]; empty where the panel is not closed
   std::set<std::pair<Index, Index>> sewn;     // (panel, edge) that a stitch names
   std::vector<char> fitted;       // [stitch] both sides are there, their panels are sound, and no fault was found yet
-  std::vector<char> inner_layer;  // [stitch] of a pleat: sewn to what it is not named with
+  std::vector<char> inner_layer;  // [stitch] of a pleat: sewn to another edge than it names
   std::vector<LintProblem> problems;
   std::optional<Boundary> boundary;  // where all outlines are closed and every seam joins two edges of its own
   bool unit_doubtful = false;        // sizes mean nothing
 
-  // A problem at a value of the file; the caller adds marks, `mend` and what it does.
+  // Adds a problem at a value of the file; the caller adds marks, `mend` and its description.
   LintProblem& add(std::string_view code, Severity severity, const Json& at, std::string place, std::string expected,
                    std::string got);
   LintProblem& add(const PatternFault& fault, Severity severity);
@@ -53,16 +53,16 @@ std::string fixed_text(double value, int digits);  // of any locale
 std::string cm_text(double length_m);              // 12.3 cm
 std::string point_cm(const Vec2& point_m);         // (12.3, 4.5) cm
 
-// The largest piece of a garment as what it covers: which openings are at its top, at arms, at legs.
+// The roles of the openings of a garment's largest piece: top, arms, legs.
 struct Wearing {
-  Index piece = -1;                        // -1: there is nothing that closes around a trunk
+  Index piece = -1;                        // -1: no piece closes around a trunk
   Index top = -1;                          // the highest opening around the trunk's axis; -1: none
   std::vector<Index> around, hands, feet;  // openings around the axis, for hands, for feet
   bool has_arms = false;
 };
 Wearing find_wearing(const Pattern& pattern, const Boundary& boundary, Index piece);
 
-// The parts, in the order in which they look.  Each leaves alone what an earlier one has found.
+// The parts, in the order in which they run.  Each ignores faults that an earlier one has found.
 void lint_outlines(LintContext& context);
 void lint_flips(LintContext& context);
 void lint_seams(LintContext& context);

@@ -1,11 +1,11 @@
-// garment/lint_flips.cpp: panels that look the wrong way.
+// garment/lint_flips.cpp: panels whose normal points the wrong way.
 //
-// What a panel is sewn to lies behind it: the garment closes around a body, and the panel's right side looks away from it.
+// The panels that a panel is sewn to lie behind it: the garment closes around a body, and the panel's right side faces away from it.
 //
 //   out = sum over seams  length (m' - m) . n / sum over seams  length |(m' - m) . n|     m, m': middles of its edge and of the other's, n: its normal
 //
-// is -1 for a front whose back hangs behind it, positive for one that looks inward.  That alone says
-// little: collars fall over, ruffles lie flat.  So a panel counts as flipped when also its seams would fit clearly better turned:
+// is -1 for a front whose back hangs behind it, positive for one that faces inward.  That alone is weak
+// evidence: collars fall over, ruffles lie flat.  So a panel counts as flipped only if its seams would also fit clearly better turned:
 //
 //   the outline the other way round     ends of seams are paired the other way
 //   half a turn about its vertical      left and right change places
@@ -23,9 +23,9 @@
 namespace toile::internal {
 namespace {
 
-constexpr double inward = 0.25;          // out above looks inward
+constexpr double inward = 0.25;          // a panel with a larger `out` faces inward
 constexpr double clearly_nearer = 1.15;  // seams as placed / seams turned
-constexpr int least_seams = 2;           // to other panels: one seam alone does not say how a panel lies
+constexpr int least_seams = 2;           // to other panels: one seam alone does not determine how a panel lies
 
 struct Fit {
   int seams = 0, twisted = 0;
@@ -72,7 +72,7 @@ std::vector<Fit> fits_of(const LintContext& context) {
   const Pattern& pattern = context.pattern;
   std::vector<Fit> fits(pattern.panels.size());
   std::vector<Vec3> normal(fits.size(), Vec3::Zero());
-  Pattern sewn;  // sides by the seams that can be looked at
+  Pattern sewn;  // the stitches that can be checked, for the sides of panels
   sewn.panels.resize(fits.size());
   for (std::size_t s = 0; s < pattern.stitches.size(); ++s)
     if (context.fitted[s]) sewn.stitches.push_back(pattern.stitches[s]);
@@ -91,7 +91,7 @@ std::vector<Fit> fits_of(const LintContext& context) {
     add_seam(fits[at(stitch.a.panel)], context, stitch, stitch.a, stitch.b, normal[at(stitch.a.panel)]);
     add_seam(fits[at(stitch.b.panel)], context, stitch, stitch.b, stitch.a, normal[at(stitch.b.panel)]);
   }
-  // Of what hangs together by seams, the first panel decides which side is called the right one; most panels look outward.
+  // In every component of sewn panels the first panel defines the right side; most panels face outward.
   DisjointSets sets(fits.size());
   for (const Stitch& stitch : sewn.stitches) sets.join(stitch.a.panel, stitch.b.panel);
   const std::vector<Index> piece = sets.representatives();
@@ -106,7 +106,7 @@ void explain(LintContext& context, Index index, const Fit& fit) {
   const Panel& panel = context.pattern.panels[at(index)];
   const std::size_t axis = fit.turned_m[1] < fit.turned_m[0] * (1 - 1e-9) ? 1 : 0;
   const double turned = fit.turned_m[axis], best = std::min(turned, fit.other_way_m);
-  bool refused = false;  // is a seam twisted so much that `dress` refuses it?
+  bool refused = false;  // a seam is twisted so much that `dress` refuses it
   for (std::size_t s = 0; s < context.fitted.size(); ++s) {
     const Stitch& stitch = context.pattern.stitches[s];
     if (!context.fitted[s] || (stitch.a.panel != index && stitch.b.panel != index)) continue;

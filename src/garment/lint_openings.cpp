@@ -1,6 +1,6 @@
 // garment/lint_openings.cpp: is there a way into the garment, and through it for head, hands and feet?
 //
-// Nothing is an error here: cloth stretches, laces and zips exist.  Girths are those of edges that nothing is sewn to (boundary.hpp); a slit
+// Nothing is an error here: cloth stretches, laces and zips exist.  Girths are those of open edges (boundary.hpp); a slit
 // is part of the opening it begins at, so a cuff with one is as wide as it opens.
 #include "garment/lint_context.hpp"
 
@@ -11,7 +11,7 @@
 namespace toile::internal {
 namespace {
 
-// Girths of an adult 1.70 m tall, m; of another body by its height.  The least that is usual: 5th percentiles of women, about.
+// Girths of an adult 1.70 m tall, m, scaled by the height for another body: about the 5th percentiles of women.
 constexpr double adult_m = 1.70;
 constexpr double head_m = 0.55;  // around the forehead
 constexpr double hand_m = 0.20;  // around the knuckles, the thumb laid in
@@ -113,7 +113,7 @@ class OpeningLint {
     }
   }
 
-  // Sleeves and trouser legs without any edge that is open, in patterns that say what their panels cover.
+  // Sleeves and trouser legs without an open edge, in patterns with labelled panels.
   void check_closed(std::string_view label, std::string_view code, const char* what) {
     for (const bool left : {true, false}) {
       Index closed = -1;  // the one farthest out
@@ -162,8 +162,8 @@ class OpeningLint {
 Wearing find_wearing(const Pattern& pattern, const Boundary& boundary, Index piece) {
   Wearing wearing;
   wearing.piece = piece;
-  // Where the axis is, three things say, each of which may be misled: the frame, the middle of the cloth (by a skirt that is drawn beside), and
-  // that of the panels (by a garment with one sleeve).
+  // Three estimates of the axis, each of which may be wrong: the frame's, the middle of the cloth (with a skirt that is drawn beside), and
+  // the median of the panels (with one sleeve).
   const GarmentPiece& mine = boundary.pieces[at(piece)];
   std::vector<double> middles;
   for (const Index p : mine.panels) {
@@ -189,7 +189,7 @@ Wearing find_wearing(const Pattern& pattern, const Boundary& boundary, Index pie
     const double width = opening.high_m.x() - opening.low_m.x();
     const double aside = std::min({std::abs(opening.middle_m.x()), std::abs(opening.middle_m.x() - mine.middle_m.x()),
                                    std::abs(opening.middle_m.x() - median)});
-    // Half of a neckline begins at the axis, as a leg does, but nothing is higher.
+    // Half of a neckline begins at the axis, as a leg does, but it is the highest opening.
     const bool around = aside <= around_axis * width || (static_cast<Index>(k) == highest && aside <= at_axis * width);
     (around ? wearing.around : beside).push_back(static_cast<Index>(k));
     if (!around) continue;
@@ -219,7 +219,7 @@ void lint_openings(LintContext& context) {
   if (!context.boundary || context.unit_doubtful) return;
   for (std::size_t p = 0; p < context.boundary->pieces.size(); ++p) {
     const std::vector<Index>& panels = context.boundary->pieces[p].panels;
-    // What is sewn wrong opens in the wrong places.
+    // A garment with wrong seams opens in the wrong places.
     const bool wrong = std::any_of(context.problems.begin(), context.problems.end(), [&](const LintProblem& problem) {
       const LintFinding& finding = problem.finding;
       if (finding.severity != Severity::error && finding.code != reason::panel_flipped &&

@@ -1,7 +1,7 @@
 // garment/lint_outlines.cpp: do the edges of each panel form one closed outline that does not cross itself?
 //
-// Edges of a file are lines between corners, and a loop passes every corner once, in one direction.  Where it does not, the corners tell:
-// undirected, an outline has two edges at each; one where it is open, three or more where something hangs on it.
+// Edges of a file are lines between corners, and a loop passes every corner once, in one direction.  Where it does not, the corners show it:
+// undirected, an outline has two edges at each; one where it is open, three or more where extra edges branch off.
 #include "garment/lint_context.hpp"
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 namespace toile::internal {
 namespace {
 
-// Ends of an outline this near were meant to be one corner: 2 mm is a pencil line and a rounded file; 1 % of the outline what a
-// digitiser's hand misses on a large panel.  But never half of the shorter edge that ends there.
+// Ends of an outline this near were meant to be one corner: 2 mm is a pencil line and a rounded file; 1 % of the outline is the error
+// of digitising by hand on a large panel.  But never half of the shorter edge that ends there.
 constexpr double gap_m = 0.002, gap_of_outline = 0.01, gap_of_edge = 0.5;
-// A choice is taken when what it makes of the seams is this much better than the next.
+// A choice is taken when it makes the seams fit this much better than the next best one.
 constexpr double clearly = 1.2;
 
 class OutlineLint {
@@ -59,7 +59,7 @@ class OutlineLint {
 
   // ---- a panel that is no loop --------------------------------------------------------------------------------------
 
-  // Edges that name a corner which is not there, or one corner twice.
+  // Edges that name a missing corner, or one corner twice.
   bool check_ends() {
     bool good = true;
     for (std::size_t e = 0; e < edges_.size(); ++e) {
@@ -232,7 +232,7 @@ class OutlineLint {
     const auto along = std::count(way.begin(), way.end(), 1), against = std::count(way.begin(), way.end(), -1);
     int right_way = along > against ? 1 : -1;
     bool known = along != against;
-    if (!known) {  // the seams know which way round it is meant
+    if (!known) {  // the seams determine the direction
       const double cost = twist_cost(way, 1), other = twist_cost(way, -1);
       known = std::max(cost, other) > clearly * std::min(cost, other);
       right_way = cost < other ? 1 : -1;
@@ -385,7 +385,7 @@ class OutlineLint {
     }
   }
 
-  // How badly the panel's seams fit: lengths, and the distance of their ends; infinite without seams.
+  // The misfit of the panel's seams, in length and in distance of their ends; infinite without seams.
   double seam_cost(const Pattern& pattern) const {
     double cost = 0;
     bool any = false;
@@ -397,7 +397,7 @@ class OutlineLint {
         continue;
       const Panel &pa = pattern.panels[at(stitch.a.panel)], &pb = pattern.panels[at(stitch.b.panel)];
       const PanelEdge &ea = pa.edges[at(stitch.a.edge)], &eb = pb.edges[at(stitch.b.edge)];
-      cost += 10 * std::abs(edge_length_m(pa, ea) - edge_length_m(pb, eb));  // a length is surer than a place
+      cost += 10 * std::abs(edge_length_m(pa, ea) - edge_length_m(pb, eb));  // lengths are more reliable than places
       const auto corner = [](const Panel& panel, Index c) { return panel.place(panel.corners[at(c)]); };
       cost += (corner(pa, ea.start) - corner(pb, stitch.right_wrong ? eb.start : eb.end)).norm() +
               (corner(pa, ea.end) - corner(pb, stitch.right_wrong ? eb.end : eb.start)).norm();

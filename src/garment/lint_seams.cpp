@@ -2,7 +2,7 @@
 //
 //   cost of a seam = mean distance of its ends as placed + difference of its lengths
 //
-// A stitch that names the wrong edge is one for which an edge that nobody sews would cost much less, at equal lengths.
+// A stitch is taken to name the wrong edge if an unsewn edge of equal length would cost much less.
 #include "garment/lint_context.hpp"
 #include "garment/seam_fit.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double same_length = 1.02;   // longer / shorter edge of a seam that is neither eased nor gathered
 constexpr double other_length = 1.05;  // of one that does not fit
-// The right edge costs less by this part of its length: the distance between a front and a back is in the cost of both.
+// The right edge costs less by this share of its length: the distance between front and back is part of both costs.
 constexpr double cheaper_by = 0.3;
 constexpr double misspelt_ratio =
     1.25;  // longer / shorter edge, where only the panel's name is wrong by at most half of its letters
@@ -27,7 +27,7 @@ constexpr double mirror_near_m = 0.03, mirror_reach_m = 0.15;
 constexpr std::size_t most_turned = 500;  // stitches, each turned in turn: the time goes with the square
 constexpr double far_m = 2;               // between ends of a seam: more than a person is tall
 
-// Letters to be put in, left out or changed between two names.
+// Edit distance between two names.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -52,7 +52,7 @@ class SeamLint {
     const PatternFault* last = nullptr;
     for (const PatternFault& fault : context_.faults) {
       if (fault.part != PatternFault::Part::stitch || fault.code == reason::seam_missing) continue;
-      // A stitch given twice is told for one of its sides.
+      // A stitch given twice is reported for one of its sides.
       if (last != nullptr && last->code == fault.code && last->index == fault.index && last->other == fault.other)
         continue;
       last = &fault;
@@ -109,7 +109,7 @@ class SeamLint {
     return apart + std::abs(context_.edge_m(a) - context_.edge_m(b));
   }
 
-  // The edge of a panel that nobody sews and that alone fits the other side of a stitch; -1: none, or several.
+  // The only unsewn edge of a panel that fits the other side of a stitch; -1: none, or several.
   Index fitting_edge(Index panel, const StitchSide& partner, bool right_wrong, double below_cost) const {
     if (!closed(panel) || partner.edge < 0 || !closed(partner.panel)) return -1;
     Index found = -1;
@@ -142,7 +142,7 @@ class SeamLint {
     };
   }
 
-  // ---- stitches that name what is not there, or what is sewn already -----------------------------------------------------
+  // ---- stitches that name a missing edge, or one that is sewn already ---------------------------------------------------
 
   void check_missing(Index s) {
     for (int k = 0; k < 2; ++k) {
@@ -241,7 +241,7 @@ class SeamLint {
     if (problem.mend) context_.fitted[at(wrong)] = 0;
   }
 
-  // Whether a free edge of one of the panels fits clearly better.  `fault`: what is wrong with the seam as it is.
+  // Whether a free edge of one of the panels fits clearly better.  `fault`: of the seam as it is.
   bool check_wrong_edge(Index s, const PatternFault* fault) {
     if (fault == nullptr && !context_.fitted[at(s)]) return false;
     const Stitch sewn = stitch(s);
@@ -280,7 +280,7 @@ class SeamLint {
     return one.a.edge >= 0 && one.b.edge >= 0 && !context_.inner_layer[s];
   }
 
-  // The pattern with the stitches that can be looked at, `turned` among them the other way.
+  // The pattern with the stitches that can be checked, `turned` among them reversed.
   PanelSides sides_with(Index turned) const {
     Pattern sewn;
     sewn.panels.resize(pattern_.panels.size());
@@ -293,7 +293,7 @@ class SeamLint {
     return panel_sides(sewn);
   }
 
-  // A surface that would have one side only: of the stitches that give it two when they are turned, one whose ends come nearer.
+  // A one-sided surface: of the stitches whose reversal makes it two-sided, one whose ends come nearer.
   void check_sides() {
     const PanelSides sides = sides_with(-1);
     if (sides.conflict < 0) return;
@@ -319,7 +319,7 @@ class SeamLint {
     }
     const bool sure = best >= 0 && best_gain > clearly * next_gain;
     const Index s = sure ? best : conflict;
-    if (!context_.fitted[at(s)]) return;  // told already
+    if (!context_.fitted[at(s)]) return;  // reported already
     LintProblem& problem = add(reason::seam_twisted, Severity::error, s, "seams that give the garment one right side",
                                "following the other seams, its two panels face opposite ways");
     if (sure) {
@@ -357,13 +357,13 @@ class SeamLint {
     const auto ends = seam_ends(pattern_, stitch(s));
     if (!ends || 0.5 * ends->as_sewn_m < far_m) return;
     const double size = std::max(context_.edge_m(stitch(s).a), context_.edge_m(stitch(s).b));
-    if (0.5 * ends->as_sewn_m < 4 * size) return;  // all is large
+    if (0.5 * ends->as_sewn_m < 4 * size) return;  // not far for seams as long as these
     LintProblem& problem = add(reason::panel_far, Severity::warning, s, "panels placed beside what they are sewn to",
                                "ends " + cm_text(0.5 * ends->as_sewn_m) + " apart");
     problem.finding.repair = "refused: where the panel belongs is not known";
   }
 
-  // [stitch] middles of both sides, as placed; of stitches that cannot be looked at, zeros.
+  // [stitch] middles of both sides, as placed; zeros for stitches that cannot be checked.
   void find_middles() {
     for (std::size_t s = 0; s < pattern_.stitches.size(); ++s) {
       middles_.emplace_back(Vec3::Zero(), Vec3::Zero());

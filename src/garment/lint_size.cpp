@@ -1,11 +1,11 @@
-// garment/lint_size.cpp: is the garment as large as a person, or as the body given, and is it where that is?
+// garment/lint_size.cpp: does the garment have the size and place of a person, or of the body given?
 //
-// A pattern stands where it is worn, feet on the floor: how high its top is says how tall a person it is for.
+// A pattern is placed where it is worn, above the floor: the height of its top shows the height of its wearer.
 //
 //   with arms       top of the neck opening = 0.76 ... 1.25 of the height (a deep neck ... the rim of a hood)
 //   without         top of the upper opening = 0.56 ... 0.80 (trousers on the hips ... a strapless top)
 //
-// Bands of 40 %, so only what is far off is seen: a unit (2.54, 10 or 100 times), a child's body for an adult's shirt.
+// Bands of 40 %, so only large errors are found: a wrong unit (2.54, 10 or 100 times), a child's body for an adult's shirt.
 #include "garment/lint_context.hpp"
 #include "garment/pattern_figures.hpp"
 
@@ -20,13 +20,13 @@ struct Band {
   double low, high;
 };
 constexpr Band neck{0.76, 1.25}, waist{0.56, 0.80};  // of the height
-constexpr Band people_m{0.95, 2.2};                  // who wears patterns: from three years on
+constexpr Band people_m{0.95, 2.2};                  // heights of wearers: from three years on
 // In the frame of 2021, with the pelvis at 0, only sizes are known: the garment's height and its largest opening.
 constexpr Band legacy_height_m{0.2, 2.2}, legacy_girth_m{0.6, 12};
 constexpr double least_waist_m = 0.5;  // of the smallest of them
 constexpr double small_waist = 0.65;   // waist of the garment / of the body: elastic gives 1.4
 constexpr double neck_height = 0.85;   // of the height: top of a neck opening
-// What a number may have been meant in, as multiples of the length read: cm for inches, m for cm, mm for cm ...
+// Possible units, as multiples of the length read: cm for inches, m for cm, mm for cm ...
 constexpr std::array<double, 6> factors{2.54, 1 / 2.54, 10, 0.1, 100, 0.01};
 
 // At most three digits behind the point, and no zeros at the end.
@@ -45,7 +45,7 @@ class SizeLint {
     std::vector<const PatternFault*> sizes;
     for (const PatternFault& fault : context_.faults)
       if (fault.code == reason::unit_doubtful) sizes.push_back(&fault);
-    // A panel that is far from the others says nothing of the size.
+    // A panel that is far from the others is no evidence of the size.
     const bool far = std::any_of(context_.problems.begin(), context_.problems.end(),
                                  [](const LintProblem& problem) { return problem.finding.code == reason::panel_far; });
     const bool known = !far && find_garment();
@@ -54,7 +54,7 @@ class SizeLint {
   }
 
  private:
-  // The piece with most cloth, where it closes around something in the middle.
+  // The piece with most cloth, if it closes around the axis.
   bool find_garment() {
     if (!context_.boundary) return false;
     const Boundary& boundary = *context_.boundary;
@@ -73,7 +73,7 @@ class SizeLint {
     return true;
   }
 
-  // The heights of those for whom it could be, were it `factor` times as large.
+  // The possible heights of its wearer, were it `factor` times as large.
   Band heights(double factor) const {
     const Band band = wearing_.has_arms ? neck : waist;
     return {factor * top_m_ / band.high, factor * top_m_ / band.low};
@@ -105,7 +105,7 @@ class SizeLint {
     if (known)
       for (const double factor : factors)
         if (fits_people(factor)) meant.push_back(factor);
-    if (sizes.empty() && meant.empty()) return false;  // no unit makes it a person's: something else is odd
+    if (sizes.empty() && meant.empty()) return false;  // no unit gives it a person's size: the fault is another one
     context_.unit_doubtful = true;
     const Severity severity = sizes.empty() ? Severity::warning : Severity::error;
     std::string got;
@@ -133,7 +133,7 @@ class SizeLint {
     return true;
   }
 
-  // ---- somebody else's ----------------------------------------------------------------------------------------------
+  // ---- cut for another ----------------------------------------------------------------------------------------------
 
   LintProblem& add(std::string_view code, std::string expected, std::string got) {
     LintProblem& problem = context_.add(code, Severity::warning, context_.root.at("pattern"), "the garment",
@@ -156,7 +156,7 @@ class SizeLint {
     if (!check_size()) tell_misfits();
   }
 
-  // False when nothing is far off.
+  // False when all sizes are plausible.
   bool check_size() {
     const BodyFigures& body = *context_.body;
     if (pattern_.legacy_frame) return false;
@@ -183,7 +183,7 @@ class SizeLint {
     return false;
   }
 
-  // What labels, and the angle of the sleeves, say of the body that it was cut for.
+  // The body that it was cut for, by labels and by the angle of the sleeves.
   void tell_misfits() {
     for (Misfit& misfit : misfits(pattern_, *context_.body)) {
       LintProblem& problem = add(misfit.code, std::move(misfit.expected), std::move(misfit.got));
@@ -193,7 +193,7 @@ class SizeLint {
     }
   }
 
-  // Where the top belongs on this body, from the labels and openings; negative: not known.
+  // The height of the top on this body, from labels and openings; negative: not known.
   double top_on_body() const {
     const BodyFigures& body = *context_.body;
     if (wearing_.has_arms) return body.low_m.y() + neck_height * body.height_m();

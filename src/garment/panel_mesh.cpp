@@ -41,7 +41,7 @@ std::vector<std::vector<Dart>> darts_of_panels(const Pattern& pattern) {
   return darts;
 }
 
-// How many pieces every edge of every panel is cut into: both sides of a seam alike.
+// The number of pieces of every edge of every panel, equal on both sides of a seam.
 std::vector<std::vector<int>> pieces_of_edges(const Pattern& pattern, std::span<const StitchSide> halved,
                                               double resolution_m) {
   std::vector<std::vector<int>> pieces(pattern.panels.size());

@@ -1,6 +1,6 @@
 // garment/panel_mesh.hpp: the panels of a pattern as flat meshes, each by itself.
 //
-// Both sides of a seam are cut into as many pieces; else no panel knows of another, and they are meshed side by side.
+// Both sides of a seam are cut into equally many pieces; otherwise panels are independent, and are meshed in parallel.
 #pragma once
 #include "garment/fold_lines.hpp"
 #include "garment/pattern.hpp"
@@ -13,7 +13,7 @@ namespace toile::internal {
 
 struct PanelMesh {
   std::vector<std::vector<Index>> edge_points;  // [edge] first to last corner, in the edge's direction
-  std::size_t outline_points = 0;               // the first of them all
+  std::size_t outline_points = 0;               // the outline's points come first
   bool mirrored = false;                        // the panel is drawn clockwise
   FoldedPlanarMesh folded;
 };
@@ -24,7 +24,7 @@ class PanelMesher {
   explicit PanelMesher(const Pattern& pattern, std::vector<StitchSide> halved = {})
       : pattern_(&pattern), halved_(std::move(halved)) {}
 
-  // [panel] `inner_m` is the edge length inside each; outlines are cut at `outline_m`.  Panels that are asked for as in the last call are
+  // [panel] `inner_m` is the edge length inside each; outlines are cut at `outline_m`.  Panels with the same request as in the last call are
   // not meshed again.  Throws InputError for the first panel that cannot be meshed.
   std::span<const PanelMesh> mesh(double outline_m, std::span<const double> inner_m);
 
@@ -36,7 +36,7 @@ class PanelMesher {
   };
   const Pattern* pattern_;
   std::vector<StitchSide> halved_;
-  std::vector<Asked> asked_;  // of meshes_; empty of one that failed
+  std::vector<Asked> asked_;  // the requests of meshes_; empty for one that failed
   std::vector<PanelMesh> meshes_;
 };
 

@@ -6,7 +6,7 @@
 //          start + 2 r sin(u phi) * direction of the chord turned by -+ (1 - u) phi.  No centre: a centre far away would
 //          cost all digits of a nearly straight arc.
 //
-// What is easily got wrong: floating point is not symmetric in the two ends of a curve.  Two edges that share a seam must
+// Easily got wrong: floating point is not symmetric in the two ends of a curve.  Two edges that share a seam must
 // give the same points whichever way they run, so every curve is first turned into ONE direction (the lower end first) and
 // the result is turned back.
 #include "garment/pattern.hpp"

@@ -3,7 +3,7 @@
 // Read from the JSON of GarmentCode and of the older Garment-Pattern-Generator (docs/pattern-format.md).  After reading,
 // everything is in metres and y is up.  Edge k of a panel runs from corner `start` to corner `end`; the loop is closed.
 //
-// What is easily got wrong: an edge has a direction, and a stitch pairs the END of one edge with the START of the other,
+// Easily got wrong: an edge has a direction, and a stitch pairs the END of one edge with the START of the other,
 // because two panels that lie beside each other, both counter-clockwise, pass their common seam in opposite directions.
 #pragma once
 #include "core/types.hpp"
@@ -28,7 +28,7 @@ struct PanelEdge {
   Index file_number = -1;  // its number in the file, for messages; -1: its place in `edges`
 };
 
-struct PanelFold {       // a line across a panel that wants to stay folded: of a collar, a pleat, a crease
+struct PanelFold {       // a line across a panel that is folded at rest: of a collar, a pleat, a crease
   PanelEdge line;        // from one corner of the outline to another, inside the panel
   double angle_rad = 0;  // at rest; > 0: a ridge on the panel's outer side, < 0: a valley
 };
@@ -46,7 +46,7 @@ struct Panel {
 
   Mat3 rotation() const;                // exact at multiples of 90 degrees
   Vec3 place(const Vec2& p) const;      // panel plane to world
-  Index file_number(Index edge) const;  // the number by which the file, and so a message, knows edges[edge]
+  Index file_number(Index edge) const;  // the number of edges[edge] in the file, and so in messages
 };
 
 struct StitchSide {
@@ -74,11 +74,11 @@ struct Pattern {
 std::vector<Vec2> sample_edge(const Panel& panel, const PanelEdge& edge, int count);
 double edge_length_m(const Panel& panel, const PanelEdge& edge);
 
-// Throws IoError or InputError (file, line, JSON pointer, expected, got) for everything that cannot be meant: open loop,
+// Throws IoError or InputError (file, line, JSON pointer, expected, got) for every fault: open loop,
 // self-crossing outline, unknown curve type, stitch to a missing panel or edge, an edge stitched twice, not finite ...
 Pattern load_pattern(const std::string& path);
 Pattern parse_pattern(std::string_view text, std::string_view file);
-// With the places of its folds, for the mesher's message that one leaves the panel.
+// With the places of its folds in the file, for the mesher's message about one that leaves the panel.
 struct PatternFile {
   Pattern pattern;
   JsonPlaces places;

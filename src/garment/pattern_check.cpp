@@ -4,7 +4,7 @@
 // The outline is sampled and snapped to the 2^-20 m grid of the triangulation, so that orientation tests are exact in
 // 64-bit integers: coordinates below 10 m are below 2^24, their products below 2^50.
 //
-// What is easily got wrong: neighbouring pieces of an outline always touch, in their common point.  They are at fault only
+// Easily got wrong: neighbouring pieces of an outline always touch, in their common point.  They are at fault only
 // when the second runs back exactly along the first.
 #include "garment/pattern_check.hpp"
 
@@ -282,7 +282,7 @@ class PanelCheck {
     return (twice_area > 0) - (twice_area < 0);
   }
 
-  // Two pieces of the ring, by their first points, that meet where they must not; the first in order of their edges.
+  // Two pieces of the ring, by their first points, that intersect; the first pair in the order of their edges.
   static std::optional<std::pair<std::size_t, std::size_t>> find_crossing(const std::vector<OutlinePoint>& ring,
                                                                           bool along_x) {
     const std::size_t n = ring.size();
@@ -316,7 +316,7 @@ class PanelCheck {
     return found;
   }
 
-  // Whether two pieces whose boxes meet have a point in common that they must not have.
+  // Whether two pieces whose boxes meet intersect elsewhere than in a shared end.
   static bool pieces_meet(const std::vector<OutlinePoint>& ring, std::size_t first, std::size_t second) {
     const std::size_t n = ring.size();
     const OutlinePoint &a = ring[first], &b = ring[first + 1 == n ? 0 : first + 1];

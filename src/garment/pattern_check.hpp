@@ -1,9 +1,9 @@
-// garment/pattern_check.hpp: what cannot be meant in a sewing pattern, and a summary of what is.
+// garment/pattern_check.hpp: checks of a sewing pattern, and its summary.
 //
-// Works on a Pattern in memory, whoever made it.  The reader (pattern_json.cpp) calls find_faults and adds file, line and
+// Works on a Pattern in memory, whatever its source.  The reader (pattern_json.cpp) calls find_faults and adds file, line and
 // JSON pointer; `toile check` prints the summary.
 //
-// What is easily got wrong: unequal lengths of two sewn edges are not a mistake, they are how cloth is gathered and eased.
+// Easily got wrong: unequal lengths of two sewn edges are not a mistake, they are how cloth is gathered and eased.
 // Only a ratio beyond `max_seam_ratio` is taken for a stitch that names the wrong edge.
 #pragma once
 #include "garment/pattern.hpp"
@@ -19,7 +19,7 @@ struct PatternLimits {
   static constexpr double max_seam_ratio = 6;       // longer edge / shorter edge of a stitch: gathers reach 5
   static constexpr double max_panel_m = 10;         // a panel's width and height; above, the unit is doubtful
   static constexpr double min_panel_m = 0.001;      // the larger of both; below, the unit is doubtful
-  static constexpr double min_edge_m = 1e-5;        // corners closer than this are one corner given twice
+  static constexpr double min_edge_m = 1e-5;        // corners closer than this are duplicates
   static constexpr double max_coordinate_m = 1000;  // of corners, control points and translations
   static constexpr double max_radius_m = 1e9;       // of a circle: nearly straight arcs have huge ones
   static constexpr double eased_ratio = 1.02;       // seams above count as eased

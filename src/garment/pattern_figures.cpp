@@ -32,7 +32,7 @@ std::vector<std::vector<char>> sewn_edges(const Pattern& pattern) {
   return sewn;
 }
 
-// Where a line along the arm begins and ends, in the frontal plane: middles of edges, weighted by their length.
+// The ends of a line along the arm in the frontal plane: middles of edges, weighted by their length.
 struct Middle {
   Vec2 sum{0, 0};
   double length_m = 0;
@@ -50,12 +50,12 @@ struct Middle {
   Vec2 point() const { return sum / length_m; }
 };
 
-// How far a direction in the frontal plane points below the level, away from the body's middle on this side.
+// The angle of a direction in the frontal plane below the horizontal, on this side of the body's middle.
 double below_level_deg(const Vec2& direction, int side) {
   return -ieee_atan2(direction.y(), side * direction.x()) * 180 / std::numbers::pi;
 }
 
-// A sleeve is drawn along an axis of its panel, and the panel is turned onto the arm.  The line from armhole to hem only says which axis: a cap that is
+// A sleeve is drawn along an axis of its panel, and the panel is turned onto the arm.  The line from armhole to hem only selects the axis: a cap that is
 // higher on one side, or flares, turn it by up to 45 degrees.  A panel that is not turned may be drawn slanted, or for arms that are level.
 constexpr double turned_deg = 1, slanted_deg = 30, highest_deg = -20, lowest_deg = 90;
 
@@ -75,7 +75,7 @@ double arm_angle_deg(const Panel& panel, int side, double hem_deg) {
   return turned || std::abs(nearest_deg - hem_deg) < slanted_deg ? nearest_deg : hem_deg;
 }
 
-// [panel] 1: of the left sleeve, -1: of the right one, 0: of neither.
+// [panel] 1: left sleeve, -1: right sleeve, 0: neither.
 std::vector<int> sleeve_sides(const Pattern& pattern, const BodyFigures& body) {
   const bool labelled = std::any_of(pattern.panels.begin(), pattern.panels.end(),
                                     [](const Panel& panel) { return !panel.label.empty(); });

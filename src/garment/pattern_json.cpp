@@ -3,11 +3,11 @@
 // Curvature in relative coordinates (a, b):  control = start + a e + b (-e_y, e_x),  e = end - start.
 // All lengths are divided by units_in_meter as they are read; relative coordinates have no unit.
 //
-// What is easily got wrong: stitches name edges by their number in the file.  When a loop is given out of order, its edges
+// Easily got wrong: stitches name edges by their number in the file.  When a loop is given out of order, its edges
 // move and the numbers do not, so both are kept.
 //
-// One reader serves two: who wants a garment gets the first thing that is wrong as an exception; the linter gets what there is, and says
-// more of it (garment/pattern_reading.hpp).
+// The reader has two modes: for a garment it throws at the first fault; for the linter it is lenient and returns all that can be read
+// (garment/pattern_reading.hpp).
 #include "garment/pattern_check.hpp"
 #include "garment/pattern_reading.hpp"
 #include "garment/pattern_values.hpp"
@@ -45,7 +45,7 @@ class PatternReader {
  public:
   PatternReader(const Json& root, bool leniently) : root_(root), leniently_(leniently) {}
 
-  // Leniently, `pattern` may be unsound: find_faults is not asked.
+  // Leniently, `pattern` may be unsound: find_faults is not called.
   PatternReading read(std::string_view file) {
     if (!root_.is_object()) root_.fail("an object with the key \"pattern\"", root_.describe());
     pattern_.name = pattern_name(file);
@@ -162,7 +162,7 @@ class PatternReader {
     return read_line(panel, json);
   }
 
-  // What edges and folds have in common.
+  // Common to edges and folds.
   PanelEdge read_line(const Panel& panel, const Json& json) const {
     const Json& ends = json.at("endpoints");
     if (!ends.is_array() || ends.array().size() != 2) ends.fail("two corners: [start, end]", ends.describe());
@@ -266,7 +266,7 @@ class PatternReader {
       }
       edge = next;
     }
-    if (edge != 0) {  // ran into the middle of its own track, as a 6 does
+    if (edge != 0) {  // returned to the middle of its own path, like a 6
       const auto last = static_cast<Index>(std::find(place.begin(), place.end(), ordered.size() - 1) - place.begin());
       json.array()[at(last)].fail("a closed loop through edge 0",
                                   name(last) + " ending at the beginning of " + name(edge));
@@ -296,7 +296,7 @@ class PatternReader {
     panel.translation_m += Vec3{mean.x(), mean.y(), 0};
   }
 
-  // What the format has no words for: docs/pattern-format.md, "The extension".
+  // Data beyond the format: docs/pattern-format.md, "The extension".
   void read_extension(Panel& panel) {
     const Json* json = extension_ != nullptr ? extension_->find(panel.name) : nullptr;
     if (json == nullptr) return;
@@ -364,7 +364,7 @@ class PatternReader {
   StitchSide read_side(const Json& json) const {
     if (!json.is_object()) json.fail("one side of a stitch: {\"panel\": ..., \"edge\": ...}", json.describe());
     json.allow_only({"panel", "edge"});
-    StitchSide side{-1, -1};  // what stays of it, leniently
+    StitchSide side{-1, -1};  // its value if it cannot be read, leniently
     try {
       side.panel = find_panel(json.at("panel"));
     } catch (const InputError&) {

@@ -1,7 +1,7 @@
-// garment/pattern_reading.hpp: a pattern file as it stands, also where it cannot be used: what the linter looks at.
+// garment/pattern_reading.hpp: a pattern file as it stands, even if it cannot be used: the linter's input.
 //
-// What is easily got wrong: of a panel whose edges form no loop, `edges` is in the order of the file, with -1 for corners that are not there;
-// of all others, in the order of the loop, as the reader gives it to everybody.
+// Easily got wrong: in a panel whose edges form no loop, `edges` is in the order of the file, with -1 for missing corners;
+// in all others it is in the order of the loop, as usual.
 #pragma once
 #include "garment/pattern.hpp"
 #include "garment/pattern_check.hpp"
@@ -13,22 +13,22 @@
 
 namespace toile::internal {
 
-struct PanelSource {  // where the parts of a panel stand in the file
+struct PanelSource {  // places of a panel's parts in the file
   const Json* panel = nullptr;
   std::vector<Index> place_of_edge;  // number in the file -> place in Panel::edges
   bool is_loop = true;               // one edge leaves each corner, and all are passed
 };
 
 struct PatternReading {
-  Pattern pattern;                   // a side of a stitch that there is not has panel or edge -1
+  Pattern pattern;                   // a missing side of a stitch has panel or edge -1
   std::vector<PanelSource> sources;  // [panel]
   const Json* stitches = nullptr;
   bool absolute_curves = false, centred_panels = false;  // "curvature_coords", "normalize_panel_translation"
   JsonPlaces places;                                     // of the folds
 };
 
-// `root` must outlive what is read.  Throws InputError for what leaves nothing to look at: missing keys, values of another type, words that
-// are not in the format.
+// `root` must outlive the result.  Throws InputError for files that cannot be read even leniently: missing keys, values of another type,
+// words that are not in the format.
 PatternReading read_pattern_leniently(const Json& root, std::string_view file);
 
 // The value in the file that a fault is about; `root` for one of the whole pattern.

@@ -1,7 +1,7 @@
-// garment/pattern_repair.hpp: changes to a pattern file that keep everything else in it: keys that we do not know, and the order of all.
+// garment/pattern_repair.hpp: edits a pattern file and keeps everything else in it: unknown keys, and the order of all.
 //
-// Edges and corners are named by their numbers in the file.  What is taken out or put in order moves the numbers behind it, in stitches
-// and in our extension, too.
+// Edges and corners are named by their numbers in the file.  Removing or reordering them renumbers the later ones, in stitches and in our
+// extension, too.
 #pragma once
 #include "core/types.hpp"
 #include "io/json_value.hpp"
@@ -18,7 +18,7 @@ class PatternRepair {
       : root_(&root), absolute_curves_(absolute_curves), centred_panels_(centred_panels) {}
 
   void set_ends(std::string_view panel, Index edge, Index start, Index end);
-  // Start and end change places; the curve stays where it is.
+  // Swaps start and end; the curve keeps its shape.
   void reverse_edge(std::string_view panel, Index edge);
   // order[k] is the number that edge k had.
   void reorder_edges(std::string_view panel, std::span<const Index> order);
@@ -26,12 +26,12 @@ class PatternRepair {
   void remove_edge(std::string_view panel, Index edge);
   // No edge may name it.
   void remove_corner(std::string_view panel, Index corner);
-  // Edges that ended at `corner` end at `other`, and the corner goes.
+  // Edges that ended at `corner` end at `other`, and the corner is removed.
   void merge_corner(std::string_view panel, Index corner, Index other);
   void swap_corners(std::string_view panel, Index a, Index b);
 
   void remove_stitch(Index stitch);
-  void turn_stitch(Index stitch);  // "right_wrong" comes, or goes
+  void turn_stitch(Index stitch);  // toggles "right_wrong"
   void set_side(Index stitch, int side, std::string_view panel, Index edge);
 
   // Turns a panel by half a turn about the vertical line x = `axis` of its plane, in file units, with the corners as drawn.

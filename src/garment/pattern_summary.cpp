@@ -2,7 +2,7 @@
 //
 // Areas are those of the outline sampled at about 1 mm (shoelace formula); lengths are arc lengths, not chords.
 //
-// What is easily got wrong: an outline may run clockwise; its signed area is then negative and its area is not.
+// Easily got wrong: an outline may run clockwise; its signed area is then negative and its area is not.
 #include "garment/pattern_check.hpp"
 
 #include <algorithm>

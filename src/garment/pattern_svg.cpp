@@ -1,6 +1,6 @@
 // garment/pattern_svg.cpp: see the header.
 //
-// What is easily got wrong: SVG has y down.  A point (x, y) is drawn at (x, -y), and an arc that turns counter-clockwise with y up has
+// Easily got wrong: SVG has y down.  A point (x, y) is drawn at (x, -y), and an arc that turns counter-clockwise with y up has
 // the sweep flag 0 there.
 #include "garment/pattern_svg.hpp"
 
@@ -66,7 +66,7 @@ class Drawing {
     std::vector<std::vector<Vec2>> points;  // [edge] cm
   };
 
-  // ---- where everything goes ----------------------------------------------------------------------------------------
+  // ---- layout of the drawing ----------------------------------------------------------------------------------------
 
   void measure() {
     double largest = 1e-3;
@@ -300,7 +300,7 @@ class Drawing {
               {"#909090", "none", 0.2 * unit_});
   }
 
-  // ---- what was found ------------------------------------------------------------------------------------------------------
+  // ---- the findings --------------------------------------------------------------------------------------------------------
 
   std::string_view colour_of(const LintFinding& finding) const {
     return finding.severity == Severity::note ? note_colour : mark_colour;

@@ -1,4 +1,4 @@
-// garment/pattern_values.hpp: words, numbers and indices of a pattern file, each with an error that says what was expected there.
+// garment/pattern_values.hpp: reads words, numbers and indices of a pattern file, with errors that say what was expected.
 #pragma once
 #include "core/types.hpp"
 #include "io/json.hpp"

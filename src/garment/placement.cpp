@@ -81,7 +81,7 @@ int edges_in_body(const GarmentMesh& garment, const BodyLines& body, const Vec3&
   return edges_in_body(garment, garment.mesh.triangles, body, shift);
 }
 
-// Panels that are in the body with this shift, each moved away from its middle until it is not: x, or nothing where one would have to go too far.
+// Panels that are in the body with this shift are each moved away from its middle until they are outside: x, or nothing if one would go too far.
 std::optional<Vec3s> moved_out(const GarmentMesh& garment, const BodyLines& body, const Vec3& middle,
                                const Vec3& shift) {
   std::vector<std::vector<Triangle>> panels(garment.mesh.panel_names.size());

@@ -94,7 +94,7 @@ void lay_pleats(const ClothMesh& mesh, Index panel, std::span<Vec3> x) {
         if (laid.contains(next)) continue;
         Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
         if (fold !=
-            angle_of.end()) {  // a ridge turns what is beyond the edge backwards, about the edge as this side walks it
+            angle_of.end()) {  // a ridge turns the part beyond the edge backwards, about the half edge of this side
           const Vec3 axis = (flat[at(j)] - flat[at(i)]).normalized();
           const double half = fold->second > 0 ? half_laid_rad : -half_laid_rad;
           const Eigen::Quaterniond q(ieee_cos(half), ieee_sin(half) * axis.x(), ieee_sin(half) * axis.y(),

@@ -22,10 +22,10 @@ struct Pleat {
   Index band_end = 0;  // the corner of the band that it is sewn to
 };
 
-// The pleat that three stitches of one edge are, given by their numbers in the pattern's order; none if they are something else.
+// The pleat that three stitches of one edge form, given by their numbers in the pattern's order; none if they do not.
 std::optional<Pleat> pleat_of(const Pattern& pattern, const std::vector<std::size_t>& stitches);
 
-// Of a pattern whose stitches all name edges that are there, by band.
+// The pleats of a pattern whose stitches all name existing edges, by band.
 std::vector<Pleat> pleats_of(const Pattern& pattern);
 
 struct CornerJoin {  // two corners that become one particle

@@ -1,8 +1,8 @@
-// garment/sleeves.hpp: sleeves are hung around the arms before they are sewn.                        docs/theory/sewing.md#placement
+// garment/sleeves.hpp: places sleeves around the arms before they are sewn.                          docs/theory/sewing.md#placement
 //
-// A sleeve is drawn beside its armhole, where its maker found room: ten centimetres above the arm, or at another angle than this body's.
-// Sewn there it closes beside the arm.  So every sleeve, with its cuff, is turned and moved in the frontal plane until the line from the
-// middle of its armhole to the middle of its hem lies on the arm; along the arm it stays where it was drawn.
+// A sleeve is drawn beside its armhole, often ten centimetres above the arm, or at another angle than this body's.  Sewn there it would
+// close beside the arm.  So every sleeve, with its cuff, is turned and moved in the frontal plane until the line from the middle of
+// its armhole to the middle of its hem lies on the arm; along the arm it keeps its place.
 #pragma once
 #include "garment/garment_mesh.hpp"
 
@@ -19,12 +19,12 @@ struct ArmLine {
   Vec3 direction{0, 0, 0};  // unit, towards the hand
 };
 
-// Left arm (at larger x) and right one.  Sleeves are the panels labelled "arm"; of a pattern without labels, those that hang beyond the root of
-// an arm, not far from its height.  Returns how far along each arm, from its root, they end (m; 0: there are none).
+// `arms`: left (at larger x) and right.  Sleeves are the panels labelled "arm"; in a pattern without labels, those that hang beyond the root
+// of an arm, near its height.  Returns the distance along each arm from its root to the sleeve's end (m; 0: no sleeve).
 std::array<double, 2> hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m);
 
-// Whether cloth lies above the root of the left arm and of the right one, over the shoulder: the arm has to go through the garment.  Skirts, trousers
-// and strapless tops end below it.
+// Whether cloth lies over the shoulder, above the root of the left arm and of the right one: then the arm has to go through the garment.
+// Skirts, trousers and strapless tops end below it.
 std::array<bool, 2> covers_shoulders(const GarmentMesh& garment, const std::array<ArmLine, 2>& arms);
 
 }  // namespace toile::internal

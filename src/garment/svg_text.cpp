@@ -6,7 +6,7 @@
 namespace toile::internal {
 namespace {
 
-// Text between tags: what XML reads as a mark is written as a name; a control character is no XML at all.
+// Text between tags: XML's special characters are escaped; control characters are not allowed in XML.
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {

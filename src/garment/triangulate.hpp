@@ -1,12 +1,12 @@
-// garment/triangulate.hpp: near-equilateral triangles inside a closed polygon whose boundary points are kept as they
-// are.
+// garment/triangulate.hpp: near-equilateral triangles inside a closed polygon whose boundary points are kept
+// unchanged.
 //
 // Constrained Delaunay with exact predicates (coordinates snapped to a 2^-20 m grid, 128-bit integers), interior
 // points on a jitter-free triangular lattice at `edge_m` away from the boundary, a few smoothing sweeps with
 // re-triangulation, then vertices inserted, removed or moved wherever a triangle is still poor.  Bending is isotropic
 // only on such meshes (docs/theory/bend.md).  How and how well: docs/theory/meshing.md.
 //
-// What a caller may get wrong: the sides must already be cut into pieces of about `edge_m`.  Nothing is ever inserted
+// Easily got wrong: the sides must already be cut into pieces of about `edge_m`.  Nothing is ever inserted
 // on the boundary, because the panel across the seam owns the same points; a side left uncut stays one long edge.
 #pragma once
 #include "core/types.hpp"
@@ -34,7 +34,7 @@ struct PlanarQuality {  // over all angles and over all edges, each edge once; z
 
 // `outline` is a simple closed polygon in metres, either orientation, without repeated points.  Equal input gives equal
 // bits, and an outline shifted by whole grid steps gives the same mesh shifted.  Where three outline points lie on
-// a line to within a micrometre, what is exact for the snapped points holds for the given ones only to that micrometre.
+// a line to within a micrometre, properties of the snapped points hold for the given ones only to that micrometre.
 // Throws InputError("", "point 12", ...) for points that are not finite, coincide (after snapping) or lie more than
 // 16 m from the middle, and for edges that cross, touch or fold back; InputError("", "outline", ...) for fewer than 3
 // points or an area that is zero; InputError("", "edge_m", ...) below 0.06 mm or for more than 2^24 interior points.

@@ -2,7 +2,7 @@
 // triangulate_improve.hpp.
 //
 // The quality of a triangle with longest edges a >= b >= c is (2 area / (a b))^2 = sin^2 of its smallest angle,
-// lowered by (limit / a)^4 when a exceeds the size limit.  No roots and no angles: the order is what matters.
+// lowered by (limit / a)^4 when a exceeds the size limit.  No roots and no angles: only the order matters.
 #include "garment/triangulate_improve.hpp"
 
 #include <algorithm>
@@ -134,7 +134,7 @@ class Improvement {
     return f != Delaunay::none && mesh_.insert(p, f) != Delaunay::none;
   }
 
-  // Makes the change, relaxes what it touched, and keeps the result only if it is better.
+  // Makes the change, relaxes the faces that it changed, and keeps the result only if it is better.
   template <class Change>
   bool attempt(const Change& change, const Triangle& corner) {
     mesh_.begin();
@@ -149,8 +149,8 @@ class Improvement {
     return false;
   }
 
-  // Moves the inner vertices of the faces changed so far (and of the triangle at the centre) to where their star is
-  // best.
+  // Moves the inner vertices of the faces changed so far (and of the triangle at the centre) to the best place in
+  // their star.
   void relax(const Triangle& centre) {
     movable_.clear();
     for (const Index v : centre) movable_.push_back(v);

@@ -1,4 +1,4 @@
-// garment/triangulate_improve.hpp: a Delaunay mesh made of better triangles, the outline untouched.
+// garment/triangulate_improve.hpp: improves the triangles of a Delaunay mesh; the outline is unchanged.
 #pragma once
 #include "garment/delaunay.hpp"
 

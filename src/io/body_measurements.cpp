@@ -22,7 +22,7 @@ std::string where(std::string_view file, const YAML::Mark& mark) {
   return std::string(file) + ':' + std::to_string(mark.line + 1) + ':' + std::to_string(mark.column + 1);
 }
 
-// yaml-cpp throws for what is no YAML, and for a node that is asked for what it is not.
+// yaml-cpp throws for invalid YAML, and for a node of another type than asked for.
 YAML::Node load(std::string_view text, std::string_view file) {
   if (text.find('\0') != std::string_view::npos) throw InputError(file, "", "YAML", "a NUL byte");
   try {
@@ -39,7 +39,7 @@ std::string describe(const YAML::Node& node) {
   return "nothing";
 }
 
-// A key of the file: where its value goes, and what a person can have.  In the file's units, cm or degrees.
+// A key of the file: where its value goes, and the range that is possible for a person, in the file's units, cm or degrees.
 struct Key {
   std::string_view name;
   std::optional<double> BodyMeasurements::*member;
@@ -58,7 +58,7 @@ constexpr std::array<Key, 10> keys = {{{"head_l", &BodyMeasurements::head_m, 10,
                                        {"hips", &BodyMeasurements::hips_girth_m, 30, widest_cm, m_per_cm},
                                        {"arm_pose_angle", &BodyMeasurements::arm_down_rad, 0, 90, rad_per_deg}}};
 
-// from_chars knows no locale, which the stream of yaml-cpp does.
+// from_chars ignores the locale; the stream of yaml-cpp does not.
 double number_in(const YAML::Node& node, std::string_view file, const std::string& name, double least, double most) {
   const std::string expected = fmt::sprintf("a number from %g to %g", least, most);
   if (!node.IsScalar()) throw InputError(where(file, node.Mark()), name, expected, describe(node));
@@ -134,7 +134,7 @@ BodyMeasurements parse_measurements(std::string_view text, std::string_view file
     }
   }
   if (!has_height) throw InputError(where(file, body.Mark()), "body.height", "the height in cm", "none");
-  // Each may be a person's, and all together nobody's.
+  // Each value may be possible by itself, and their combination impossible.
   require_below(file, "body.waist_line", measured.waist_m(), measured.hips_line_m.value_or(0),
                 "height - head_l - waist_line");
   require_below(file, "body.armscye_depth", measured.armpit_m(), measured.waist_m().value_or(0),

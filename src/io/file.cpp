@@ -22,7 +22,7 @@ std::string reason(std::string_view what, int error) {
   return std::string(what) + ": " + std::generic_category().message(error);
 }
 
-// The name that the system would see ends at a NUL byte: another file than the one asked for.
+// For the system the name would end at a NUL byte: another file than the one asked for.
 void check_name(const std::string& path) {
   if (path.empty()) throw IoError(path, "cannot open: the name is empty");
   if (path.find('\0') != std::string::npos) throw IoError(path, "cannot open: the name has a NUL byte");
@@ -52,7 +52,7 @@ int synchronize_folder(const std::string& folder) {
   return error;
 }
 
-// "<path>.<16 digits>.tmp", which nobody can guess.
+// "<path>.<16 digits>.tmp", unpredictable.
 std::string unguessable_name(const std::string& path) {
   std::uint64_t number = 0;
   if (::getrandom(&number, sizeof number, 0) != static_cast<ssize_t>(sizeof number))
@@ -71,7 +71,7 @@ std::string free_space(const std::string& path, std::uint64_t written) {
 
 std::FILE* open_regular_file(const std::string& path, std::uint64_t& size_bytes) {
   check_name(path);
-  // O_NONBLOCK: opening a pipe that nobody writes to would wait forever.
+  // O_NONBLOCK: opening a pipe without a writer would wait forever.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) throw IoError(path, reason("cannot open", errno));
   struct stat status {};
@@ -182,7 +182,7 @@ void AtomicFile::write(const void* data, std::size_t size) {
   size_ += size;
 }
 
-// The file gets its own name where nothing stands there; else one of which it is moved over the old file.
+// The file gets its name directly if no file has it; else a temporary name, which is renamed over the old file.
 void AtomicFile::give_name() {
   const std::string itself = "/proc/self/fd/" + std::to_string(::fileno(file_));
   const auto link_to = [&](const std::string& name) {

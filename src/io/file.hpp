@@ -17,12 +17,12 @@ std::string read_file(const std::string& path, std::size_t limit_bytes = std::si
 // core/hash.hpp: of all its bytes, in hexadecimal digits.  Throws IoError.
 std::string checksum_of_file(const std::string& path);
 
-// A regular file opened for reading, for the caller to close, and its size.  Throws IoError.
+// Opens a regular file for reading, for the caller to close, and returns its size too.  Throws IoError.
 std::FILE* open_regular_file(const std::string& path, std::uint64_t& size_bytes);
 
-// A file that appears under its name in commit(), complete: destroyed without it, nothing is left and what stood under the name stays.
+// A file that appears under its name in commit(), complete: without commit() nothing is left and an older file of that name stays.
 // Until then it has no name at all (O_TMPFILE), so that nothing can be planted or shared under it and a process that is killed leaves nothing
-// behind; where the file system has no such files, a name that nobody can guess, "<path>.<16 digits>.tmp", which is never followed nor reused.
+// behind; on file systems without O_TMPFILE it has an unpredictable name, "<path>.<16 digits>.tmp", which is never followed nor reused.
 // Throws IoError, naming the path and the system's reason, from every call.  The data are on the disk before the name is.
 class AtomicFile {
  public:
@@ -49,22 +49,22 @@ class AtomicFile {
   std::uint64_t size_ = 0;
 };
 
-// A file that grows while others may read it, and stays as far as it was written, whatever becomes of the process.
+// A file that is appended to while others may read it; the data written so far survive a crash of the process.
 // Throws IoError as AtomicFile does.
 class GrowingFile {
  public:
   enum class Open { create, existing };
-  // create: there must be nothing under the name.  Links are not followed.
+  // create: there must be no file of that name.  Links are not followed.
   GrowingFile(std::string path, Open how);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
 
-  // All of it at the end, or an error, and then the size is what it was.
+  // Appends all bytes, or throws and leaves the size as it was.
   void append(const void* data, std::size_t size);
   void overwrite(std::uint64_t offset, const void* data, std::size_t size);
   void truncate(std::uint64_t size);
-  // What was written until now is on the disk afterwards.  May be called while another thread appends.
+  // Flushes the data written so far to the disk.  May be called while another thread appends.
   void synchronize() const;
 
   std::uint64_t size() const { return size_; }
@@ -78,12 +78,12 @@ class GrowingFile {
   std::uint64_t size_ = 0;
 };
 
-// Removes a file or a link, if there is one.  Throws IoError.
+// Removes a file or a link, if it exists.  Throws IoError.
 void remove_file(const std::string& path);
-// The names that came into the folder or left it are on the disk afterwards.  Throws IoError.
+// Flushes the folder's entries to the disk.  Throws IoError.
 void synchronize_directory(const std::string& directory);
 
-// Creates the directory and its parents, as far as they are missing; "" is the current one.  Throws IoError.
+// Creates the directory and its missing parents; "" is the current one.  Throws IoError.
 void make_directories(const std::string& path);
 
 }  // namespace toile::internal

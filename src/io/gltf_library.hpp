@@ -1,6 +1,6 @@
-// io/gltf_library.hpp: tinygltf, as it is used here: its structure of a file, and nothing else of it.
+// io/gltf_library.hpp: tinygltf as it is used here: only its parser and data structures.
 //
-// No images, and no files: what it asks for comes through a callback of ours.  Under a name of its own, so that a program that is linked with
+// Without images and file access: files are read through a callback of ours.  In a namespace of its own, so that a program that links
 // libtoile may have another tinygltf.
 #pragma once
 #define tinygltf tinygltf_of_toile

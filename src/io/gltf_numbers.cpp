@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "buffers are little-endian, and so must the machine be");
 
-// 0: none that the format has.
+// 0: not a type of the format.
 std::size_t component_bytes(int component) {
   switch (component) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -77,7 +77,7 @@ void GltfNumbers::fail(const std::string& place, const std::string& expected, co
 
 const unsigned char* GltfNumbers::data(const std::string& place, int view_number, std::size_t offset, std::size_t count,
                                        std::size_t size, std::size_t& stride) const {
-  constexpr std::size_t stride_limit = 252;  // of the format
+  constexpr std::size_t stride_limit = 252;  // by the format
   const auto& views = model_->bufferViews;
   if (view_number < 0 || static_cast<std::size_t>(view_number) >= views.size())
     fail(place + "/bufferView", "a number below " + std::to_string(views.size()), std::to_string(view_number));
@@ -157,7 +157,7 @@ std::vector<double> GltfNumbers::read(int number, int type, std::size_t count_li
     for (std::size_t i = 0; i < accessor.count; ++i)
       for (std::size_t c = 0; c < components; ++c)
         values.push_back(component_at(bytes + i * stride + c * size, accessor.componentType, accessor.normalized));
-  } else {  // zeros, but for what is sparse
+  } else {  // zeros, except for the sparse entries
     if (accessor.count > bytes_)
       fail(place + "/count", "no more than the file has bytes, as it has no data", std::to_string(accessor.count));
     values.assign(accessor.count * components, 0);

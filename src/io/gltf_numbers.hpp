@@ -1,6 +1,6 @@
 // io/gltf_numbers.hpp: the numbers of a glTF accessor, of every component type, normalised or not, sparse or not.
 //
-// The library hands through whatever a file says: every index, offset and length is checked here before a byte is read.
+// The library does not validate the file: every index, offset and length is checked here before a byte is read.
 #pragma once
 #include "io/gltf_library.hpp"
 
@@ -12,13 +12,13 @@ namespace toile::internal {
 
 class GltfNumbers {
  public:
-  // `bytes` is the size of all that the file is made of: an accessor without data of its own has at most so many entries.
+  // `bytes` is the total size of the file and its buffers: an accessor without data of its own has at most so many entries.
   GltfNumbers(const tinygltf::Model& model, std::string file, std::size_t bytes)
       : model_(&model), file_(std::move(file)), bytes_(bytes) {}
 
   // [count * components] of an accessor of type TINYGLTF_TYPE_..., all finite.  Throws InputError naming the accessor.
   std::vector<double> read(int accessor, int type, std::size_t count_limit) const;
-  // Of indices: whole numbers that are not normalised.
+  // For indices: integers that are not normalised.
   std::vector<double> read_indices(int accessor, std::size_t count_limit) const;
 
  private:

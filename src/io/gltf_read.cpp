@@ -1,9 +1,9 @@
 // io/gltf_read.cpp: glTF 2.0, as text (.gltf) and binary (.glb): the meshes of its scene, at rest.
 //
-// An object is what hangs from one node of the scene's roots.  A group is a mesh, by the name of its node, or of several primitives each by its
-// material.  The second number of a texture coordinate points down in glTF and up here: v = 1 - v.  Lengths are metres, y is up: glTF's own.
+// An object is the subtree of one root node of the scene.  A group is a mesh, by its node's name; of a mesh with several primitives each is one,
+// by its material's name.  The second number of a texture coordinate points down in glTF and up here: v = 1 - v.  Lengths are metres, y is up: glTF's own.
 //
-// Easily missed: the node of a skinned mesh does not move it; its skeleton does, which is not read.
+// Easily missed: a skinned mesh is not moved by its node but by its skeleton, which is not read.
 #include "core/error.hpp"
 #include "io/gltf_numbers.hpp"
 #include "io/gltf_text.hpp"
@@ -104,7 +104,7 @@ class GltfReader {
  private:
   std::string node_place(int node) const { return "/nodes/" + std::to_string(node); }
 
-  // Its own of the node, without those above it.
+  // The node's own transform, without those of its parents.
   Mat4 transform_of(int number) const {
     const tinygltf::Node& node = model_.nodes[at(number)];
     const auto sized = [&](const std::vector<double>& values, std::size_t count, const char* name) {
@@ -148,7 +148,7 @@ class GltfReader {
       throw InputError(file_, place, "a node below " + std::to_string(model_.nodes.size()), std::to_string(node));
   }
 
-  // The nodes that hang from no other.
+  // The root nodes.
   std::vector<int> roots() const {
     std::vector<char> below(model_.nodes.size(), 0);
     for (std::size_t i = 0; i < model_.nodes.size(); ++i)

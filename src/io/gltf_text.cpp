@@ -11,7 +11,7 @@
 namespace toile::internal {
 namespace {
 
-constexpr int depth_limit = 64;  // arrays and objects inside each other: the library goes down by recursion
+constexpr int depth_limit = 64;  // nested arrays and objects: the library parses by recursion
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   std::uint32_t word = 0;
@@ -51,7 +51,7 @@ nlohmann::json parse_json(std::string_view text, std::string_view file) {
   }
 }
 
-// What must be understood to read the file, and is not.  Of materials, textures and lights nothing is read.
+// Required extensions that are not supported.  Materials, textures and lights are not read.
 void check_extensions(const nlohmann::json& root, std::string_view file) {
   const auto required = root.find("extensionsRequired");
   if (required == root.end() || !required->is_array()) return;

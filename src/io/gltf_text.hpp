@@ -1,4 +1,4 @@
-// io/gltf_text.hpp: the JSON of a glTF file, looked through before the library reads it.
+// io/gltf_text.hpp: checks the JSON of a glTF file before the library reads it.
 #pragma once
 #include <string>
 #include <string_view>
@@ -9,13 +9,13 @@ namespace toile::internal {
 bool is_glb(std::string_view bytes);
 bool is_gltf_text(std::string_view bytes);
 
-// Of a text the whole, of a .glb its first chunk.  Throws InputError for a header that is none.
+// The JSON: all of a text file, the first chunk of a .glb.  Throws InputError for an invalid header.
 std::string_view gltf_json_of(std::string_view bytes, std::string_view file);
 
-// Throws InputError for what is no JSON, is nested deeper than a stack can take, or asks for an extension that is not read here.
+// Throws InputError for invalid JSON, nesting too deep for the stack, or a required extension that is not supported.
 void check_gltf_text(std::string_view bytes, std::string_view file);
 
-// The names of buffers that are files of their own.
+// The names of external buffer files.
 std::vector<std::string> gltf_buffers_beside(std::string_view bytes);
 
 }  // namespace toile::internal

@@ -1,7 +1,7 @@
 // io/gltf_write.cpp: a binary glTF (.glb): a node per garment, below it one per panel with a mesh of the panel's name.
 //
-// Vertices are split where the drawing has a seam, and between panels; normals are those of the whole surface, so that a seam does not show.  The
-// second number of a texture coordinate points down in glTF and up here: v = 1 - v.  What a panel is made of is its material.
+// Vertices are split along texture seams and between panels; normals are those of the whole surface, so that a seam does not show.  The
+// second number of a texture coordinate points down in glTF and up here: v = 1 - v.  A panel's fabric is its material.
 #include "core/error.hpp"
 #include "io/file.hpp"
 #include "io/json_text.hpp"
@@ -20,10 +20,10 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file is little-endian, and so must the machine be");
 
-// Of the format, for accessors and views.
+// Constants of the format, for accessors and views.
 constexpr int component_float = 5126, component_uint32 = 5125, target_vertices = 34962, target_indices = 34963;
 
-// [vertex] of the surface, by the areas of the triangles around it; up where there are none.
+// [vertex] normals of the surface, weighted by area; up for a vertex without triangles.
 Vec3s normals_of(const SurfaceMesh& mesh) {
   Vec3s normals(mesh.positions.size(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles) {
@@ -145,7 +145,7 @@ class GlbText {
     json.end_array();
   }
 
-  // Panels hang from their garments; a garment that is one surface without a name is its node.
+  // Panels are children of their garments; a garment of one unnamed surface is a single node.
   void add_nodes(JsonText& json) const {
     struct Node {
       std::string name;

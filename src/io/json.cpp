@@ -69,8 +69,8 @@ std::string place_in(std::string_view file, int line, int column) {
 
 std::string in_quotes(std::string_view name) { return '"' + printable(name) + '"'; }
 
-// What the parser's message says it wanted ("; expected X") and met ("- unexpected Y", "- invalid Z; last read: ...").
-// What it has last read is left out: it repeats everything since the last string or number.
+// The parts of the parser's message: "; expected X" and "- unexpected Y" or "- invalid Z; last read: ...".
+// "last read" is left out: it repeats everything since the last string or number.
 struct SyntaxComplaint {
   std::string expected = "JSON";
   std::string got;
@@ -106,7 +106,7 @@ std::string pointer_step(std::string_view key) {
 
 // Receives the parser's events and puts the values into their containers.
 //
-// A token's place: between the end of what was read at the previous event and the token itself stand only white space,
+// A token's place: between the end of the text read at the previous event and the token there are only white space,
 // commas and colons, so its first character is the next other one.  The parser reads one character past a number; that
 // this character may belong to what follows does no harm, as only a comma, a bracket or white space can follow.
 class JsonBuilder {
@@ -168,7 +168,7 @@ class JsonBuilder {
     const char* const start = separator ? last : std::min(skip_separators(previous_), last);
     counter_.advance(start);
     if (error.id == 406) fail("a finite number", word_at(start));                  // beyond double: 1e999
-    if (!complaint.got.ends_with('\'')) complaint.got += " at " + word_at(start);  // a bracket speaks for itself
+    if (!complaint.got.ends_with('\'')) complaint.got += " at " + word_at(start);  // a bracket needs no "at"
     fail(complaint.expected, complaint.got);
   }
 
@@ -187,7 +187,7 @@ class JsonBuilder {
                      open_.empty() ? std::string() : printable(open_.back().value.pointer()), expected, got);
   }
 
-  // A number or literal as it stands in the text; of a string what has been read.
+  // A number or literal as it stands in the text; of a string the part that has been read.
   std::string word_at(const char* start) const {
     if (start != end_ && *start == '"') return printable({start, static_cast<std::size_t>(read_ - start)});
     const std::string_view rest(start, static_cast<std::size_t>(end_ - start));
@@ -209,7 +209,7 @@ class JsonBuilder {
     begin_token();
     const auto [end, error] = std::from_chars(start_, end_, value);
     static_cast<void>(end);
-    static_cast<void>(error);  // out of range here means too small: `value` stays what the parser made of it
+    static_cast<void>(error);  // out of range here means too small: `value` keeps the parser's result
     return put(leaf(value));
   }
 
@@ -307,7 +307,7 @@ class JsonBuilder {
   std::shared_ptr<const std::string> file_;
   const char* begin_;
   const char* end_;
-  const char* read_;      // what the parser has read, exclusively
+  const char* read_;      // end of the text that the parser has read, exclusive
   const char* previous_;  // read_ at the previous event
   const char* start_ = nullptr;
   LineCounter counter_;
@@ -322,13 +322,13 @@ Json Json::parse(std::string_view text, std::string_view file) {
                      std::to_string(text.size()));
   }
   if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
-  // The parser takes a NUL byte for the end of the text and would not look at what stands behind.
+  // The parser takes a NUL byte for the end of the text and would ignore the rest.
   if (const auto nul = text.find('\0'); nul != std::string_view::npos) {
     LineCounter counter(text.data());
     counter.advance(text.data() + nul);
     throw InputError(place_in(file, counter.line(), counter.column()), "", "JSON", "a NUL byte");
   }
-  if (text.empty()) text = "";  // a null pointer is no iterator
+  if (text.empty()) text = "";  // a null pointer is not a valid iterator
   return JsonBuilder(text, file).build();
 }
 

@@ -1,12 +1,12 @@
-// io/json.hpp: JSON that remembers where everything stood, so that an error can name file, line and pointer.
+// io/json.hpp: JSON values that keep their place in the file, so that an error can name file, line and pointer.
 //
 // Values keep their source line and column (both from 1; columns count characters, not bytes) and objects the order of
-// their keys.  Errors: a duplicate key, a number beyond double, text that is not UTF-8, a NUL byte, and whatever
-// exceeds the limits below.  The getters throw InputError of the form
+// their keys.  Errors: a duplicate key, a number beyond double, text that is not UTF-8, a NUL byte, and text beyond
+// the limits below.  The getters throw InputError of the form
 //   scene.json:14:22: /cloth/0/density_kg_per_m2: expected a finite number > 0, got -0.2
 //
-// Easily missed: a Json refers to nothing outside itself.  It may be copied out of its parent and outlive it, and still
-// knows its place.
+// Easily missed: a Json holds no references to its parent.  It may be copied out of it and outlive it, and keeps its
+// place.
 #pragma once
 #include "core/error.hpp"
 
@@ -33,7 +33,7 @@ class Json {
   static constexpr std::size_t text_limit = std::size_t{64} << 20;   // bytes
   static constexpr std::size_t string_limit = std::size_t{1} << 20;  // bytes of a key or a string
   static constexpr std::size_t value_limit = 2'000'000;              // values in one text
-  static constexpr std::size_t depth_limit = 64;                     // arrays and objects inside each other
+  static constexpr std::size_t depth_limit = 64;                     // nested arrays and objects
 
   // `file` is used in messages only.  A UTF-8 byte order mark is skipped.  Throws InputError with line and column.
   static Json parse(std::string_view text, std::string_view file);
@@ -76,13 +76,13 @@ class Json {
 
   // An error at this value.
   [[noreturn]] void fail(std::string_view expected, std::string_view got) const;
-  // "the string \"abc\"", "-0.2", "an array of 3": what a message says was found.
+  // "the string \"abc\"", "-0.2", "an array of 3": the "got" of a message.
   std::string describe() const;
 
  private:
   friend class JsonBuilder;
 
-  // A place is a step from the one around it, so that a long key costs once and not in every pointer below it.
+  // A place is stored relative to its parent's, so that a long key is stored once and not in every pointer below it.
   // Elements of an array that are neither array nor object share the place of the array; all other values have their
   // own.
   struct Place {

@@ -1,7 +1,7 @@
-// io/json_places.hpp: where in a file that stands of which a model was made: beside the model, for what is found wrong with it later.
+// io/json_places.hpp: maps the elements of a model to their places in the file, for errors that are found later.
 //
-// The model knows nothing of files.  What is found in it throws an InputError about a path of it (InputError::of); whoever has both completes
-// the message: "scene.json:4:5: /solids/0/moves/2: expected ..."
+// The model knows nothing of files.  An error in it throws an InputError about a path of the model (InputError::of); the caller that has both
+// completes the message: "scene.json:4:5: /solids/0/moves/2: expected ..."
 #pragma once
 #include "core/error.hpp"
 #include "io/json.hpp"
@@ -14,15 +14,15 @@ namespace toile::internal {
 
 class JsonPlaces {
  public:
-  // What is at `path` of the model was read from this value; messages say `note` behind its pointer.
+  // The element at `path` of the model was read from this value; messages append `note` to its pointer.
   void add(std::string path, const Json& value, std::string_view note = {});
-  // Of a model whose paths are the pointers of its file.
+  // For a model whose paths are the pointers of its file.
   void add(const Json& value) { add(value.pointer(), value); }
 
-  // The same where the file says of what the error is about; otherwise the error.  A place that begins with a slash goes on from there.
+  // The error with its place in the file, if the file has it; otherwise the error itself.  A place that begins with a slash is appended.
   InputError complete(const InputError& error) const;
 
-  // What the work throws is complete.
+  // Runs `work`; errors that it throws are completed.
   template <class Work>
   decltype(auto) complete_errors_of(const Work& work) const {
     try {

@@ -2,7 +2,7 @@
 //
 //   JsonText text;  text.begin_object();  text.member("frames", 75);  text.end_object();  text.str()
 //
-// A number that is not finite becomes null, and a byte that is not UTF-8 U+FFFD: JSON has no other words for them.
+// A number that is not finite becomes null, and a byte that is not UTF-8 U+FFFD: JSON cannot express them.
 #pragma once
 #include "core/utf8.hpp"
 
@@ -49,7 +49,7 @@ class JsonText {
     text_.append(digits, std::to_chars(digits, digits + sizeof digits, x).ptr);
   }
   void null() { raw("null"); }
-  // What is JSON already.
+  // Inserts text that is JSON already.
   void raw(std::string_view json) {
     next();
     text_ += json;

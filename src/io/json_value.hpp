@@ -1,7 +1,7 @@
-// io/json_value.hpp: JSON that can be changed and written again.
+// io/json_value.hpp: JSON values that can be edited and written again.
 //
-// Keys keep their order and numbers their bits; what nobody touches stays what it was.  Places in the file are forgotten: who needs them
-// reads a Json.
+// Keys keep their order and numbers their bits; unedited values stay as they were.  Places in the file are not kept: for those use
+// Json.
 #pragma once
 #include "io/json.hpp"
 
@@ -25,9 +25,9 @@ struct JsonValue {
   JsonValue(Object object) : value(std::move(object)) {}
   explicit JsonValue(const Json& json);
 
-  // nullptr where this is no object, or has no such key.
+  // nullptr if this is no object, or has no such key.
   JsonValue* find(std::string_view key);
-  // The member, made where it is missing; what is no object becomes one.
+  // The member, added if it is missing; a value that is no object becomes one.
   JsonValue& member(std::string_view key);
   // nullptr where this is no array or object.
   Array* array() { return std::get_if<Array>(&value); }
@@ -36,7 +36,7 @@ struct JsonValue {
   const std::string* string() const { return std::get_if<std::string>(&value); }
 };
 
-// What fits into a line of 100 characters stands on one; ends with a line feed.
+// Values that fit into a line of 100 characters are written on one line; ends with a line feed.
 std::string to_text(const JsonValue& value);
 
 }  // namespace toile::internal

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 // The largest file that a mesh may be made of, bytes.
 constexpr std::size_t file_limit = std::size_t{1} << 31;
 
-// ".ply" of "shirt.PLY"; only these 26 letters, whatever the locale.
+// ".ply" of "shirt.PLY"; ASCII letters only, in every locale.
 std::string ending_of(std::string_view path) {
   std::string ending = fs::path(path).extension().string();
   for (char& c : ending)
@@ -30,7 +30,7 @@ const MeshReader* by_ending(const std::string& ending) {
   return nullptr;
 }
 
-// The content decides; where it says nothing, the ending does.
+// The content decides; where it is ambiguous, the extension.
 const MeshReader& reader_of(std::string_view bytes, const std::string& path, std::vector<std::string>& notes) {
   const std::string ending = ending_of(path), file = printable(path);
   const MeshReader* const named = by_ending(ending);
@@ -41,13 +41,13 @@ const MeshReader& reader_of(std::string_view bytes, const std::string& path, std
                       ", and is read as such");
     return reader;
   }
-  if (named != nullptr) return *named;  // whose reader says what is wrong
+  if (named != nullptr) return *named;  // its reader reports the error
   const std::string_view line = bytes.substr(0, std::min(bytes.find_first_of("\r\n"), std::size_t{40}));
   throw InputError(file, "format", mesh_formats_in_words(),
                    line.empty() ? "an empty line" : '"' + printable(line) + '"');
 }
 
-// A file in the folder of `path`, or below it, whatever links there are.
+// A file in the folder of `path`, or below it, with links resolved.
 std::string inside_folder_of(const std::string& path, std::string_view name) {
   const fs::path wanted(name), folder = fs::path(path).parent_path();
   const auto refuse = [&](std::string_view got) {
@@ -115,7 +115,7 @@ std::vector<std::string> files_of_mesh(const std::string& path) {
     const MeshReader& reader = reader_of(bytes, path, notes);
     if (reader.names_beside == nullptr) return files;
     for (const std::string& name : reader.names_beside(bytes)) files.push_back(inside_folder_of(path, name));
-  } catch (const Error&) {  // who reads it says what is wrong
+  } catch (const Error&) {  // the reader reports the error
     files.resize(1);
   }
   return files;

@@ -1,7 +1,7 @@
-// io/mesh_file.hpp: a surface from a file of any format that is read here, told apart by its content.             docs/scenes.md#mesh-files
+// io/mesh_file.hpp: reads a surface from a file of any supported format, recognised by its content.               docs/scenes.md#mesh-files
 //
-// A file says what it is by its first bytes ("ply", "glTF", "{"); OBJ has none, and is what the others are not.  A name whose ending says
-// something else is told in the mesh's notes.
+// The first bytes identify a format ("ply", "glTF", "{"); OBJ has no such mark and is the fallback.  A file name with the extension of
+// another format is noted in the mesh's notes.
 #pragma once
 #include "io/surface_mesh.hpp"
 
@@ -12,40 +12,40 @@
 
 namespace toile::internal {
 
-// What a reader gets.
+// The input of a reader.
 struct MeshSource {
   std::string_view bytes;
-  std::string file;  // as messages show it
-  // The bytes of a file that this one names.  Throws InputError for a name that leads out of this one's folder, IoError.
+  std::string file;  // its name in messages
+  // The bytes of a file that this one refers to.  Throws InputError for a name that leads out of this one's folder, IoError.
   std::function<std::string(std::string_view name)> beside;
 };
 
 struct MeshReader {
   std::string_view name;                  // "PLY"
-  std::vector<std::string_view> endings;  // ".ply", in small letters
+  std::vector<std::string_view> endings;  // ".ply", in lower case
   bool (*is_it)(std::string_view bytes);  // by the content
   SurfaceMesh (*read)(const MeshSource& source);
-  // Files that it is made of besides, as MeshSource::beside takes them; nullptr: none.
+  // Other files that it consists of, as MeshSource::beside takes them; nullptr: none.
   std::vector<std::string> (*names_beside)(std::string_view bytes);
 };
 
-// The formats that are read (mesh_formats.cpp).
+// The readable formats (mesh_formats.cpp).
 const std::vector<MeshReader>& mesh_readers();
 // "OBJ, PLY or glTF"
 std::string mesh_formats_in_words();
-// The name of the format that parse_mesh takes it for.
+// The name of the format that parse_mesh recognises.
 std::string_view mesh_format_of(std::string_view bytes, const std::string& path);
-// The name ends as a mesh file's: in small or capital letters.
+// The name has the extension of a mesh format, in lower or upper case.
 bool has_mesh_ending(std::string_view path);
 
 using BytesSeen = std::function<void(std::string_view bytes)>;
-// `path` is where `bytes` come from: its ending and its folder count.  `beside` sees the bytes of every other file that belongs to it.
+// `path` is the source of `bytes`: its extension and its folder matter.  `beside` sees the bytes of every other file that belongs to it.
 // Throws InputError and IoError.
 SurfaceMesh parse_mesh(std::string_view bytes, const std::string& path, const BytesSeen& beside = {});
-// The whole file; `seen` sees it first.
+// Reads the whole file; `seen` is called with its bytes first.
 SurfaceMesh load_mesh(const std::string& path, const BytesSeen& seen = {});
 
-// The file and those that it names in its own folder; a path that cannot be read is given back alone.
+// The file and the files in its folder that it refers to; for a path that cannot be read, the path alone.
 std::vector<std::string> files_of_mesh(const std::string& path);
 
 }  // namespace toile::internal

@@ -1,4 +1,4 @@
-// io/mesh_formats.hpp: the formats of meshes, read and written: a format is its own file and its lines here.        ARCHITECTURE.md#how-to-add
+// io/mesh_formats.hpp: the mesh formats: each has files of its own and its lines here.                           ARCHITECTURE.md#how-to-add
 #pragma once
 #include "io/mesh_file.hpp"
 #include "io/mesh_writer.hpp"

@@ -16,7 +16,7 @@ class Check {
  public:
   explicit Check(const std::string& path) : path_(path) {}
 
-  // `finite` as a float: 1e39 is not.
+  // Finite as a float: 1e39 is not.
   void number(std::string_view kind, std::size_t i, double value) const {
     if (!std::isfinite(static_cast<float>(value))) {
       char digits[32];

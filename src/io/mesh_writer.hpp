@@ -1,6 +1,6 @@
-// io/mesh_writer.hpp: a surface as a file of any format that is written here.                                     docs/howto/export.md
+// io/mesh_writer.hpp: writes a surface as a file of any supported format.                                        docs/howto/export.md
 //
-// Numbers are rounded to float; the same surface gives the same bytes.  A file appears when it is complete (io/file.hpp).
+// Numbers are rounded to float; the same surface gives the same bytes.  A file appears under its name when it is complete (io/file.hpp).
 #pragma once
 #include "io/surface_mesh.hpp"
 
@@ -17,9 +17,9 @@ struct MeshWriter {
   void (*write)(const std::string& path, const SurfaceMesh& mesh);
 };
 
-// The formats that are written (mesh_formats.hpp).
+// The writable formats (mesh_formats.hpp).
 const std::vector<MeshWriter>& mesh_writers();
-// By name, or else by the ending of `path`; nullptr: none.
+// By name, or else by the extension of `path`; nullptr: none.
 const MeshWriter* mesh_writer_named(std::string_view name);
 const MeshWriter* mesh_writer_for(std::string_view path);
 // "obj, ply or gltf"
@@ -29,10 +29,10 @@ std::string mesh_writers_in_words();
 
 // Throws InputError naming `path`: arrays that do not fit together, indices out of range, numbers that no float can hold.
 void check_writable(const std::string& path, const SurfaceMesh& mesh);
-// A name that stays on its line: control characters become "_".
+// The name on one line: control characters become "_".
 std::string name_on_one_line(std::string_view name);
 
-// Triangles of one object and one group, in order of first appearance, as they are in the mesh.
+// The triangles of one object and group; pieces in order of first appearance, triangles in the order of the mesh.
 struct MeshPiece {
   Index object = -1, group = -1;  // -1: the mesh has none
   std::vector<std::size_t> triangles;
@@ -43,7 +43,7 @@ std::vector<MeshPiece> pieces_of(const SurfaceMesh& mesh);
 struct SplitVertices {
   std::vector<Index> position, texcoord;  // [vertex] of the mesh; texcoord -1: none
   std::vector<Triangle> triangles;
-  bool has_uv = false;  // every corner has one; if not, none counts
+  bool has_uv = false;  // every corner has one; otherwise uv is not used
 };
 SplitVertices split_vertices(const SurfaceMesh& mesh, const std::vector<std::size_t>& triangles);
 

@@ -1,4 +1,4 @@
-// io/no_gltf.cpp: in place of gltf_*.cpp where tinygltf is missing: knows the format and cannot read it.
+// io/no_gltf.cpp: replaces gltf_*.cpp in builds without tinygltf: recognises the format and refuses it.
 #include "core/error.hpp"
 #include "io/mesh_formats.hpp"
 

@@ -3,7 +3,7 @@
 //
 // Read: v, vt, f (v, v/vt, v//vn, v/vt/vn; negative indices count back from the last), g, o, "\" at the end of a line.
 // Checked and then ignored: normals, colours and weights, materials, smoothing, lines and points.  Refused: free-form
-// surfaces and whatever else the format does not have.
+// surfaces and all statements that the format does not have.
 //
 // Easily missed: `g` and `o` are independent and each holds until the next of its kind; one group name in two objects
 // is one group.

@@ -29,7 +29,7 @@ class Words {
     return text_.substr(begin, at_ - begin);
   }
 
-  // What is left of this line, without the blanks around it: a name.
+  // The rest of this line, trimmed: a name.
   std::string_view rest() {
     while (!at_end() && is_blank(text_[at_])) ++at_;
     const std::size_t begin = at_;
@@ -96,7 +96,7 @@ class ObjReader {
  public:
   ObjReader(std::string_view text, std::string_view file) : words_(text), file_(file) {}
 
-  // The first word of the text is one of the format: there is nothing else to know it by.
+  // The first word of the text is a keyword of the format, which has no other mark.
   bool begins_well() {
     std::string_view keyword;
     while (keyword.empty() && !words_.at_end()) {
@@ -166,7 +166,7 @@ class ObjReader {
     return std::find(std::begin(harmless), std::end(harmless), keyword) != std::end(harmless);
   }
 
-  // "1", "-1.5e-3", "+2."; nothing else may stand in the word.  from_chars knows no locale.
+  // "1", "-1.5e-3", "+2."; nothing else may stand in the word.  from_chars ignores the locale.
   double parse_number(std::string_view word, std::string_view place) const {
     std::string_view digits = word;
     if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
@@ -220,7 +220,7 @@ class ObjReader {
     mesh_.texcoords.push_back(uv);
   }
 
-  // The index in `word`, from 0.  It may lie beyond `count`, what the file has defined so far, but not below it.
+  // The index in `word`, from 0.  It may lie beyond `count`, the number defined so far, but not below 0.
   Index parse_index(std::string_view word, std::size_t count, bool texcoord) {
     const auto refuse = [&] {
       const std::string range =

@@ -52,7 +52,7 @@ std::string with_positions(std::string_view text, std::span<const Vec3> position
   std::size_t count = 0;
   std::string line;
   for (std::size_t begin = 0; begin < text.size();) {
-    // A line and what "\" continues it with; in a comment a "\" means nothing.
+    // A line and its continuations by "\"; in a comment a "\" means nothing.
     line.clear();
     std::size_t end = line_end(text, begin), from = begin;
     for (;;) {

@@ -11,9 +11,9 @@
 
 namespace toile::internal {
 
-// The text with the k-th `v` line holding positions[k], written so that it reads back to the same double; what follows
-// the three coordinates on such a line (weight, colour) stays.  A position equal to the file's leaves its line as it is.
-// `text` must be what parse_obj (io/obj.hpp) took.  Throws InputError, naming `file`, when the number of `v` lines is
+// The text with the k-th `v` line holding positions[k], written so that it reads back to the same double; the rest of
+// such a line (weight, colour) stays.  A position equal to the file's leaves its line as it is.
+// `text` must be valid for parse_obj (io/obj.hpp).  Throws InputError, naming `file`, when the number of `v` lines is
 // not that of the positions.
 std::string with_positions(std::string_view text, std::span<const Vec3> positions, std::string_view file);
 

@@ -8,7 +8,7 @@
 namespace toile::internal {
 namespace {
 
-// A text on its way to the file, in large pieces.
+// Buffers the text for the file.
 class ObjText {
  public:
   explicit ObjText(AtomicFile& file) : file_(file) {}
@@ -54,7 +54,7 @@ void write_obj(const std::string& path, const SurfaceMesh& mesh) {
     text.name(mesh.object_names[at(piece.object)]);
     text.end_line();
   };
-  // Programs that read one object per `o` expect its vertices behind it.
+  // Programs that read one object per `o` expect its vertices after it.
   const bool one_object = !pieces.empty() && pieces.front().object == pieces.back().object;
   if (one_object && !mesh.object.empty()) write_object(pieces.front());
 

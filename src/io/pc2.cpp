@@ -74,7 +74,7 @@ std::unique_ptr<Pc2Writer> Pc2Writer::resume(const std::string& path, Index poin
     writer->checksums_.push_back(reader.frame_checksum());
   }
   writer->samples_ = samples;
-  // The count first: frames that it does not count may be there, frames that are not there may not be counted.
+  // The count first: the file may have frames beyond the count, but never fewer.
   writer->write_count();
   writer->file_.truncate(sizeof(Header) + static_cast<std::uint64_t>(samples) * frame_bytes(points));
   return writer;
@@ -135,7 +135,7 @@ void Pc2Reader::read_header(std::uint64_t size_bytes) {
   if (!std::isfinite(header.start)) refuse("start", "a finite frame", std::to_string(header.start));
   if (!std::isfinite(header.rate)) refuse("rate", "a finite rate", std::to_string(header.rate));
 
-  // What the header declares must be there before anything is allocated for it.  2^31 samples of 2^31 points overflow
+  // The declared size is compared with the file's before memory is allocated for it.  2^31 samples of 2^31 points overflow
   // 64 bits: compare by division.
   const std::uint64_t data = size_bytes - sizeof header;
   const std::uint64_t frame = frame_bytes(header.points);
@@ -150,7 +150,7 @@ void Pc2Reader::read_header(std::uint64_t size_bytes) {
         std::to_string(header.samples) + " samples of " + std::to_string(header.points) + " points, as the header says",
         std::to_string(data) + " bytes of data");
   }
-  // Without a sample the file says nothing for its points; they must not become a buffer of 24 GB.
+  // Without a sample the number of points is not backed by data; it must not become a buffer of 24 GB.
   points_ = header.points;
   samples_ = header.samples;
   start_ = header.start;

@@ -3,7 +3,7 @@
 //   "POINTCACHE2\0", int32 version = 1, int32 points, float start, float rate, int32 samples,
 //   then samples * points * xyz
 //
-// Easily missed: values are not judged.  A NaN in a cache is read as a NaN, for whoever audits the run.
+// Easily missed: values are not checked.  A NaN in a cache is read as a NaN, for the audit of the run.
 #pragma once
 #include "core/types.hpp"
 #include "io/file.hpp"
@@ -16,19 +16,19 @@
 
 namespace toile::internal {
 
-// Frames are committed as they come: after each append the file under its name is complete, and its header counts what is there.
+// Every append commits its frame: the file is then complete, and its header has the number of frames.
 class Pc2Writer {
  public:
-  // A new file; there must be nothing under the name.  `start_frame` and `rate` (samples per frame of the timeline) are stored for other
+  // A new file; there must be no file of that name.  `start_frame` and `rate` (samples per frame of the timeline) are stored for other
   // programs.  Throws IoError.
   Pc2Writer(const std::string& path, Index points, double start_frame, double rate);
-  // Goes on behind the first `samples` frames of a file that was written so; what comes after them is cut off.  Throws InputError when the
-  // file has fewer, or other points.
+  // Appends after the first `samples` frames of such a file; later ones are cut off.  Throws InputError when the file has fewer frames,
+  // or another number of points.
   static std::unique_ptr<Pc2Writer> resume(const std::string& path, Index points, int samples);
 
   void append(std::span<const Vec3> positions);  // must have `points` entries; rounded to float
   int samples() const { return samples_; }
-  // The frames are on the disk afterwards.  May be called while another thread appends.
+  // Flushes the frames to the disk.  May be called while another thread appends.
   void synchronize() const { file_.synchronize(); }
 
   // core/hash.hpp: of every frame's bytes, and of the header as it is now.
@@ -47,7 +47,7 @@ class Pc2Writer {
   std::vector<std::uint64_t> checksums_;
 };
 
-// What may follow the frames that the header counts: nothing; or what a writer that was killed had begun.
+// Bytes after the frames that the header counts: none, or also a frame that a killed writer had begun.
 enum class Pc2End { exact, cut };
 
 // Reads one frame at a time.  Throws IoError or InputError; a size that the file does not have is an error on opening.

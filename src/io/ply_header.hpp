@@ -1,4 +1,4 @@
-// io/ply_header.hpp: what a PLY file says of itself: its elements, their properties, and where the data begin.
+// io/ply_header.hpp: the header of a PLY file: its elements, their properties, and where the data begin.
 #pragma once
 #include "io/mesh_file.hpp"
 
@@ -48,7 +48,7 @@ struct PlyHeader {
   int lines = 0;
 };
 
-// Throws InputError with file and line.  Numbers of elements are as they are told, whatever the file can hold.
+// Throws InputError with file and line.  Element counts are as declared, not checked against the file's size.
 PlyHeader parse_ply_header(const MeshSource& source);
 
 // "nothing", or the text in quotes.

@@ -1,10 +1,10 @@
 // io/ply_read.cpp: PLY, ascii and binary of both byte orders.
 //
 // Read: vertex x y z, a uv per vertex (s t, u v, texture_u texture_v, texture_s texture_t) or per corner (a list `texcoord` of the face); of a face
-// vertex_indices, and `panel` and `garment`, numbers whose names are comments "panel 0 front".  Everything else is passed over by its declared size.
+// vertex_indices, and `panel` and `garment`, numbers whose names are comments "panel 0 front".  Everything else is skipped by its declared size.
 // Errors name the line of the header or of ascii data, or the byte of binary data.
 //
-// Easily missed: no memory is taken for a number of the header that the rest of the file could not hold.
+// Easily missed: no memory is allocated for a count of the header that the rest of the file could not hold.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -20,14 +20,14 @@
 namespace toile::internal {
 namespace {
 
-// What is being read: "vertex 12".
+// The current element, for messages: "vertex 12".
 struct Place {
   const PlyElement* element;
   std::size_t item;
   std::string text() const { return printable(element->name) + ' ' + std::to_string(item); }
 };
 
-// The numbers behind the header, one after the other.
+// Reads the numbers after the header one after the other.
 class Data {
  public:
   Data(const MeshSource& source, const PlyHeader& header)
@@ -39,7 +39,7 @@ class Data {
                      ascii ? place.text() : place.text() + " at byte " + std::to_string(last_), expected, got);
   }
 
-  // Whether so many items of so many numbers each can be there at all; of a list its length alone.
+  // Whether the rest of the file can hold so many items of so many numbers; for a list, of its length alone.
   bool can_hold(std::size_t count, const PlyElement& element) const {
     std::size_t least = 0;
     for (const PlyProperty& p : element.properties)
@@ -47,7 +47,7 @@ class Data {
     if (format_ == PlyHeader::Format::ascii) return least == 0 || count <= (bytes_.size() - at_ + 1) / least;
     return least == 0 || count <= (bytes_.size() - at_) / least;
   }
-  // Of a list, before memory is taken for it.
+  // The length of a list, checked before memory is allocated for it.
   bool can_hold_list(std::size_t count, PlyNumber type) const {
     const std::size_t left = bytes_.size() - at_;
     return format_ == PlyHeader::Format::ascii ? count <= (left + 1) / 2 : count <= left / bytes_of(type);
@@ -80,7 +80,7 @@ class Data {
     if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
     double value = 0;
     const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    // What is too small for a double is 0; what is too large is refused with what is no number.
+    // A number too small for a double is 0; one too large is refused, as is text that is no number.
     if (error == std::errc::result_out_of_range && stop == digits.data() + digits.size() && too_small(digits)) return 0;
     if (error != std::errc() || stop != digits.data() + digits.size()) fail(place, "a number", quoted(word));
     if (type < PlyNumber::f32 && value != std::floor(value)) fail(place, "a whole number", quoted(word));
@@ -187,7 +187,7 @@ class PlyReader {
   }
 
   void skip(const PlyElement& element) {
-    if (element.properties.empty()) return;  // nothing is written of it
+    if (element.properties.empty()) return;  // no bytes belong to it
     for (std::size_t i = 0; i < element.count; ++i)
       for (const PlyProperty& property : element.properties) pass_over(property, Place{&element, i});
   }
@@ -305,7 +305,7 @@ class PlyReader {
                            "corners in 0.." + std::to_string(mesh_.positions.size() - 1), std::to_string(i));
   }
 
-  // Corners before vertices: a file that has both has drawn its faces apart.
+  // uv of corners before uv of vertices: a file that has both means the former.
   void settle_uv() {
     if (!corner_uv_.empty()) {
       mesh_.texcoords = std::move(corner_uv_);

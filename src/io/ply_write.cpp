@@ -12,7 +12,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file is little-endian, and so must the machine be");
 
-// Bytes on their way to the file, in large pieces.
+// Buffers the bytes for the file.
 class Bytes {
  public:
   explicit Bytes(AtomicFile& file) : file_(&file) {}

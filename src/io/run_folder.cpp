@@ -32,13 +32,13 @@ bool is_there(const std::string& path) {
   return ::lstat(path.c_str(), &status) == 0;
 }
 
-// What a JSON file of ours says; nothing when it is not there, or not ours.
+// The contents of a JSON file of ours; empty when it does not exist or is not ours.
 std::optional<Json> load_ours(const std::string& path) {
   if (!is_there(path)) return std::nullopt;
   try {
     Json json = Json::load(path);
     if (json.is_object() && json.find("toile_version") != nullptr) return json;
-  } catch (const Error&) {  // whatever it is, it lists nothing of ours
+  } catch (const Error&) {  // not a file of ours: it lists nothing
   }
   return std::nullopt;
 }
@@ -130,7 +130,7 @@ RunFolder::RunFolder(std::string directory, Use use, const Owner& owner, std::sp
     if (begun_ && !was_unfinished_) throw IoError(directory_, "no unfinished run to go on with");
     refuse_strangers(run_file_names);
     const AtomicFile probe(path("report.json"));  // not committed: leaves nothing, but fails now if it must fail
-    // An unfinished run can be resumed until another one begins: what it was asked for stays.
+    // An unfinished run can be resumed until another one begins: its unfinished.json stays.
     if (use_ == Use::new_run && !was_unfinished_) write_unfinished({});
   } catch (...) {
     undo();
@@ -143,7 +143,7 @@ RunFolder::~RunFolder() {
   undo();
 }
 
-// Of a run that did not begin the folders that it made go, as far as there is nothing in them.
+// A run that did not begin removes the folders that it created, as far as they are empty.
 void RunFolder::undo() const {
   if (!begun_ && !made_.empty()) {
     std::filesystem::path part = std::filesystem::absolute(directory_).lexically_normal();
@@ -162,7 +162,7 @@ void RunFolder::lock() {
   std::string who = "another process of Toile";
   try {
     if (const auto run = read_unfinished_run(directory_)) who = run->process;
-  } catch (const Error&) {  // it is just being written
+  } catch (const Error&) {  // it is being written at this moment
   }
   throw IoError(directory_, "another run writes here (" + who + "): wait for it, or name another folder with --out");
 }

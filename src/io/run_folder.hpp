@@ -1,13 +1,13 @@
-// io/run_folder.hpp: whose files a folder's files are, and who may write there.                       docs/reports.md#the-folder
+// io/run_folder.hpp: ownership of the files in a run folder, and its write lock.                       docs/reports.md#the-folder
 //
 //   report.json        of a finished run: its "files" are Toile's
-//   unfinished.json    of a run that goes on, or was ended before its end: who, what was asked for, where; its files are Toile's, too
+//   unfinished.json    of a run in progress, or one that was stopped early: process, command, working directory; its files are Toile's, too
 //   a lock             on the folder itself, held while a process lives: one writer at a time
 //
-// Nothing else is ever replaced or removed: a name of ours that neither file lists is somebody's, and the run is refused before it begins.
+// Nothing else is ever replaced or removed: a file under a name of ours that neither lists belongs to the user, and the run is refused.
 //
-// Easily got wrong: the system takes the lock from a process that dies, so that there is no stale lock; unfinished.json stays, and says that
-// there is something to go on with.
+// Easily got wrong: the system releases the lock of a process that dies, so no lock is ever stale; unfinished.json stays, and says that
+// the run can be resumed.
 #pragma once
 #include "io/json.hpp"
 #include "io/json_text.hpp"
@@ -22,35 +22,35 @@
 
 namespace toile::internal {
 
-// Every name that Toile may use in the folder of a run.
+// Every file name that Toile may use in a run folder.
 inline constexpr std::array<std::string_view, 15> run_file_names = {
     "report.json", "cloth.obj",  "cloth.pc2",       "body.obj",       "body.pc2",
     "sewing.obj",  "sewing.pc2", "sewing_body.obj", "offenders.obj",  "preview.png",
     "preview.mp4", "frames.png", "crossings.png",   "checkpoint.bin", "unfinished.json"};
-// Of these the ones that are drawn of a finished run.
+// The pictures among them, drawn of a finished run.
 inline constexpr std::array<std::string_view, 4> picture_file_names = {"preview.png", "preview.mp4", "frames.png",
                                                                        "crossings.png"};
 
-// What unfinished.json says.
+// The contents of unfinished.json.
 struct UnfinishedRun {
-  std::vector<std::string> arguments;  // of the command, the program's name left out
-  std::string working_directory;       // in which relative paths of `arguments` are meant
+  std::vector<std::string> arguments;  // of the command, without the program's name
+  std::string working_directory;       // relative paths of `arguments` refer to it
   std::string version;
   std::string process;  // "process 123 on host since 2026-01-31T12:00:00Z: toile run scene.json"
-  // What the report would say of the caches, once there are any.
+  // The report's member about the caches, once there are any.
   double fps = 0;
   std::optional<Json> rest_stretch;
   int body_vertices = 0, motion_first_frame = -1;
 };
-// Empty when the folder has no unfinished run.  Throws InputError for a file that is none of ours.
+// Empty when the folder has no unfinished run.  Throws InputError for a file that is not ours.
 std::optional<UnfinishedRun> read_unfinished_run(const std::string& directory);
-// A living process writes to the folder.
+// A running process writes to the folder.
 bool is_written_to(const std::string& directory);
 
 class RunFolder {
  public:
   enum class Use {
-    new_run,   // makes the folder, and takes over what an earlier run of ours left
+    new_run,   // makes the folder, and replaces the files of an earlier run of ours
     resume,    // the folder of an unfinished run
     pictures,  // adds pictures to a run; takes the lock and nothing else
   };
@@ -59,22 +59,22 @@ class RunFolder {
     std::vector<std::string> arguments;
     std::string version;
   };
-  // Throws IoError when another process writes there, naming it; when a file stands under a name of ours that no run of ours has listed; when one
-  // of `inputs` (files or folders that exist) is the folder or a file of ours in it; when nothing can be written there.
+  // Throws IoError when another process writes there, naming it; when a file has a name of ours and no run of ours lists it; when one of
+  // `inputs` (files or folders that exist) is the folder or a file of ours in it; when the folder is not writable.
   RunFolder(std::string directory, Use use, const Owner& owner, std::span<const std::string> inputs);
-  // A new run that did not begin leaves everything as it was.
+  // Without begin() a new run leaves everything as it was.
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
 
-  // Of a new run: removes what an earlier one left, its report first.
+  // For a new run: removes the files of an earlier one, its report first.
   void begin();
-  // Before the first frame: what readers of an unfinished run have to know; writes members of unfinished.json.
+  // Call before the first frame; writes the members of unfinished.json that readers of an unfinished run need.
   void set_facts(const std::function<void(JsonText&)>& facts);
-  // After report.json has been written: the run is finished, or (`goes_on`) can be taken up again.
+  // Call after report.json has been written: the run is finished, or (`goes_on`) can be resumed.
   void finish(bool goes_on);
 
-  // An earlier run there was not finished.
+  // The folder had an unfinished run.
   bool was_unfinished() const { return was_unfinished_; }
   const std::string& directory() const { return directory_; }
   std::string path(std::string_view name) const;
@@ -86,16 +86,16 @@ class RunFolder {
   void write_unfinished(const std::function<void(JsonText&)>& facts) const;
   void undo() const;
 
-  std::string directory_, made_;  // made_: the first folder on the way that did not exist
+  std::string directory_, made_;  // made_: the outermost folder that had to be created
   Use use_;
   Owner owner_;
   int lock_ = -1;
   bool begun_ = false, was_unfinished_ = false;
 };
 
-// A JSON text that notices its own change: sealed, its last member is "report_hash", the checksum of all bytes before that value.
+// Seals a JSON text against changes: its last member becomes "report_hash", the checksum of all bytes before that value.
 std::string sealed(std::string json_object);
-// Whether it is as it was sealed.
+// Whether the text is unchanged since it was sealed.
 bool is_intact(std::string_view text);
 
 }  // namespace toile::internal

@@ -13,7 +13,7 @@ constexpr double smallest_sine = 1e-4;       // of an angle between the hinge an
 constexpr double smallest_normal2 = 1e-200;  // |N|^2 below which 1/|N|^2 leaves the range of double
 constexpr double largest_weight = 20;
 
-// What theta and its gradient share.
+// Terms that theta and its gradient share.
 struct HingeFrame {
   Vec3 e, N_A, N_B;           // hinge edge and triangle normals, of length twice the area
   double L = 0;               // |e|

@@ -38,7 +38,7 @@ std::array<std::array<Mat3, 4>, 4> hinge_angle_hessian(const std::array<Vec3, 4>
 // kappa per unit of bending rigidity: L^2 / (A_1 + A_2) from the rest state, capped at 20 (slivers).
 double bend_weight(double edge_length_m, double area_a_m2, double area_b_m2);
 
-// D of a hinge such that a near-equilateral sheet bends with D_u along the warp and D_v along the weft, whatever the
+// D of a hinge with which a near-equilateral sheet bends with D_u along the warp and D_v along the weft, for every
 // orientation of its triangles.  b is the angle from the warp to `across` (across the edge: the fibres that bend; need
 // not be normalised):
 //   D = sqrt(D_u D_v) (1 + z)/(1 - z),   z = 3/2 (sqrt D_u - sqrt D_v)/(sqrt D_u + sqrt D_v) (cos 2b - cos(6b)/4)

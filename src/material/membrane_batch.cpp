@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace toile::internal::HWY_NAMESPACE {
 namespace {
 
-// Below this |w| has no direction that double precision could name; it is 120 orders away from any cloth.
+// Below this, |w| has no direction in double precision; it is 120 orders of magnitude away from any cloth.
 constexpr double no_direction = 1e-140;
 
 struct Rest {
@@ -135,7 +135,7 @@ HWY_INLINE WideFMatrix shear_hessian(const WideVec3& w_u, const WideVec3& w_v, W
 // Adds the same to K with its negative eigenvalues set to zero.
 //
 // J is +1 on vectors [a; a] and -1 on [a; -a].  g meets these spaces in one direction each, e+ ~ [z+; z+] and
-// e- ~ [z-; -z-] with z+- = w_v +- w_u; what is orthogonal to both is an eigenspace with eigenvalue +c or -c.
+// e- ~ [z-; -z-] with z+- = w_v +- w_u; all that is orthogonal to both is an eigenspace with eigenvalue +c or -c.
 // In (e+, e-), with p = |z+|^2/2 and m = |z-|^2/2, the matrix is
 //     S = [ p + c     sqrt(pm) ]      trace p + m = I2,   det = -c (c + 2 I6),
 //         [ sqrt(pm)  m - c    ]
@@ -176,7 +176,7 @@ HWY_INLINE void add_projected_shear_hessian(const WideVec3& w_u, const WideVec3&
   add_to_diagonal(half * (c_plus - c_minus), K.uv);
 }
 
-// Whoever calls it uses some of it; the compiler leaves out the rest.
+// Each caller uses a part of the result; the compiler removes the rest.
 HWY_INLINE Response respond(const Rest& rest, const MembraneForm& form, const Gradient& F) {
   Response r;
   stretch(rest, form, F.w_u, F.w_u_dot, rest.b_u, rest.k_u, r.P_u, r.Q_u, r.K.uu, r.D.uu);

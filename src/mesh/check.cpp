@@ -14,7 +14,7 @@
 namespace toile::internal {
 namespace {
 
-// Below these fractions of what a well-shaped element of that size has, an area or a volume is rounding noise.
+// Below these fractions of the area or volume of a well-shaped element of that size, a value is rounding noise.
 constexpr double zero_area = 1e-10;   // of the longest side squared
 constexpr double zero_volume = 1e-9;  // of the surface's area to the power 3/2 (a ball has 0.094)
 

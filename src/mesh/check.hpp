@@ -1,4 +1,4 @@
-// mesh/check.hpp: what a mesh must satisfy before anything is simulated; each complaint names its element.
+// mesh/check.hpp: checks of a mesh before it is simulated; each error names the element.
 //
 // Particles, triangles and corners are counted from 0 in messages, as in ClothMesh.
 #pragma once

@@ -11,7 +11,7 @@
 
 namespace toile::internal {
 
-struct PanelCloth {         // what a panel asks for by itself; a scene may say otherwise
+struct PanelCloth {         // the panel's own wishes; a scene may override them
   std::string fabric;       // a preset's name; empty: the garment's
   Vec2 rest_stretch{1, 1};  // (b_u, b_v)
 };

@@ -1,7 +1,7 @@
 // mesh/half_edges.hpp: the sides of all triangles, sorted so that the sides of one edge stand together.
 //
 // Private to this module.  A sort instead of a hash map: the order is the same on every machine, and the sorted
-// array is what the users of it want anyway.
+// array is convenient for its users.
 #pragma once
 #include "core/types.hpp"
 

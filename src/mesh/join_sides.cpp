@@ -38,7 +38,7 @@ std::vector<Index> places_of(std::span<const Vec3> x) {
   return place;
 }
 
-// Of the sides between two places those that no side of the same vertices answers.
+// Of the sides between two places those without a neighbour on the same vertices.
 std::vector<Side> without_neighbour(std::span<const Side> sides) {
   const auto ends = [](const Side& s) { return std::pair(std::min(s.a, s.b), std::max(s.a, s.b)); };
   std::vector<Side> sorted(sides.begin(), sides.end()), open;
@@ -73,8 +73,8 @@ JoinedSides join_sides(std::span<const Vec3> positions, std::span<const Triangle
   std::sort(sides.begin(), sides.end(), [](const Side& l, const Side& r) { return l.order() < r.order(); });
 
   JoinedSides joined;
-  DisjointSets sets(positions.size());  // the first of a set stands for it
-  // Joins the two, if they are the only ones that can be.
+  DisjointSets sets(positions.size());  // the first vertex of a set represents it
+  // Joins the two, if no other pair is possible.
   const auto join = [&](std::span<const Side> open) {
     if (open.size() != 2 || open[0].forward == open[1].forward || open[0].beside == open[1].beside) return false;
     sets.join(open[0].a, open[1].b);

@@ -14,7 +14,7 @@ SurfaceParts surface_parts(std::span<const Triangle> triangles, std::span<const 
     sets.join(t[0], t[1]);
     sets.join(t[0], t[2]);
   }
-  std::vector<Index> number(positions.size(), -1);  // of the part, at the vertex that stands for it
+  std::vector<Index> number(positions.size(), -1);  // of the part, at the vertex that represents it
   for (const Triangle& t : triangles) number[at(sets.find(t[0]))] = 0;
   SurfaceParts result;
   for (Index& n : number) {

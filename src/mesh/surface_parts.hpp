@@ -1,4 +1,4 @@
-// mesh/surface_parts.hpp: what of a surface hangs together, and what each part encloses.
+// mesh/surface_parts.hpp: connected components of a surface, and the volume that each encloses.
 #pragma once
 #include "core/types.hpp"
 
@@ -8,7 +8,7 @@
 namespace toile::internal {
 
 struct SurfacePart {
-  double volume_m3 = 0;  // negative when it is turned inside out; means nothing unless closed
+  double volume_m3 = 0;  // negative when it is inside out; meaningless unless closed
   bool closed = true;    // every side of a triangle has one neighbour, which walks it the other way
 };
 
@@ -17,7 +17,7 @@ struct SurfaceParts {
   std::vector<Index> of;           // [triangle] its part
 };
 
-// Through shared vertices.  Corners must be in range.
+// Components are connected by shared vertices.  Corners must be in range.
 SurfaceParts surface_parts(std::span<const Triangle> triangles, std::span<const Vec3> positions);
 
 }  // namespace toile::internal

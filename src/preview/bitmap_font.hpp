@@ -11,7 +11,7 @@ constexpr int glyph_width = 5, glyph_height = 7, glyph_advance = 6;  // dots
 // Seven rows from the top, bit 4 = leftmost dot.  Small letters are drawn as capitals, unknown characters as a box.
 const std::array<std::uint8_t, 7>& glyph(char character);
 
-// Draws from the left top corner (x, y) in pixels; a dot is `scale` x `scale` pixels.  Parts outside the image are left out.
+// Draws from the top left corner (x, y) in pixels; a dot is `scale` x `scale` pixels.  Parts outside the image are clipped.
 void draw_text(Image& image, int x, int y, int scale, std::string_view text, const std::array<std::uint8_t, 3>& colour);
 
 }  // namespace toile::internal

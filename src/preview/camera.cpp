@@ -10,7 +10,7 @@ namespace toile::internal {
 namespace {
 
 constexpr double frame_share = 0.92;        // of the picture's half width and height that the box may fill
-constexpr double smallest_distance = 0.05;  // m from the box to the eye, also for a box that is a point
+constexpr double smallest_distance = 0.05;  // m from the box to the eye, also for a degenerate box
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
@@ -71,7 +71,7 @@ Camera frame_subject(const Vec3& low, const Vec3& high, double azimuth_deg, doub
   const double tan_x = tan_y * aspect;
 
   // A corner at (x, y) across and z towards the eye lies inside when |x| <= tan_x (d - z) and |y| <= tan_y (d - z):
-  // the distance d is the largest that a corner asks for.
+  // the distance d is the largest that a corner needs.
   camera.target = 0.5 * (low + high);
   double distance = smallest_distance;
   for (int corner = 0; corner < 8; ++corner) {

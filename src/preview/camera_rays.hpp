@@ -12,7 +12,7 @@ struct CameraAxes {
 };
 
 // Throws InputError when eye and target coincide, something is not finite, or the field of view is not in (0, 180).
-// Looking straight up or down there is no horizon: then -z is "up" in the picture, as for a viewer in front of the subject.
+// For a vertical view -z is "up" in the picture, as for a viewer in front of the subject.
 CameraAxes camera_axes(const Camera& camera, int width, int height);
 
 // The axes for one picture in float, relative to `origin`.

@@ -3,7 +3,7 @@
 // An edge-avoiding a-trous filter: passes of a 3 x 3 kernel with steps of 1, 2, 4 ... pixels, whose weights fall where the
 // normal turns, the neighbour lies off the pixel's tangent plane, or the light differs by more than its noise explains.
 //
-// Mind: noise is the measure of "differs": a picture with many samples is hardly touched, and pixels without variance not at all.
+// Mind: differences are measured against the noise: a picture with many samples hardly changes, and pixels without variance do not.
 #pragma once
 #include "preview/path_tracer.hpp"
 

@@ -46,7 +46,7 @@ std::string last_line(std::string_view text) {
   return printable(start == std::string_view::npos ? text : text.substr(start + 1));
 }
 
-// Frees what posix_spawn was prepared with, however the constructor ends.
+// Frees the attributes of posix_spawn, however the constructor ends.
 struct SpawnPlan {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
@@ -71,7 +71,7 @@ std::string find_ffmpeg() {
     const std::size_t colon = folders.find(':');
     const std::string_view folder = folders.substr(0, colon);
     folders = colon == std::string_view::npos ? std::string_view() : folders.substr(colon + 1);
-    if (folder.empty()) continue;  // by POSIX the current folder: a program that lies there by chance is not run
+    if (folder.empty()) continue;  // by POSIX the current folder: a program there is not run
     std::string program = std::string(folder) + "/ffmpeg";
     struct stat status {};
     if (::stat(program.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(program.c_str(), X_OK) == 0) {
@@ -152,7 +152,7 @@ FfmpegProcess::FfmpegProcess(const std::string& program, const std::string& film
   posix_spawn_file_actions_addopen(&plan.actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&plan.actions, messages[1], STDERR_FILENO);
   posix_spawn_file_actions_adddup2(&plan.actions, output, film_descriptor);
-  // Its own process group: an interrupt from the keyboard is for us; we decide what becomes of the film.
+  // Its own process group: an interrupt from the keyboard is for us; we decide whether the film is finished.
   sigset_t none, defaults;
   sigemptyset(&none);
   sigemptyset(&defaults);
@@ -207,7 +207,7 @@ int FfmpegProcess::wait() {
   int status = 0;
   while (::waitpid(child_, &status, 0) < 0) {
     if (errno != EINTR) {
-      status = -1;  // somebody else collected it (SIGCHLD ignored): nothing is known of how it ended
+      status = -1;  // already reaped (SIGCHLD ignored): its exit status is unknown
       break;
     }
   }

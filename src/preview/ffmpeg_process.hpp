@@ -3,7 +3,7 @@
 // No shell: names of files never become part of a command line.  The parent's signal handling is not touched: pictures go
 // through a socket, where writing to a dead child is an error value and no SIGPIPE.
 //
-// Mind: ffmpeg writes to a file that is open already, whatever its name or whether it has one yet: naming it is the caller's affair.
+// Mind: ffmpeg writes to an open file descriptor, which need not have a name yet: the caller names the file.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -12,12 +12,12 @@
 
 namespace toile::internal {
 
-// The first executable file `ffmpeg` in PATH.  Throws IoError, with advice, when there is none.
+// The first executable file `ffmpeg` in PATH.  Throws IoError, with advice, if there is none.
 std::string find_ffmpeg();
 
 class FfmpegProcess {
  public:
-  // Starts the encoder; `film` names the result in messages, `output` is the descriptor of the file that ffmpeg writes.  Throws IoError.
+  // Starts the encoder; `film` is the result's name in messages, `output` the descriptor of the file that ffmpeg writes.  Throws IoError.
   FfmpegProcess(const std::string& program, const std::string& film, int output, int width, int height, double fps);
   // A child that was not finished is killed.
   ~FfmpegProcess();

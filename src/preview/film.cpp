@@ -1,7 +1,7 @@
 // preview/film.cpp: pictures as a film.
 //
-// Mind: ffmpeg learns the size from the first picture, so it starts after that one was made; that the program is there at all
-// is looked up before, since a picture may take seconds.
+// Mind: ffmpeg gets the size from the first picture, so it starts after that one was made; whether the program exists is
+// checked before, since a picture may take seconds.
 #include "core/error.hpp"
 #include "io/file.hpp"
 #include "preview/ffmpeg_process.hpp"
@@ -24,7 +24,7 @@ void write_mp4(const std::string& path, int count, double fps, const std::functi
     throw InputError(path, "film", "a frame rate in (0, 1000] per second", std::to_string(fps));
   const std::string program = find_ffmpeg();
 
-  AtomicFile film(path);                // a folder that is missing or closed to us is told before the first picture
+  AtomicFile film(path);                // a missing or unwritable folder is reported before the first picture
   std::optional<FfmpegProcess> ffmpeg;  // after `film`: on the way out the child is ended first
   int width = 0, height = 0;
   for (int i = 0; i < count; ++i) {

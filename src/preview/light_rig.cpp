@@ -1,4 +1,4 @@
-// preview/light_rig.cpp: where the lights stand and what colour they have.
+// preview/light_rig.cpp: places and colours of the lights.
 #include "preview/light_rig.hpp"
 
 #include "preview/low_discrepancy.hpp"

@@ -21,10 +21,10 @@ class LightRig {
   // Radiance from direction d (unit) that no surface blocks.
   Vec3f sky(const Vec3f& d) const;
 
-  // What an unblocked horizontal ground reflects per albedo, from sun and from sky.
+  // The radiance of an unblocked horizontal ground over its albedo, from sun and from sky.
   const Vec3f& ground_from_sun() const { return ground_from_sun_; }
   const Vec3f& ground_from_sky() const { return ground_from_sky_; }
-  // The sky's mean radiance: stands for the light after the last bounce.
+  // The sky's mean radiance: approximates the light after the last bounce.
   const Vec3f& ambient() const { return ambient_; }
 
  private:

@@ -1,5 +1,5 @@
-// preview/no_pictures.cpp: stands for ray_scene.cpp and png.cpp where Toile is built without Embree and libpng.  Nothing here draws: whoever asks
-// for a picture is told why there is none.
+// preview/no_pictures.cpp: replaces ray_scene.cpp and png.cpp in builds without Embree and libpng.  Every request for a picture throws
+// an error with the reason.
 #include "core/error.hpp"
 #include "preview/png.hpp"
 #include "preview/ray_scene.hpp"
@@ -22,7 +22,7 @@ void write_png(const std::string&, const Image&) { require_pictures(); }
 
 struct RayScene::Device {};
 
-// No RayScene can be made, so nobody comes to the functions below it.
+// No RayScene can be made, so its other functions are unreachable.
 RayScene::RayScene() { require_pictures(); }
 RayScene::~RayScene() = default;
 void RayScene::build(const PreviewScene&, const Vec3&) { require_pictures(); }

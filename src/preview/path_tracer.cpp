@@ -17,7 +17,7 @@ const Vec3f ground_albedo(0.55f, 0.55f, 0.55f);
 const Vec3f background_top(0.60f, 0.62f, 0.64f);
 const Vec3f background_bottom(0.92f, 0.91f, 0.89f);
 
-// Sums over the samples of a pixel that met the same kind of thing.
+// Sums over the samples of a pixel that met the same layer.
 struct Layer {
   Vec3f albedo = Vec3f::Zero(), light = Vec3f::Zero(), normal = Vec3f::Zero(), position = Vec3f::Zero();
   float samples = 0;
@@ -195,8 +195,8 @@ Vec3f PathTracer::illumination(const Surface& s, Sampler& sampler, int bounces) 
   return sum + incoming(s.origin, direction, sampler, bounces, blocked);
 }
 
-// The light on the ground as a share of what it would get with nothing there.  What is sampled is only the difference, so an
-// open ground is exactly 1.
+// The light on the ground as a share of its light without the scene.  Only the difference is sampled, so an open ground
+// is exactly 1.
 template <class Sampler>
 Vec3f PathTracer::ground_light(const Vec3f& point, float strength, Sampler& sampler) const {
   Vec3f change = Vec3f::Zero();

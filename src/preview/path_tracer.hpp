@@ -1,11 +1,11 @@
-// preview/path_tracer.hpp: light that reaches the pixels, by following paths.      [Kajiya 1986]
+// preview/path_tracer.hpp: path tracing of the pixels.                             [Kajiya 1986]
 //
 // All surfaces are diffuse: L = albedo * illumination, with
 //   illumination = sun * cos * visible + (mean of incoming radiance over cosine-distributed directions),
 // the sun by a shadow ray towards a point of its disc, the rest by one bounced ray per path, up to three surfaces.
 //
-// The ground is not a drawn object but a shadow on the background: background * (light that arrives / light that would arrive
-// with nothing there).  So it has no edge, no horizon and no noise where nothing shades it.
+// The ground is not an object but a shadow on the background: background * (incident light / incident light without the
+// scene).  So it has no edge, no horizon and no noise where it is not shaded.
 //
 // Mind: albedo and illumination are kept apart in the result, so that smoothing the light leaves the grid of the cloth sharp.
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace toile::internal {
 
-// What a pixel's samples found.  All but `radiance` are of the pixel's larger layer alone, the surfaces or the ground with the
+// The sums of a pixel's samples.  All but `radiance` are of the pixel's larger layer alone, the surfaces or the ground with the
 // background, so that an outline neither blurs nor keeps its noise.
 struct PixelLight {
   Vec3f radiance = Vec3f::Zero();  // mean of all samples, linear, before tone mapping
@@ -41,7 +41,7 @@ class PathTracer {
   Surface surface_at(const RayHit& hit, const Vec3f& origin, const Vec3f& direction) const;
   Vec3f albedo_of(const Surface& surface, const Vec3f& direction, const Vec3f& step_x, const Vec3f& step_y) const;
   Vec3f background(int x, int y) const;
-  // How much of the ground's shadow shows at a point, 0 far from the subject.
+  // The weight of the ground's shadow at a point, 0 far from the subject.
   float shadow_strength(const Vec3f& point) const;
   bool ground_hit(const Vec3f& origin, const Vec3f& direction, float& distance) const;
 

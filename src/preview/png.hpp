@@ -6,7 +6,7 @@
 
 namespace toile::internal {
 
-// `place` is named by what is thrown: InputError for an image whose bytes do not fit its size, IoError.
+// Throws InputError for an image whose bytes do not fit its size, and IoError; messages name `place`.
 std::string png_of(const Image& image, const std::string& place);
 
 }  // namespace toile::internal

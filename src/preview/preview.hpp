@@ -1,4 +1,4 @@
-// preview/preview.hpp: pictures of cloth on a body that a person can judge: path traced, soft light, ground, fabric with a
+// preview/preview.hpp: pictures of cloth on a body for visual inspection: path traced, soft light, ground, fabric with a
 // visible grid along u and v.
 //
 // Same scene, camera and options: the same bits, for any number of threads.  Positions are in metres, y up; colours are linear
@@ -20,10 +20,10 @@
 
 namespace toile::internal {
 
-// Whether this build draws.  Built without Embree and libpng (TOILE_PREVIEW) it does not, and whatever traces rays or writes a PNG throws
+// Whether this build draws.  Without Embree and libpng (TOILE_PREVIEW) it does not, and all functions that trace rays or write a PNG throw
 // Error (usage), "built without pictures".
 bool can_draw();
-// Throws it before anything else is done, unless this build draws.
+// Throws that error, unless this build draws.
 void require_pictures();
 
 struct Image {
@@ -61,13 +61,13 @@ struct Camera {
 // the middle 92 % of the picture.  Throws InputError for numbers that are not finite or an aspect that is not positive.
 Camera frame_subject(const Vec3& low, const Vec3& high, double azimuth_deg, double elevation_deg, double aspect);
 
-// Where `point` falls in a picture of that size: pixels from the left and from the top, and the distance along the viewing
-// direction in metres, which is <= 0 behind the eye (then x and y mean nothing).
+// The projection of `point` into a picture of that size: pixels from the left and from the top, and the distance along the viewing
+// direction in metres, which is <= 0 behind the eye (then x and y are meaningless).
 Vec3 project(const Camera& camera, int width, int height, const Vec3& point);
 
 struct RenderOptions {
   int width = 640, height = 800;  // [1, 16384]
-  int samples = 24;               // paths per pixel, [1, 65536]; 6 to 8 do for films, because the light is smoothed
+  int samples = 24;               // paths per pixel, [1, 65536]; 6 to 8 are enough for films, as the light is smoothed
   double grid_m = 0.02;           // lines at every grid_m, bolder at every fifth; 0: none
   bool denoise = true;            // smooths the light where the samples are noisy, never the cloth's grid or outline
 };
@@ -109,8 +109,8 @@ void write_png(const std::string& path, const Image& image);
 // Writes an H.264 MP4 through the program `ffmpeg`: calls picture(i) for i in [0, count), once each, in order.  Throws IoError
 // with ffmpeg's last line when it fails, and says how to install it when it is not there; InputError when the pictures differ
 // in size, are smaller than 2 x 2, or fps is not positive.  An odd last row or column is cut off, as H.264 wants even sizes.
-// The film appears under its name when it is complete, never before; what picture(i) throws passes through.
-// `stop`, if there is one, is asked while ffmpeg works on its last pictures: true is Error(interrupted).
+// The film appears under its name when it is complete, never before; exceptions of picture(i) pass through.
+// `stop`, if there is one, is polled while ffmpeg works on its last pictures; true throws Error(interrupted).
 void write_mp4(const std::string& path, int count, double fps, const std::function<Image(int)>& picture,
                const std::function<bool()>& stop = {});
 

@@ -204,7 +204,7 @@ void RayScene::build(const PreviewScene& scene, const Vec3& origin) {
   empty_ = !(low_.array() <= high_.array()).all();
 }
 
-// Most rays of a picture leave the subject; a box test of our own spares them the call.
+// Most rays of a picture miss the subject; a box test of our own saves the call.
 bool RayScene::misses_box(const Vec3f& origin, const Vec3f& direction) const {
   if (empty_) return true;
   float near = 0, far = std::numeric_limits<float>::infinity();

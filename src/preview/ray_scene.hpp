@@ -32,7 +32,7 @@ class RayScene {
  public:
   RayScene();
   ~RayScene();
-  RayScene(const RayScene&) = delete;  // the ray tracer reads the meshes where they are
+  RayScene(const RayScene&) = delete;  // the ray tracer holds pointers to the meshes
   RayScene& operator=(const RayScene&) = delete;
 
   // Throws InputError when sizes or indices do not fit together.  Reads the scene's spans until the next build.

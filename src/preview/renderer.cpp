@@ -1,6 +1,6 @@
 // preview/renderer.cpp: from a scene to an 8-bit picture: build, trace, smooth, tone map.
 //
-// Mind: pixels are independent of each other and of how they are shared out among threads; nothing here may change that.
+// Mind: pixels are independent of each other and of the division among threads; this must stay so.
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "preview/crossing_overlay.hpp"
@@ -58,7 +58,7 @@ class ToneCurve {
 
  private:
   static constexpr std::size_t steps = 2048;
-  static constexpr float range = 3.0f;  // square root of the brightest radiance that is told apart
+  static constexpr float range = 3.0f;  // square root of the brightest distinguishable radiance
   static constexpr float exposure = 1.06f;
   std::array<float, steps + 1> table_{};
 };
@@ -107,7 +107,7 @@ Image Renderer::render(const PreviewScene& scene, const Camera& camera) {
 
   const LightRig light(axes.forward.cast<float>());
   const CameraRays rays(axes, options.width, options.height, centre);
-  // Of the subject, or of its height above the ground: a flag on its mast keeps its shadow.
+  // The radius of the subject, or its height above the ground: a flag on its mast keeps its shadow.
   const auto radius = static_cast<float>(std::max(0.5 * (high - low).norm(), centre.y() - scene.ground_y_m));
   const PathTracer tracer(state_->scene, light, rays, options, static_cast<float>(scene.ground_y_m - centre.y()),
                           Vec3f::Zero(), radius);

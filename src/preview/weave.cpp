@@ -15,7 +15,7 @@ constexpr float bold_every = 5.0f;
 
 float band_cover(float x, float extent, float period, float band) {
   const float share = band / period;
-  // How much band lies in [0, t], with t and the result in periods, for bands that begin at whole t.
+  // The length of bands in [0, t], with t and the result in periods, for bands that begin at whole t.
   const auto covered = [&](float t) {
     const float whole = std::floor(t);
     return whole * share + std::min(t - whole, share);

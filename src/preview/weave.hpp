@@ -1,8 +1,8 @@
 // preview/weave.hpp: the grid drawn on cloth along its threads, so that stretch and shear can be judged by eye.
 //
-// Lines lie where u or v is a multiple of the grid's width g, each line_share * g wide, every fifth wider and darker.  What a
-// pixel shows of them is their exact average over the pixel's extent in u and in v: a line thinner than a pixel fades, it does
-// not flicker.
+// Lines lie where u or v is a multiple of the grid's width g, each line_share * g wide, every fifth wider and darker.  A
+// pixel shows their exact average over its extent in u and in v: a line thinner than a pixel fades, it does not
+// flicker.
 //
 // Mind: extents are in metres of cloth, not of space: under stretch a pixel covers less cloth, and lines grow apart and wider.
 #pragma once
@@ -16,7 +16,7 @@ float band_cover(float x, float extent, float period, float band);
 // grid_m <= 0: no lines, 1.
 float weave_shade(float u, float v, float extent_u, float extent_v, float grid_m);
 
-// Its mean over the cloth: for light that bounced, where the pixel's extent is not known.
+// Its mean over the cloth: for bounced light, where the pixel's extent is not known.
 float weave_mean(float grid_m);
 
 }  // namespace toile::internal

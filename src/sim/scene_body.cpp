@@ -25,7 +25,7 @@ void settle(const Json& value, SceneCollider& collider) {
   const auto names = motion_names_without_skeleton();
   if (std::find(names.begin(), names.end(), collider.motion->name) != names.end()) return;
   (motion->is_object() ? motion->at("name") : *motion)
-      .fail(std::string(what_moves_a_mesh), '"' + collider.motion->name + '"');
+      .fail(std::string(motions_for_a_mesh), '"' + collider.motion->name + '"');
 }
 
 }  // namespace toile::internal

@@ -64,7 +64,7 @@ void BlockCholesky::factorise() {
     const auto begin = static_cast<std::size_t>(row_begin_[p]), end = static_cast<std::size_t>(row_begin_[p + 1]);
     double* row = &value_[begin * entries];
     finish_row(row, end - begin, nothing * largest);
-    // What this row leaves of the rows of its columns.
+    // Eliminates this row from the rows of its columns.
     const std::size_t columns = end - begin - 1;
     const auto subtract = [&](std::size_t a) {
       const Index q = column_[begin + 1 + a];

@@ -9,7 +9,7 @@
 // After it.
 #include <hwy/highway.h>
 
-// Registers that the plainest set does not have are passed between functions that are inlined, so never by any ABI.
+// Registers that the baseline instruction set lacks are passed between inlined functions only, so no ABI is involved.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 HWY_BEFORE_NAMESPACE();
@@ -43,7 +43,7 @@ void finish(double* blocks, std::size_t count, double least) {
   for (std::size_t k = 0; k < side; ++k) {
     const double pivot = blocks[k * side + k];
     const double inverse = pivot > least ? 1 / std::sqrt(pivot) : 0;
-    double factor[side];  // of what row k takes from the rows below it
+    double factor[side];  // of row k in the elimination of the rows below it
     for (std::size_t i = k + 1; i < side; ++i) factor[i] = blocks[k * side + i] * inverse;
     for (std::size_t b = 0; b < count; ++b) {
       double* block = blocks + b * entries;

@@ -13,7 +13,7 @@
 namespace toile::internal {
 namespace {
 
-// Of the whole cloth.  Twice as many save a tenth of the iterations, whose time they take.
+// Of the whole cloth.  Twice as many save a tenth of the iterations, but cost as much time.
 double wanted_aggregates(std::size_t particles) { return std::clamp(static_cast<double>(particles) / 240, 1.0, 512.0); }
 
 constexpr std::size_t most_pieces = 24;  // of a panel; more stay together
@@ -43,7 +43,7 @@ void bisect(std::vector<Index>& members, std::size_t begin, std::size_t end, std
   bisect(members, middle, end, parts - left, uv, aggregate, count);
 }
 
-// The smallest particle that each hangs together with through triangles.
+// [particle] the smallest particle of its connected component.
 std::vector<Index> connected_to(const ClothMesh& mesh) {
   DisjointSets sets(static_cast<std::size_t>(mesh.particle_count));
   for (const Triangle& t : mesh.triangles) {
@@ -53,8 +53,8 @@ std::vector<Index> connected_to(const ClothMesh& mesh) {
   return sets.representatives();
 }
 
-// What is cut into aggregates: the particles of each panel, and of several pieces in one panel each its own.  Two pieces in one
-// aggregate could drift apart: only their momentum together would be kept.  The smallest of very many pieces stay together.
+// The sets that are cut into aggregates: the particles of each panel, or of each of its components.  Two components in one aggregate
+// could drift apart: only their total momentum would be kept.  The smallest of very many components stay together.
 std::vector<std::vector<Index>> patches(const ClothMesh& mesh, const std::vector<Index>& panel, Index panels) {
   const std::vector<Index> root = connected_to(mesh);
   std::vector<std::vector<Index>> patches;
@@ -125,7 +125,7 @@ CoarseSpace<T>::CoarseSpace(const ClothMesh& mesh) {
   rhs_.resize(static_cast<std::size_t>(dimension()));
 }
 
-// Which aggregates the row of a particle reaches, in the order of places.
+// The aggregates that the row of a particle reaches, in the order of places.
 template <class T>
 void CoarseSpace<T>::find_entries(const BlockPattern& pattern) {
   pattern_ = &pattern;
@@ -172,7 +172,7 @@ void CoarseSpace<T>::find_entries(const BlockPattern& pattern) {
   find_blocks();
 }
 
-// The blocks of E that A couples, those of an aggregate's columns together, and to which of them an entry belongs.
+// The blocks of E from A, sorted by the aggregate of their columns, and the block that each entry belongs to.
 template <class T>
 void CoarseSpace<T>::find_blocks() {
   couples_of_A_.clear();
@@ -221,7 +221,7 @@ void CoarseSpace<T>::find_stale_rows(const LinearSystem<T>& system) {
   const bool all = version_ != system.A().version();
   version_ = system.A().version();
   was_held_.resize(n, 0);
-  held_.reserve(n);  // not touched where nothing is held
+  held_.reserve(n);  // untouched without constraints
   S_of_held_.reserve(n);
   stale_.assign(n, all);
   const auto compare = [&](Index i, const Mat3& before) {
@@ -265,7 +265,7 @@ void CoarseSpace<T>::multiply_basis(const LinearSystem<T>& system) {
     std::fill(AZ_.begin() + entry_begin_[place], AZ_.begin() + entry_begin_[place + 1], none);
     const std::array<T, 3> q_i = q_of(i);
     const bool i_free = constraints.is_free(i);
-    // Of what is added to the particle's own aggregate: the columns, and the blocks that all come before S_i q_i.
+    // The terms of the particle's own aggregate: the columns, and the blocks that all come before S_i q_i.
     Columns columns = none;
     Block<T> before_own = Block<T>::from(Mat3::Zero());
     // L_ij (S_j Z_j - S_i Z_i)
@@ -306,7 +306,7 @@ void CoarseSpace<T>::multiply_basis(const LinearSystem<T>& system) {
   });
 }
 
-// The columns of Z^T A' Z that belong to an aggregate, unless they are what they were.
+// The columns of Z^T A' Z of an aggregate, if they have changed.
 template <class T>
 void CoarseSpace<T>::sum_columns(std::size_t aggregate) {
   const std::vector<Index>& members = members_[aggregate];

@@ -14,15 +14,15 @@
 namespace toile::internal {
 namespace {
 
-// Of |b'|: what the rounding of A' leaves reachable.
+// Of |b'|: the residual that the rounding of A' allows.
 template <class T>
 constexpr double rounding_floor = sizeof(T) == sizeof(float) ? 1e-5 : 1e-13;
 
 // The stop rule (docs/theory/solver.md):  target = max( min( tol |b'|, max( 0.02 |g|, 0.2 tol |b'| ) ),  min( 0.1 tol, 1e-4 ) |g| )
-constexpr double share_of_gravity = 0.02;  // what is left may not be felt beside the weight,
-constexpr double violent_share = 0.2;      // but where a body throws cloth about, not finer than this part of tol |b'|
-constexpr double resting_share = 0.1;      // of tol |g|: finer than this is work for nothing,
-constexpr double resting_most = 1e-4;      // of |g|: but what rests may not creep
+constexpr double share_of_gravity = 0.02;  // the residual must be negligible beside the weight,
+constexpr double violent_share = 0.2;      // but in violent motion not finer than this part of tol |b'|
+constexpr double resting_share = 0.1;      // of tol |g|: a finer solve changes nothing,
+constexpr double resting_most = 1e-4;      // of |g|: but cloth at rest must not creep
 
 constexpr int usual_long_waits =
     4;  // of a solve on a quiet machine, besides one per iteration: residuals in double, made by one
@@ -223,7 +223,7 @@ void ModifiedPcg<T>::true_residual(const LinearSystem<T>& system, std::span<cons
   });
 }
 
-// What every member goes through.
+// Runs on every member.
 template <class T>
 void ModifiedPcg<T>::iterate(const LinearSystem<T>& system, std::span<const Vec3> b, const PcgOptions& options,
                              Share& share, PcgReport& report) {
@@ -266,7 +266,7 @@ void ModifiedPcg<T>::iterate(const LinearSystem<T>& system, std::span<const Vec3
                            w_.data(), r_.data());
     });
     ++report.iterations;
-    if (report.iterations % 50 == 0) {  // rounding of the recurrence is thrown away
+    if (report.iterations % 50 == 0) {  // the residual is recomputed, without the rounding of the recurrence
       true_residual(system, b, share);
       residual2 = residual_norm2(system, share);
     }
@@ -309,7 +309,7 @@ double ModifiedPcg<T>::find_target(const LinearSystem<T>& system, std::span<cons
   const double felt = std::max(share_of_gravity * gravity, violent_share * relative);
   const double resting = std::min(resting_share * options.tolerance, resting_most) * gravity;
   double target = std::max(std::min(relative, felt), resting);
-  // Gravity that acts along held directions only, but for rounding (all of the cloth flat on the ground), says nothing.
+  // Gravity along constrained directions only, up to rounding (all of the cloth flat on the ground), is no scale.
   if (gravity <= 1e-9 * scale) target = options.tolerance * scale;
   return options.loosen * std::max(target, rounding_floor<T> * scale);
 }
@@ -349,7 +349,7 @@ PcgReport ModifiedPcg<T>::solve(const LinearSystem<T>& system, std::span<const V
 
   if (options.preconditioner == Preconditioner::block_ssor_coarse && report.initial_residual > report.target &&
       report) {
-    // What truncation left in the coarse modes goes, all in double: translations are among them, so that momentum is kept at
+    // Removes the residual left in the coarse modes, in double: translations are among them, so that momentum is kept at
     // any tolerance.
     system.multiply_unfiltered(dv, work2_);
     for (std::size_t i = 0; i < work2_.size(); ++i) work2_[i] = b[i] - work2_[i];

@@ -76,7 +76,7 @@ PcgReport paper_pcg(const LinearSystem<T>& system, std::span<const Vec3> b, cons
   if (delta < 0) report.status = PcgStatus::not_positive_definite;  // the listing would call this converged
   if (!std::isfinite(delta)) report.status = PcgStatus::not_finite;
   report.residual = std::sqrt(delta);
-  // z + sum of alpha c; the sum is filtered once more, in double, so that its rounding cannot move what is held.
+  // z + sum of alpha c; the sum is filtered once more, in double, so that its rounding cannot move along constrained directions.
   for (std::size_t i = 0; i < n; ++i) dv[i] = z[i] + constraints.S(static_cast<Index>(i)) * to_vec3(sum[i]);
   return report;
 }

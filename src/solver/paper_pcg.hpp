@@ -9,7 +9,7 @@
 //
 // P is said to be diagonal with P_ii = 1/A_ii, but P^-1 is applied to r.  Both cannot be meant; three readings:
 //
-//   inverse_everywhere   delta_0 with 1/A_ii (the text), r times 1/A_ii (a preconditioner)        surely what was run
+//   inverse_everywhere   delta_0 with 1/A_ii (the text), r times 1/A_ii (a preconditioner)        surely the one run
 //   diagonal_of_A        P = diag(A):  r times 1/A_ii, but delta_0 with A_ii: the sides of the test differ by A_ii^2
 //   as_printed           P = 1/A_ii:   delta_0 with 1/A_ii, but r times A_ii: the opposite of a preconditioner
 //

@@ -39,7 +39,7 @@ void StripRows::arrange(const BlockPattern& pattern, std::span<const Index, stri
   block_.assign(source_.size(), StripBlock{});
 }
 
-// A block of each strip, as long as there are any.  Those that go together have columns of their own, because all add to them at once.
+// Takes a block of each strip, as long as there are any.  Blocks of one group have different columns, because all add to them at once.
 void StripRows::pair_up(std::span<std::vector<std::pair<Index, Source>>, strips_at_once> blocks, Index row) {
   const auto any = [](const auto& of_strip) { return !of_strip.empty(); };
   while (std::any_of(blocks.begin(), blocks.end(), any)) {
@@ -98,7 +98,7 @@ void StripRows::for_rows_at(Index time, const Work& work) const {
     if (begin_[strip] + time < begin_[strip + 1]) work(strip, static_cast<std::size_t>(begin_[strip] + time));
 }
 
-// work(q, stored, transposed) for the blocks of the row p of a strip at a time: A_qp is what is stored, or its transpose.
+// work(q, stored, transposed) for the blocks of the row p of a strip at a time: A_qp is the stored block, or its transpose.
 template <class Work>
 void StripRows::for_blocks(const BlockMatrix<double>& A, Index time, std::size_t strip, const Work& work) const {
   if (time + 1 >= static_cast<Index>(row_begin_.size()))

@@ -9,7 +9,7 @@ namespace toile::internal {
 namespace {
 
 // Two for up to 16,000 particles, then more; below a thousand particles waiting costs more than is gained.  Few enough that a band does not
-// reach over most of a strip: what it couples would be of one epoch.
+// cover most of a strip: the rows that it couples would be in one epoch.
 std::size_t wanted_domains(const BlockPattern& pattern) {
   const std::size_t particles = at(pattern.rows());
   std::size_t domains = particles < 2000 ? 1 : 2;
@@ -64,7 +64,7 @@ void SweepDomains<T>::add(Coupling coupling, std::vector<Couplings>& to) const {
   const std::size_t domain = domain_of(coupling.own);
   const Index own = time_[at(coupling.own)], other = time_[at(coupling.other)];
   if (domain == domain_of(coupling.other)) {
-    // Together with others, if that is neither before one row is known nor after the other is needed.
+    // The time of a coupling: grouped with others if possible, after the one row is known and before the other is needed.
     if (other < own) {
       coupling.time = own - own % times_between_stops > other ? own - own % times_between_stops : own;
       to[domain].earlier.push_back(coupling);
@@ -225,7 +225,7 @@ void SweepDomains<T>::backward(const LinearSystem<T>& system, std::size_t domain
   const std::span<const Block<T>> G = system.filtered_inverses_by_place();
   const std::array lists{&of_A_[domain].later, &of_contacts_[domain].later};
   std::array next{from_end(*lists[0]), from_end(*lists[1])};
-  for (Index time = end; time > begin;) {  // the first that is done
+  for (Index time = end; time > begin;) {  // times from `time` on are done
     Index stop = begin;
     for (std::size_t list = 0; list < lists.size(); ++list) {
       for (; next[list] != lists[list]->rend() && next[list]->time == time - 1; ++next[list]) {
@@ -239,7 +239,7 @@ void SweepDomains<T>::backward(const LinearSystem<T>& system, std::size_t domain
   }
 }
 
-// L s of what is not in the strips, and both ways what is in no sweep.
+// L s of the blocks outside the strips, and L s and U s of the blocks in no sweep.
 template <class T>
 void SweepDomains<T>::finish(const LinearSystem<T>& system, std::size_t domain, std::span<const Lane<T>> s,
                              std::span<Lane<T>> As) const {

@@ -172,14 +172,14 @@ struct RowNumbers {
 
 //   forward    h = r - L y,  y = G h,      pushed from a row into later ones
 //   backward   s = y - G U s,              pulled;  As = h + L s is pushed while the blocks are at hand      [Eisenstat 1981]
-// A sweep is a chain of rows, and waiting for the row before would take longer than the work: so rows that do not wait for each other
-// go together.  A row pulls from its neighbour in the order of places last, and pushes into it first.
+// A sweep is a chain of rows, and the latency of the row before exceeds the work of a row: so independent rows are swept
+// together.  A row pulls from its neighbour in the order of places last, and pushes into it first.
 void forward(const Strips& strips, Index first, Index end, const Block<float>* G, Lane<float>* s_lanes,
              Lane<float>* As_lanes) {
   const RowNumbers rows(strips, G, s_lanes, As_lanes);
   float* As = reinterpret_cast<float*>(As_lanes);
   const float* const(&const_As)[4] = {rows.As[0], rows.As[1], rows.As[2], rows.As[3]};
-  // By value: of what `strips` refers to, no store can change it.
+  // By value: no store can alias it.
   const std::int32_t* begin = strips.begin;
   const StripColumn* column = strips.column;
   const StripBlock* blocks = strips.block;

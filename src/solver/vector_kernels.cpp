@@ -10,14 +10,14 @@
 // After it.
 #include <hwy/highway.h>
 
-// Registers that the plainest set does not have are passed between functions that are inlined, so never by any ABI.
+// Registers that the baseline instruction set lacks are passed between inlined functions only, so no ABI is involved.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 HWY_BEFORE_NAMESPACE();
 namespace toile::internal::HWY_NAMESPACE {
 namespace {
 
-// Lanes of two particles; the compiler cuts them into what the instruction set has.
+// Lanes of two particles; the compiler splits them into the registers of the instruction set.
 using Two [[gnu::vector_size(32)]] = float;
 using Wide [[gnu::vector_size(64)]] = double;
 
@@ -44,7 +44,7 @@ HWY_INLINE Two times(const Block<float>* G, const Two& r) {
          both(G[0].c2, G[1].c2) * __builtin_shufflevector(r, r, 2, 2, 2, 2, 6, 6, 6, 6);
 }
 
-// work(k, sum) for every pair of particles k, k + 1 of four at a time; what is left over goes through copies that are padded by zeros.
+// work(k, sum) for every pair of particles k, k + 1 of four at a time; the rest goes through copies padded by zeros.
 constexpr Index step = 4;
 
 double dot(Index begin, Index end, const Lane<float>* a, const Lane<float>* b) {
@@ -145,7 +145,7 @@ double norm2(Index begin, Index end, const Block<float>* G, const Lane<float>* r
   return sum(even, odd);
 }
 
-using Numbers [[gnu::vector_size(32)]] = double;  // three and one that does not matter
+using Numbers [[gnu::vector_size(32)]] = double;  // three and one unused
 
 HWY_INLINE void add_three(const Numbers& v, double* to) {
   for (int m = 0; m < 3; ++m) to[m] += v[m];

@@ -99,11 +99,11 @@ Index AdaptiveStep::most_strained(const ClothState& state) const {
   return triangle;
 }
 
-// Of what was refused: the triangle, or all around the particles.
+// The offending triangle, or all triangles around the offending particles.
 std::vector<Index> AdaptiveStep::offenders(const ClothState& state, const StepReport& report) const {
   const std::vector<Triangle>& triangles = integrator_.model().mesh.triangles;
   std::vector<char> marked(state.x.size(), 0);
-  const auto mark = [&](Index particle) {  // the body's come behind the cloth's
+  const auto mark = [&](Index particle) {  // the body's particles follow the cloth's
     if (particle >= 0 && static_cast<std::size_t>(particle) < marked.size())
       marked[static_cast<std::size_t>(particle)] = 1;
   };

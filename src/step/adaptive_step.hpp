@@ -1,4 +1,4 @@
-// step/adaptive_step.hpp: the length of steps, from how much threads change in them.                           [BW98 7]
+// step/adaptive_step.hpp: adaptive step size, by the change of stretch in a step.                              [BW98 7]
 //
 //   accept   no |w_u| or |w_v| changes by more than `stretch_limit`, the solve converged, and the safe filter could
 //            keep cloth apart from cloth and from the body
@@ -36,13 +36,13 @@ struct FrameReport {
   int cg_iterations = 0, cg_max = 0;  // summed over steps; the largest of one step
   int passes = 0;
   int corrected = 0,
-      truncated = 0;      // particles moved by the safe filter, and of them with clipped motion; summed over steps
-  int met = 0;            // steps with impacts in the safe filter
-  int refused = 0;        // rejected by the safe filter
-  int pierced = 0;        // impacts with the body that were let through, summed over steps
-  int pinched = 0;        // pinched particles, the most of any step
-  StepReport last;        // of the last attempt: the reason when !ok
-  std::string diagnosis;  // when !ok: which triangles and particles, in words
+      truncated = 0;             // particles moved by the safe filter, and of these clipped ones; summed over steps
+  int met = 0;                   // steps with impacts in the safe filter
+  int refused = 0;               // rejected by the safe filter
+  int pierced = 0;               // impacts with the body that were allowed, summed over steps
+  int pinched = 0;               // pinched particles, the most of any step
+  StepReport last;               // of the last attempt: the reason when !ok
+  std::string diagnosis;         // when !ok: which triangles and particles, in words
   std::vector<Index> offenders;  // when !ok: triangles of the cloth to look at, ascending
 };
 

@@ -1,7 +1,7 @@
-// step/body_attachment.hpp: a point of the cloth that a moving body carries: a button, a strap, what is glued on.
+// step/body_attachment.hpp: a point of the cloth that a moving body carries: a button, a strap, a glued patch.
 //
-//   x(t) = sum_k b_k x_k(t) + [e1 e2 n](t) l       b, l fixed when it is taken; e1 along the triangle's first edge, n its normal, e2 = n x e1
-// It turns with its triangle, and keeps the distance that it had.
+//   x(t) = sum_k b_k x_k(t) + [e1 e2 n](t) l       b, l fixed at attachment; e1 along the triangle's first edge, n its normal, e2 = n x e1
+// It turns with its triangle, and keeps its distance.
 #pragma once
 #include "contact/body_surface.hpp"
 
@@ -17,9 +17,9 @@ struct BodyAttachment {
   }
 };
 
-// To the point of the body that is nearest to x where the body is at the end of its step; of equally near ones the first triangle's.
+// Attaches to the point of the body nearest to x, with the body at the end of its step; of equally near points the first triangle's.
 BodyAttachment attach(const BodySurface& body, const Vec3& x);
-// Where the body takes it, at the end of the step.
+// Its position at the end of the body's step.
 Vec3 carried(const BodyAttachment& attachment, const BodySurface& body);
 
 }  // namespace toile::internal

@@ -24,9 +24,9 @@ constexpr double pull_of_weight = 0.01;  // a pull below this part of the partic
 constexpr double same_face = 0.9;        // cosine between normals, from which on they are of one face
 constexpr double look_back = -0.9;       // cosine between normals of faces that look at each other
 constexpr double least_sine2 = 0.1;      // between two faces at the start of a step it is 0.19 at least
-constexpr double over = 0.87;            // cosine between a face's normal and the way from it to what lies over it
+constexpr double over = 0.87;            // cosine between a face's normal and the direction to a particle over it
 
-// Of a force lambda n + mu m + what leads along the crease: lambda and mu.
+// lambda and mu of a force lambda n + mu m + a component along the crease.
 std::array<double, 2> along_normals(const Vec3& force, const Vec3& n, const Vec3& m) {
   const double c = n.dot(m), f_n = n.dot(force), f_m = m.dot(force), s2 = std::max(1 - c * c, least_sine2);
   return {(f_n - c * f_m) / s2, (f_m - c * f_n) / s2};
@@ -55,7 +55,7 @@ double BodyConstraints::friction(const Contact& contact, Index particle) const {
          options_.friction_of(body_->collider(contact.point.triangle), model_->friction[at(particle)]);
 }
 
-// Coulomb's: of both faces in a crease.
+// Radius of Coulomb's cone: the sum over both faces in a crease.
 double BodyConstraints::cone_N(const Near& near) {
   const double mu = friction(near.contact, near.particle);
   const Contact* other = other_face(near);
@@ -109,15 +109,15 @@ void BodyConstraints::find_creases(const ClothState& state) {
   }
 }
 
-// The body's motion over the step, of which it may have been told anew.
+// Reads the body's motion over the step, which may have changed since detect.
 void BodyConstraints::Contact::follow(const BodySurface& body) {
   body_travel = body.travel(point.triangle, point.barycentric);
   normal = body.normal_midway(point.triangle, point.normal);
 }
 
-// What is at rest before a step says nothing of the forces that will move it: a seam that is welded under tension, without gravity,
-// comes 6 mm in a step of 1/60 s.
-void BodyConstraints::find_what_came_far(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step) {
+// The velocity before a step does not bound the motion in it: a seam that is welded under tension, without gravity,
+// moves by 6 mm in a step of 1/60 s.
+void BodyConstraints::find_far_moving(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (points_[i].triangle >= 0) continue;
     const auto particle = static_cast<Index>(i);
@@ -134,7 +134,7 @@ void BodyConstraints::find_what_came_far(const ClothState& state, std::span<cons
   }
 }
 
-// A new contact slides: what friction does to it is decided by the solve.
+// A new contact slides: the solve decides whether friction stops it.
 void BodyConstraints::touch_down(Near& near, const Vec3& v, double h_s) const {
   Contact& contact = near.contact;
   const Vec3 relative = v - contact.body_travel / h_s;
@@ -175,7 +175,7 @@ double BodyConstraints::alteration(const Contact& contact, double to_m) const {
   return std::min(missing, altered_share_ * largest_alteration * r);
 }
 
-// In a crease y is the shortest way that leads as far as it has to from either face.
+// In a crease y is the shortest displacement that restores the offset from both faces.
 Vec3 BodyConstraints::alteration(const Near& near) {
   const double r = offset_m(near.contact);
   const Vec3& n = near.contact.normal;
@@ -239,7 +239,7 @@ double BodyConstraints::predicted_gap_m(const Contact& contact, Index particle, 
   return gap + n.dot(step.drift(particle) + (step.weight_s / step.h_s - 1) * contact.body_travel);
 }
 
-// Whether it touches, after faces that it would come too near to have been added.
+// Whether it touches, after adding the faces that it would come too near to.
 bool BodyConstraints::touches(Near& near, const Vec3& v, const StepFormula& step, Change& change) {
   const auto comes_to = [&](Contact& contact) {
     const double gap = predicted_gap_m(contact, near.particle, v, step);
@@ -262,8 +262,8 @@ bool BodyConstraints::touches(Near& near, const Vec3& v, const StepFormula& step
   return true;
 }
 
-// Whether a face would have to pull, and lets go: of two the one that would pull more.
-bool BodyConstraints::is_let_go(Near& near, const Vec3& force_N, bool may_leave) {
+// Whether a face would have to pull, and is released: of two the one that would pull more.
+bool BodyConstraints::releases(Near& near, const Vec3& force_N, bool may_leave) {
   Contact& contact = near.contact;
   Beside* beside = touching_beside(near);
   std::array<double, 2> lambda{contact.normal.dot(force_N), 0};
@@ -296,7 +296,7 @@ bool BodyConstraints::is_let_go(Near& near, const Vec3& force_N, bool may_leave)
 BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::span<const Vec3> dv,
                                                 std::span<const Vec3> e, const StepFormula& step, bool first_passes) {
   Change change;
-  find_what_came_far(state, dv, step);
+  find_far_moving(state, dv, step);
   for (Near& near : near_) {
     if (near.pinned) continue;
     const std::size_t i = at(near.particle);
@@ -308,7 +308,7 @@ BodyConstraints::Change BodyConstraints::update(const ClothState& state, std::sp
       continue;
     }
     const Vec3 force = e[i] / step.weight_s;
-    if (is_let_go(near, force, first_passes)) {
+    if (releases(near, force, first_passes)) {
       ++change.released;
       change.touching += near.touch != Touch::none ? 1 : 0;
       continue;

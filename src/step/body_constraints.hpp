@@ -77,7 +77,7 @@ class BodyConstraints {
     const BodyPoint& point = points_[static_cast<std::size_t>(particle)];
     return point.triangle >= 0 && point.gap_m < 0;
   }
-  // Too far inside to be brought out by y; step/swallowed.hpp draws such a particle out.
+  // Too far inside to be brought out by y; step/penetration_recovery.hpp draws such a particle out.
   bool too_deep(const BodyPoint& point) const;
   std::span<const BodyPoint> points() const { return points_; }  // [particle] of the last detect; empty without a body
   bool any_near() const { return !near_.empty(); }
@@ -136,7 +136,7 @@ class BodyConstraints {
   // The gap at the end of the step, with the velocity v.
   double predicted_gap_m(const Contact& contact, Index particle, const Vec3& v, const StepFormula& step) const;
   bool touches(Near& near, const Vec3& v, const StepFormula& step, Change& change);
-  bool is_let_go(Near& near, const Vec3& force_N, bool may_leave);
+  bool releases(Near& near, const Vec3& force_N, bool may_leave);
   Beside* beside(const Near& near) {
     return near.beside < 0 ? nullptr : &beside_[static_cast<std::size_t>(near.beside)];
   }
@@ -149,7 +149,7 @@ class BodyConstraints {
     const Beside* other = touching_beside(near);
     return other && !other->slit ? &other->contact : nullptr;
   }
-  void find_what_came_far(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step);
+  void find_far_moving(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step);
   void touch_down(Near& near, const Vec3& v, double h_s) const;
   double offset_m(const Contact& contact) const { return offset_m(contact.point); }
   double friction(const Contact& contact, Index particle) const;

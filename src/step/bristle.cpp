@@ -54,7 +54,7 @@ void Bristle::append_springs(const LinearSpring& contact, const Vec3& travel_m, 
     springs.push_back(spring);
   };
   if (slips()) {
-    // The normal may have turned since the way was measured.
+    // The normal may have turned since the motion was measured.
     const Vec3& n = contact.direction;
     const Vec3 t = (along_ - n.dot(along_) * n).normalized(), across = n.cross(t);
     const double k = cone_N_ / way_m_;

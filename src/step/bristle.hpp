@@ -28,7 +28,7 @@ class Bristle {
   // was turned back: friction stopped it within the step, and the force of slipping would drive it the other way.  It
   // then sticks; after the second time until the step ends (the first may be due to a contact that is dropped again).
   bool decide(const Vec3& u_m, double cone_N);
-  // After the step.
+  // Call after the step.
   void end(const Vec3& u_m, double cone_N);
   // Springs in the tangent plane of `contact`, whose direction is the normal.  `travel_m`: motion of the body's point
   // over the step.

@@ -13,21 +13,21 @@ namespace {
 constexpr std::size_t pair_grain = 64;
 constexpr double load_share = 0.1;  // of r: how far the load of the last step may press the spring
 constexpr double most_growth =
-    10;  // a hit in a short step is a huge load for a moment, and would leave a stiffness that no solver likes
-// But nothing can be pressed flat: nearer than that to each other, layers get stiffer from step to step, until they bear what presses them.
+    10;  // an impact in a short step is a huge load for a moment, and would leave an ill-conditioned stiffness
+// But layers cannot be pressed flat: when nearer than this they get stiffer from step to step, until they bear the load.
 constexpr double flat = 0.02;  // of r
 constexpr double hardens_by = 2, most_hardening = 1000;
-// A bristle lets go when its contact has been open for so many steps, or by so much of r.
+// A bristle is dropped when its contact has been open for more steps than this, or by more of r.
 constexpr int most_idle_steps = 2;
 constexpr double idle_gap = 1.5;
-constexpr double most_of_faces = 3;  // stiffness of a row with a face, in terms of what its pair gives way by
+constexpr double most_of_faces = 3;  // stiffness of a row with a face, over the inverse compliance of its pair
 constexpr double same_way = 0.9, too_near = 0.1;  // cosine; of r
-constexpr double moves_on = 0.5;  // of r: way of a pair in a step from which its end says more than its start
-constexpr double at_rest = 0.04;  // of r: way of a pair in a step up to which it does not slide
+constexpr double moves_on = 0.5;  // of r: motion of a pair in a step above which its end matters more than its start
+constexpr double at_rest = 0.04;  // of r: motion of a pair in a step up to which it does not slide
 constexpr double same_side =
     0.7;  // cosine between the normals of a contact before and after its vertex came to another face
 
-// The vertices whose contact this is; -1: none.  Edges that pass over edges are other contacts all the time.
+// The vertices that own the contact; -1: none.  Edges that slide over edges make new contacts all the time.
 std::array<Index, 2> vertices_of(ContactKind kind, bool body, const std::array<Index, 5>& feature) {
   if (body || kind == ContactKind::edge_edge) return {-1, -1};
   return {feature[0], kind == ContactKind::vertex_vertex ? feature[1] : Index{-1}};
@@ -82,7 +82,7 @@ void ContactRows::detect(const ClothState& state, double h_s) {
   pairs_.clear();
   h_s_ = h_s;
   ready_for(state.x);
-  // How far ahead pairs are watched does not shrink with a thinned r: how fast they close has nothing to do with it.
+  // The look-ahead does not shrink with a thinned r: it depends on the closing speed only.
   const double r_max = std::max(options_.cloth_cloth ? distance_.largest_m() : 0, body_ ? largest_body_r_m_ : 0);
   const double range = (1 + options_.look_ahead) * r_max;
 
@@ -142,8 +142,8 @@ void ContactRows::detect(const ClothState& state, double h_s) {
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) { return a.key < b.key; });
 }
 
-// At rest, a row of two edges that bends a fold flat would be gone in the next step, the fold would rise, and the row come back, for ever.
-// Where edges slide over each other it has to go: flat sheets would catch on rows of edges.
+// At rest, a row of two edges that presses a fold flat would vanish in the next step, as the edges are then flat; the fold would rise, and the
+// row return, for ever.  Where edges slide over each other the row has to go: flat sheets would catch on it.
 void ContactRows::find_acting_edges() {
   acting_edges_.clear();
   for (const Memory& memory : memory_) {
@@ -185,7 +185,7 @@ void ContactRows::begin(const ClothState& state, std::span<const Vec3> dv, const
   take_over_contacts();
 }
 
-// Where the pair is, which way its spring acts, and how stiff it is at least.
+// Sets the pair's position, the direction of its spring, and its least stiffness.
 void ContactRows::place(Pair& pair, const ClothState& state, std::span<const Vec3> dv, const StepFormula& step,
                         double base_h_s, std::span<const Mat3> diagonal) const {
   LinearSpring& spring = pair.spring;
@@ -220,7 +220,7 @@ void ContactRows::place(Pair& pair, const ClothState& state, std::span<const Vec
   spring.body_displacement_m = spring.direction.dot(pair.body_travel_m);
 }
 
-// A contact goes on: with the load and the friction that it had.
+// A contact continues with its load and friction.
 void ContactRows::carry_on(Pair& pair, std::size_t memory) {
   const Memory& before = memory_[memory];
   kept_[memory] = 1;
@@ -232,8 +232,8 @@ void ContactRows::carry_on(Pair& pair, std::size_t memory) {
   pair.bristle.decide(before.way_m, pair.friction * pair.lambda_N);
 }
 
-// Two edges, or a vertex and an edge, meet along a direction that turns while they pass each other: the hem of a sheet that slides comes
-// to lie over the vertices before it, and a row along the way to them would be a wall.  Such a row is made about the end of the step,
+// The normal of two edges, or of a vertex and an edge, turns while they pass each other: the hem of a sliding sheet comes to lie over the
+// vertices in front of it, and a row along the direction to them would be a wall.  Such a row takes its normal from the end of the step,
 // as far as it is known.
 void ContactRows::aim_at_the_end(Pair& pair, const ClothState& state, std::span<const Vec3> dv,
                                  const StepFormula& step) const {
@@ -249,7 +249,7 @@ void ContactRows::aim_at_the_end(Pair& pair, const ClothState& state, std::span<
     end[k] = state.x[i] + moved;
     way += pair.weight[k] * moved;
   }
-  // What hardly moves passes nothing by, and needs no guess of its end.
+  // A pair that hardly moves does not pass, and needs no guess of its end.
   if (way.norm() < moves_on * pair.r_m) return;
   std::array<double, 4> weight = pair.weight;
   if (pair.key.kind == ContactKind::edge_edge) {
@@ -264,17 +264,17 @@ void ContactRows::aim_at_the_end(Pair& pair, const ClothState& state, std::span<
   Vec3 between = Vec3::Zero();
   for (std::size_t k = 0; k < 4 && spring.particle[k] >= 0; ++k) between += weight[k] * end[k];
   const double distance = between.norm(), turned = between.dot(pair.normal);
-  if (distance >= pair.r_m) {  // others have taken over, on whatever side, unless it only moved away
+  if (distance >= pair.r_m) {  // other pairs have taken over, unless it only moved away
     pair.passes_by = turned < same_way * distance;
     return;
   }
-  // Through each other, or so near that the direction means nothing: the side is that of the start.
+  // Through each other, or too near for a reliable direction: keep the normal of the start.
   if (turned <= 0 || distance < too_near * pair.r_m) return;
   spring.weight = weight;
   spring.direction = between / distance;
 }
 
-// A vertex that comes to the next face, or to the edge between two, has another pair; what holds it there is the same contact.
+// A vertex that moves to the next face, or to the edge between two, gets another pair, which continues the same contact.
 void ContactRows::take_over_contacts() {
   orphans_.clear();
   for (std::size_t m = 0; m < memory_.size(); ++m) {
@@ -295,7 +295,7 @@ void ContactRows::take_over_contacts() {
       };
       while (orphan != orphans_.end() && orphan->vertex == vertex && !fits()) ++orphan;
       if (orphan == orphans_.end() || orphan->vertex != vertex) continue;
-      // At rest the next pair is as stiff as this one was: else the vertex would go back for the load that it now takes with another gap.
+      // At rest the next pair is as stiff as this one was: else the vertex would move back until the same load has its old gap.
       const Memory& before = memory_[orphan->memory];
       if (before.rests) {
         LinearSpring& spring = pair.spring;
@@ -375,7 +375,7 @@ void ContactRows::accept(const ClothState& end_state) {
     const bool rests = idle == 0 && way.norm() < at_rest * pair.r_m;
     memory_.push_back({pair.key, k, lambda, pair.bristle, way, n, idle, rests});
     Bristle& bristle = memory_.back().bristle;
-    // An open contact forgets no stretch: it may close again at once.
+    // An open contact keeps its stretch: it may close again at once.
     if (idle == 0 && bristle.begun()) bristle.end(way, pair.friction * lambda);
   }
 }

@@ -20,7 +20,7 @@ constexpr std::size_t grain = 256;
 Flypaper::Flypaper(const BodySurface* body, std::size_t particles, BodyContactOptions contact)
     : body_(body), contact_(std::move(contact)), pinched_(particles, Pinched::no) {}
 
-// How much nearer the two surfaces come to each other in the step.  Of a place that moves as one, nothing.
+// The closing distance of the two surfaces in the step; 0 for a rigid motion.
 double Flypaper::closing(const Pinch& pinch) const {
   const auto& [one, two] = pinch.side;
   const Vec3 relative = body_->travel(one.triangle, one.barycentric) - body_->travel(two.triangle, two.barycentric);
@@ -55,7 +55,7 @@ bool Flypaper::begins(Pinch& pinch, const Vec3& x) const {
   if (reach <= 0) return false;
   pinch.side[1] = body_->nearest_opposite(x, near.normal, reach);
   const BodyPoint& other = pinch.side[1];
-  // Within it; or beside it, not over it: the way to it leads along it.
+  // Within the face; or beside it, not over it: the direction to it is along it.
   if (other.triangle < 0 || other.gap_m < 0.5 * (x - body_->position(other.triangle, other.barycentric)).norm())
     return false;
   const double closes = closing(pinch), r = offset_m(pinch);
@@ -67,12 +67,12 @@ bool Flypaper::begins(Pinch& pinch, const Vec3& x) const {
 void Flypaper::detect(const ClothState& state, std::span<const BodyPoint> nearest) {
   if (!body_) return;
   const auto start = body_->positions(), end = body_->next_positions();
-  was_.assign(pinched_.begin(), pinched_.end());  // what has just been let go of stays free for this step
+  was_.assign(pinched_.begin(), pinched_.end());  // a particle that has just been released stays free for this step
   candidates_.clear();
   for (Pinch& pinch : pinches_)
     if (goes_on(pinch, state.x[at(pinch.particle)])) candidates_.push_back(pinch);
   pinches_.swap(candidates_);
-  if (!std::equal(start.begin(), start.end(), end.begin())) {  // else nothing closes
+  if (!std::equal(start.begin(), start.end(), end.begin())) {  // else no pinch closes
     candidates_.clear();
     for (std::size_t i = 0; i < nearest.size(); ++i) {
       if (nearest[i].triangle < 0 || was_[i] != Pinched::no) continue;

@@ -9,10 +9,10 @@ namespace toile::internal {
 namespace {
 
 constexpr double loose_passes = 3;  // times the residual at which the last pass stops
-// Passes before the end of a step is worth judging: the first guess of the contacts is poor.
+// Passes before the end of a step is judged: the first guess of the contacts is poor.
 constexpr int contact_passes = 2;
-constexpr double most_made = 0.1;           // in threads by a solve that does not know of it, of the kinetic energy
-constexpr double shortest_part = 1.0 / 16;  // of the way that a solve about an end leads
+constexpr double most_made = 0.1;           // energy beyond the linearisation in threads, of the kinetic energy
+constexpr double shortest_part = 1.0 / 16;  // of the update by a solve about an end
 
 }  // namespace
 
@@ -26,7 +26,7 @@ ImplicitEuler::ImplicitEuler(const ClothModel& model, const StepWorld& world, co
       constraints_(model.particle_count()),
       body_(model, world.body, options.body),
       flypaper_(world.body, model.mass_kg.size(), options.body),
-      swallowed_(model, world.body),
+      penetration_recovery_(model, world.body),
       rows_(model, world.body, world.merged_particle, options.body, options.rows) {
   const auto n = static_cast<std::size_t>(model.particle_count());
   for (Vec3s* vector :
@@ -83,19 +83,19 @@ void ImplicitEuler::prepare(const ClothState& state, double t_s, double h_s, dou
   if (world_->body) look_through_body(state);
 }
 
-// What is through the body already is not kept there, and what is deep within it is drawn out.  That anything is can only come of a
-// start, of a step that let it in, or of a body that is not guarded.
+// Cloth that is through the body already is not kept there, and cloth deep within it is drawn out.  Both only occur from the start of a
+// run, after a step that allowed it, or with a body that is not guarded.
 void ImplicitEuler::look_through_body(const ClothState& state) {
   const Timed timed(seconds_.cloth_solid);
   may_be_through_ |= flypaper_.any_without_room();
   if (may_be_through_) {
     const bool crosses =
         mark_through_body(rows_.topology(), rows_.tree(), state.x, *world_->body, body_workspace_, through_body_);
-    swallowed_.detect(state.x, body_);
-    may_be_through_ = crosses || swallowed_.any() || !options_.guard_body;
+    penetration_recovery_.detect(state.x, body_);
+    may_be_through_ = crosses || penetration_recovery_.any() || !options_.guard_body;
   } else {
     through_body_.assign(state.x.size(), 0);
-    swallowed_.clear();
+    penetration_recovery_.clear();
   }
   for (std::size_t i = 0; i < state.x.size(); ++i) {
     if (body_.inside(static_cast<Index>(i)) || flypaper_.pinched()[i] == Pinched::without_room) through_body_[i] = 1;
@@ -114,11 +114,11 @@ void ImplicitEuler::hold_pins(const ClothState& state, double t_s, const StepFor
     if (!step.drift_m.empty()) way -= step.drift_m[i];
     const Vec3 velocity = way / step.weight_s;
     const Vec3 z = velocity - state.v[i];
-    if (pin.held_directions == 3) {
+    if (pin.constrained_directions == 3) {
       constraints_.hold(pin.particle, z);
     } else {
       constraints_.hold_along(pin.particle, pin.p, pin.p.dot(z));
-      if (pin.held_directions == 2) constraints_.hold_along(pin.particle, pin.q, pin.q.dot(z));
+      if (pin.constrained_directions == 2) constraints_.hold_along(pin.particle, pin.q, pin.q.dot(z));
     }
   }
 }
@@ -180,7 +180,7 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
     const Timed timed(seconds_.eval);
     relinearise(state, t_s, step, candidate);
   }
-  // What a landing takes from the velocity is no smooth motion: such a step is backward Euler from its start.
+  // The loss of velocity at a landing is not smooth: such a step is backward Euler from its start.
   if (!step.drift_m.empty() && (body_.changed() || rows_.changed())) {
     history_.forget();
     StepReport again = attempt(state, t_s, h_s, limits, candidate);
@@ -202,8 +202,8 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   return report;
 }
 
-// Newton's method may lead farther than its linearisation bears: then half the way is gone, and half of that, until the energy that the
-// linearisation did not know of is no more than what it gained.  Over the part a of the way d, dv.A dv / 2 - dv.b falls by
+// A Newton update may leave the region where its linearisation is valid: then it is halved until the energy beyond the linearisation
+// is no more than the decrease by the linear model.  Over the part a of the update d, dv.A dv / 2 - dv.b falls by
 // (a - a^2 / 2) d.A d.                                                        [Nocedal & Wright 2006, 3.1: backtracking]
 void ImplicitEuler::shorten(const ClothState& state, const StepFormula& step, ClothState& candidate) {
   const Timed timed(seconds_.eval);
@@ -218,7 +218,7 @@ void ImplicitEuler::shorten(const ClothState& state, const StepFormula& step, Cl
   }
 }
 
-// Where the step ends by the last solve.
+// The end of the step by the last solve.
 void ImplicitEuler::find_end(const ClothState& state, const StepFormula& step, ClothState& candidate) {
   for (std::size_t i = 0; i < dv_.size(); ++i) {
     candidate.v[i] = state.v[i] + dv_[i];
@@ -227,8 +227,8 @@ void ImplicitEuler::find_end(const ClothState& state, const StepFormula& step, C
   }
 }
 
-// Whether threads get energy at that end that the solve knew nothing of, as they do where cloth turns: it would brake the turn in the next
-// step.  Slow motion counts as well as it would at its slowest speed, or cloth that hardly moves would never be still enough.
+// Whether threads have too much energy beyond the linearisation at that end, as they do where cloth turns: it would brake the turn in the
+// next step.  Motion below slow_motion counts as that speed, or cloth that hardly moves would never pass the test.
 bool ImplicitEuler::makes_energy(const ClothState& candidate, double h_s) {
   const double fall2 = (options_.slow_motion * h_s * model_->gravity_m_per_s2).squaredNorm();
   double kinetic_J = 0;
@@ -256,7 +256,7 @@ void ImplicitEuler::relinearise(const ClothState& state, double t_s, const StepF
   }
 }
 
-// Of what lands in this step, where its fall goes on in y; empty where nothing does.
+// [particle] the velocity of a landing in this step, the part of its fall in y; empty without landings.
 std::span<const Vec3> ImplicitEuler::landing_velocity(double H) {
   bool any = false;
   for (std::size_t i = 0; i < landing_.size(); ++i) {
@@ -288,7 +288,7 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
       body_.apply(state, step, constraints_, y_, landing_, springs_);
       if (options_.position_alteration == PositionAlteration::in_solve) y_known_ = y_;
       rows_.append_springs(springs_);
-      swallowed_.append_springs(springs_);
+      penetration_recovery_.append_springs(springs_);
       for (const Drag& drag : world_->drags) toile::internal::append_springs(drag, state, t_s, step.h_s, springs_);
       if (world_->springs) world_->springs(state, t_s + step.h_s, step.h_s, springs_);
       const bool drifts = !step.drift_m.empty();
@@ -399,7 +399,7 @@ void ImplicitEuler::judge_strain(const StretchChange& largest, StepReport& repor
   report.strain_limit = model_->stiffness_of(static_cast<std::size_t>(largest.beyond)).strain_limit;
 }
 
-// Of the impacts with the body that the last attempt could not prevent.
+// For the impacts with the body that the last attempt could not prevent.
 bool ImplicitEuler::may_pierce(StepLimits::Pierce pierce) const {
   if (pierce != StepLimits::Pierce::pinched) return pierce == StepLimits::Pierce::all;
   const auto is_pinched = [&](Index i) {
@@ -443,7 +443,7 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
     const Vec3 uncounted = (1 - counted_share(correction, candidate.v[i], h_s, base_h_s_)) * correction;
     candidate.v[i] = velocity_of_motion(candidate.x[i] - state.x[i] - uncounted, y_[i], h_s);
   }
-  judge_speed(candidate, report);  // impulses out of one thing may lead far into another
+  judge_speed(candidate, report);  // impulses against one contact may lead far into another
 }
 
 void ImplicitEuler::accept(const ClothState& candidate, double h_s) {

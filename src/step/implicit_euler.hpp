@@ -20,9 +20,9 @@
 #include "step/contact_rows.hpp"
 #include "step/drag.hpp"
 #include "step/flypaper.hpp"
+#include "step/penetration_recovery.hpp"
 #include "step/step_report.hpp"
 #include "step/stretch_changes.hpp"
-#include "step/swallowed.hpp"
 
 #include <functional>
 #include <memory>
@@ -32,13 +32,13 @@
 
 namespace toile::internal {
 
-// A particle held by the user.
+// A particle that the user constrains.
 struct Pin {
   Index particle = -1;
-  int held_directions = 3;                // 3: fixed; 2: along p and q (moves on a line); 1: along p (moves in a plane)
+  int constrained_directions = 3;         // 3: fixed; 2: along p and q (moves on a line); 1: along p (moves in a plane)
   Vec3 p{1, 0, 0}, q{0, 1, 0};            // unit, orthogonal
-  std::function<Vec3(double t_s)> path;   // its position; empty: it stays where it is along the held directions
-  std::optional<BodyAttachment> on_body;  // instead: it goes where the world's body takes it
+  std::function<Vec3(double t_s)> path;   // its position; empty: it stays where it is along the constrained directions
+  std::optional<BodyAttachment> on_body;  // instead: the world's body carries it
 };
 
 // Position alteration within the solve (K y in b), or as a jump after it; the latter for comparison.
@@ -51,10 +51,10 @@ struct StepOptions {
   PositionAlteration position_alteration = PositionAlteration::in_solve;
   Integrator integrator = Integrator::backward_euler;
   int newton_iterations = 1;  // linear solves per step, each about the end of the last; the paper: 1
-  // More solves about the end of the last one while a thread changes by more than it may, and one if the end has too
+  // More solves about the end of the last one while a thread changes by more than the limit, and one if the end has too
   // much energy beyond the linearisation; the paper: none.
   int relinearisations = 6;
-  // As a share of the speed of one step's free fall: turning slower than that is not solved again for its energy beyond
+  // As a share of the speed of one step's free fall: slower turns are not solved again for their energy beyond
   // the linearisation, which brakes it.
   double slow_motion = 1;
   int max_passes = 8;              // of the active set, per linear solve
@@ -114,12 +114,12 @@ class ImplicitEuler {
   const SafeFilter& filter() const { return filter_; }  // of the last attempt
   PhaseSeconds seconds() const;
   const StepOptions& options() const { return options_; }
-  // Of one collider, or of all that have none of their own, from the next step on.
+  // For one collider, or for all without a value of their own, from the next step on.
   void set_body_friction(std::optional<Index> collider, double friction) {
     body_.set_friction(collider, friction);
     rows_.set_body_friction(collider, friction);
   }
-  // The time of the next step is another, and the body stands where its owner has put it.
+  // Call when the time of the next step has jumped and the owner has moved the body.
   void restart_clock() {
     body_start_.clear();
     body_end_.clear();
@@ -166,7 +166,7 @@ class ImplicitEuler {
   ParticleConstraints constraints_;
   BodyConstraints body_;
   Flypaper flypaper_;
-  Swallowed swallowed_;
+  PenetrationRecovery penetration_recovery_;
   ContactRows rows_;
   SafeFilter filter_;
   std::vector<double> inverse_mass_, before_body_;  // [particle] 1/kg: 0 for constrained particles; 0 for pins alone

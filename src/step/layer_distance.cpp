@@ -11,9 +11,9 @@ namespace toile::internal {
 namespace {
 
 constexpr double rest_share = 0.45;      // of the shortest rest edge: pairs that are neighbours at rest do not repel
-constexpr double neighbour_share = 1.5;  // of the thickness: ways along edges are up to 15 % longer than straight ones
+constexpr double neighbour_share = 1.5;  // of the thickness: paths along edges are up to 15 % longer than straight ones
 
-// Where the first feature of a pair ends among its particles.
+// The number of particles of a pair's first feature.
 std::size_t first_feature(ContactKind kind) { return kind == ContactKind::edge_edge ? 2 : 1; }
 
 }  // namespace
@@ -33,7 +33,7 @@ void LayerDistance::measure(const ClothModel& model, const ClothTopology& topolo
   std::vector<RestEdge> edges;
   const ClothMesh& mesh = model.mesh;
   thickness_m_ = model.thickness_m;
-  // Where cloth is gathered to a share of its area its layers are pressed to that share.
+  // The layers of cloth gathered to a share of its area are pressed to that share of their thickness.
   for (std::size_t t = 0; t < mesh.gathered_uv.size(); ++t) {
     if (mesh.gathered_uv[t] == mesh.uv[t]) continue;
     const double share = material_frame(model.rest_uv(t)).area_m2 / material_frame(mesh.uv[t]).area_m2;
@@ -77,7 +77,7 @@ void LayerDistance::find_neighbours(const std::vector<RestEdge>& edges, const Cl
     around[at(to)].emplace_back(static_cast<Index>(i), 0);
   }
   std::vector<std::vector<Index>> neighbours(n);
-  // The shortest ways from one particle, as far as they count (Dijkstra; a handful of particles each).
+  // The shortest paths from one particle up to the limit (Dijkstra; a handful of particles each).
   parallel_for(n, 16, [&](std::size_t i) {
     if (!thinned(i)) return;
     const double reach = neighbour_share * thickness_m_[i] + longest;

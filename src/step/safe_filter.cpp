@@ -8,13 +8,13 @@ namespace {
 
 constexpr int most_rounds = 4, sweeps = 3;
 constexpr double target_share = 0.25;  // of r
-constexpr double regain_share = 0.02;  // of r: the least that a pair is given back, wherever it began
-constexpr double largest_lever = 4;    // of what a pair is moved apart: no particle goes farther
+constexpr double regain_share = 0.02;  // of r: the least gap that a pair is restored to
+constexpr double largest_lever = 4;    // of the correction of a pair: no particle moves farther
 constexpr double cut_share = 0.9;      // of the earliest impact
 constexpr int shrinking_growths = 3;   // after these a zone's relative motion is stopped
 constexpr int most_growths = 50;
 
-// Of the impact's particles, 1/kg: 0 for the body's, and unless `pinched` is empty for all but what is pinched with room.
+// Inverse masses of the impact's particles, 1/kg: 0 for the body's and, unless `pinched` is empty, for all but those pinched with room.
 std::array<double, 4> inverse_masses(const Impact& impact, std::span<const double> inverse_mass,
                                      std::span<const Pinched> pinched) {
   std::array<double, 4> inverse{};
@@ -147,7 +147,7 @@ void SafeFilter::cut_short(const ClothTopology& cloth, TriangleTree& tree, std::
         zones_.join(impact.particle[0], impact.particle[k]);
       }
     }
-    // Times belong to the motion that is cut, which is the whole one, whatever the zones were when the impact was found.
+    // Times refer to the whole motion, which is the one that is clipped, whatever the zones were when the impact was found.
     seen.insert(seen.end(), impacts_.begin(), impacts_.end());
     std::fill(share.begin(), share.end(), growth < shrinking_growths ? 1 : 0);
     if (growth < shrinking_growths) {
@@ -156,7 +156,7 @@ void SafeFilter::cut_short(const ClothTopology& cloth, TriangleTree& tree, std::
         s = std::min(s, cut_share * std::min(1.0, impact_time(impact, start, whole_)));
       }
     }
-    // A zone follows its mean; where it holds particles that are held, theirs.
+    // A zone moves by its mean; with constrained particles, by theirs.
     std::fill(mass.begin(), mass.end(), 0);
     std::fill(held.begin(), held.end(), 0);
     std::fill(mean.begin(), mean.end(), Vec3::Zero());

@@ -40,8 +40,8 @@ struct FilterReport {
 // was carried out is excluded; excluding all of y would throw back a particle whose motion was clipped.
 Vec3 velocity_of_motion(const Vec3& moved_m, const Vec3& y_m, double h_s);
 
-// The share of a correction in a step of h_s that counts as velocity: what stops the particle, and what the longest
-// step would have given it.  The length of a correction does not depend on h: all of it would be 100 m/s in 16 us.
+// The share of a correction in a step of h_s that counts as velocity: the part that stops the particle, and the part
+// that the longest step would have given it.  The length of a correction does not depend on h: all of it would be 100 m/s in 16 us.
 double counted_share(const Vec3& correction_m, const Vec3& v_m_per_s, double h_s, double base_h_s);
 
 class SafeFilter {

@@ -3,7 +3,7 @@
 namespace toile::internal {
 namespace {
 
-constexpr double largest_ratio = 2.4;  // of two steps: beyond 1 + sqrt 2 BDF2 is not even zero-stable
+constexpr double largest_ratio = 2.4;  // of two steps: beyond 1 + sqrt 2 BDF2 is not zero-stable
 
 }  // namespace
 

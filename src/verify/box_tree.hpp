@@ -1,10 +1,10 @@
-// verify/box_tree.hpp: which triangles could meet a box, and which is nearest to a point.  The judge's own tree.
+// verify/box_tree.hpp: a bounding volume hierarchy of the judge's own: triangles near a box, and the nearest to a point.
 //
 // Four children to a node: its triangles are halved twice, at the median of their centres along the longest side of the centres'
 // box.  Boxes are closed and hold the coordinates as they are, without rounding: a triangle that touches the query is always
 // visited.  Nothing of this is shared with the tree of src/contact: an error there must not hide itself.
 //
-// Easily got wrong: the order of visits depends on the tree.  Callers sort what they collect.
+// Easily got wrong: the order of visits depends on the tree.  Callers sort their results.
 #pragma once
 #include "core/types.hpp"
 
@@ -28,7 +28,7 @@ struct ExactBox {
   }
 };
 
-// Four boxes side by side, in pairs for the narrowest registers.  One that was never set meets nothing and is infinitely far.
+// Four boxes side by side, in pairs for the narrowest registers.  A box that was never set meets nothing and is infinitely far.
 class FourBoxes {
  public:
   FourBoxes() { low_.fill({all(none), all(none)}), high_.fill({all(-none), all(-none)}); }
@@ -155,7 +155,7 @@ class BoxTree {
     return best;
   }
 
-  // The boxes of the same triangles elsewhere.  The halving stays: meant for a surface that moves.
+  // Refits the boxes to new positions of the same triangles; the tree stays.  For a surface that moves.
   void refit(std::span<const Triangle> triangles, std::span<const Vec3> x);
 
  private:

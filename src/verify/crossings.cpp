@@ -17,7 +17,7 @@ namespace {
 
 using EdgeEnds = std::array<Index, 2>;
 
-constexpr int frames_per_tree = 30;  // cloth that folds outgrows a tree which only follows it
+constexpr int frames_per_tree = 30;  // for folding cloth a tree that is only refitted degrades
 
 // A surface and the rank of its particle 0.
 struct Surface {
@@ -43,7 +43,7 @@ std::vector<EdgeEnds> edges_of(std::span<const Triangle> triangles) {
     }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  edges.shrink_to_fit();  // nearly each was there twice
+  edges.shrink_to_fit();  // nearly every edge was listed twice
   return edges;
 }
 

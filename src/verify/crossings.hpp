@@ -4,7 +4,7 @@
 // are free of each other when no cloth edge passes through a body triangle and no body edge through a cloth triangle (a
 // finger tip inside one large cloth triangle shows only in the second).
 //
-// Pairs that share a particle are not tested, and nothing is lost by it: an edge and a triangle with a common end meet
+// Pairs that share a particle are not tested, and no crossing is missed: an edge and a triangle with a common end meet
 // there and, in general position, nowhere else; two triangles that share one particle and cross do so through the edge
 // opposite to it, which shares nothing with the other triangle; two that share an edge cannot cross.
 //
@@ -59,7 +59,7 @@ class CrossingSearch {
   int frames_ = 0;
 };
 
-// How many different edges a list sorted as above names: what report.json counts.
+// The number of different edges in a list sorted as above: the count in report.json.
 int count_edges(std::span<const Crossing> crossings);
 
 }  // namespace toile::internal

@@ -17,7 +17,7 @@ namespace {
 
 using Cell = std::tuple<Index, long, long>;  // panel, column, row
 
-// Where the plane meets a triangle: at two of its edges, as shares from the smaller particle to the larger.
+// The plane's intersections with two edges of a triangle, as shares from the smaller particle to the larger.
 struct Cut {
   struct End {
     std::pair<Index, Index> edge;
@@ -80,7 +80,7 @@ class Walk {
     ring.cut_m += (cut.ends[1].drawn - cut.ends[0].drawn).norm();
   }
 
-  // True: it came back to the first triangle.
+  // True: it returned to the first triangle.
   bool follow(std::pair<Index, Index> edge, ClothRing& ring) const {
     Index from = first_;
     for (std::size_t steps = 0; steps < mesh_.triangles.size(); ++steps) {
@@ -156,7 +156,7 @@ double girth_within_m(const ClothRing& ring, std::span<const Vec3> body_x, std::
   for (const std::vector<Vec3>& curve : section(body_x, body, ring.middle_m, ring.normal)) {
     Vec3 middle = Vec3::Zero();
     for (const Vec3& p : curve) middle += p / static_cast<double>(curve.size());
-    // The trunk beside an arm is cut by the plane of a sleeve, too.
+    // The plane of a sleeve also cuts the trunk beside the arm.
     if ((middle - ring.middle_m).norm() < radius_m) within.insert(within.end(), curve.begin(), curve.end());
   }
   return within.empty() ? 0 : girth_m(within, ring.normal);

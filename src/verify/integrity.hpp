@@ -1,6 +1,6 @@
-// verify/integrity.hpp: whether the files of a run are what the run wrote, by the checksums of its report.
+// verify/integrity.hpp: whether the files of a run are unchanged, by the checksums of its report.
 //
-// A checksum is not a signature: it tells a disk's error, a cut file or a stray edit, not a forger.
+// A checksum is not a signature: it detects a disk error, a truncated file or a stray edit, not a forgery.
 #pragma once
 #include "io/json.hpp"
 #include "io/pc2.hpp"
@@ -16,19 +16,19 @@ class Integrity {
   // `text` is that of report.json, `report` the same parsed.  Files of `directory` that are checked whole are read here.
   Integrity(const std::string& directory, std::string_view text, const Json& report);
 
-  // The frame that the reader of cache `name` has just read.
+  // Checks the frame that the reader of cache `name` has just read.
   void check_frame(std::string_view name, int frame, const Pc2Reader& reader);
-  // Before its frames: header and number.
+  // Call before its frames: checks header and number.
   void check_header(std::string_view name, const Pc2Reader& reader);
-  // A cache that nobody else reads.
+  // Reads and checks a cache that is not read otherwise.
   void check_cache(const std::string& directory, std::string_view name);
 
-  // One sentence each, for a person.
+  // One sentence each, for the user.
   const std::vector<std::string>& changes() const { return changes_; }
 
-  // What the run read: not part of it, but what it is of.
+  // The input files of the run, which are not in its folder.
   struct Inputs {
-    int known = 0, missing = 0;        // in the report; no longer where they were
+    int known = 0, missing = 0;        // in the report; no longer at their paths
     std::vector<std::string> changed;  // their paths
   };
   static Inputs check_inputs(const std::string& directory, const Json& report);

@@ -18,7 +18,7 @@ Interior::Interior(std::span<const Triangle> body, std::span<const Vec3> x) {
   const SurfaceParts found = surface_parts(body, x);
   std::vector<Triangle> solids, inwards;
   const auto faces_inwards = [](const SurfacePart& part) { return part.closed && part.volume_m3 < 0; };
-  std::vector<Index> vertex(found.parts.size(), -1);  // one of each
+  std::vector<Index> vertex(found.parts.size(), -1);  // a vertex of each part
   for (std::size_t t = 0; t < body.size(); ++t) {
     const auto part = at(found.of[t]);
     vertex[part] = body[t][0];

@@ -1,4 +1,4 @@
-// verify/interior.hpp: how many parts of a body are around a point, where some of them may be rooms.
+// verify/interior.hpp: the number of parts of a body that contain a point; some of them may be rooms.
 #pragma once
 #include "verify/winding.hpp"
 
@@ -8,13 +8,13 @@
 namespace toile::internal {
 
 // A closed part that faces inwards and lies within no other is a room: its inside is free, and all around it is solid.
-// One within another is that one's hollow.
+// An inward part within another is a hollow of that one.
 class Interior {
  public:
   // Indices must be in range and positions finite.
   Interior(std::span<const Triangle> body, std::span<const Vec3> x);
 
-  // 0 in the open; where there are rooms, within one of them.
+  // 0 in free space; with rooms, free space is inside a room.
   int depth(const Vec3& p) const;
 
  private:

@@ -5,9 +5,9 @@
 //   gain of the filter:  sin^4(pi f / fps), one half at 0.318 fps: 9.5 Hz at 30 frames per second
 //   response to u = A cos(2 pi f t):  |w| up to 2 A fps sin^5(pi f / fps)                docs/theory/verify.md#jitter
 //
-// Easily got wrong: what moves with the body is no jitter, so b is one material point over all six frames, not the
-// nearest of each: that one jumps from triangle to triangle.  Only its place is subtracted, not its triangle's turn: a
-// turn is slow, and the noise of a small triangle times a lever of centimetres is not.
+// Easily got wrong: motion with the body is no jitter, so b is one material point over all six frames, not the nearest
+// of each: that one jumps from triangle to triangle.  Only its position is subtracted, not its triangle's rotation:
+// that is slow, but the noise of a small triangle times a lever of centimetres is not.
 #pragma once
 #include "core/types.hpp"
 #include "verify/box_tree.hpp"
@@ -25,7 +25,7 @@ constexpr double jitter_reach_m = 0.05;
 
 // Over all vertices and all windows of six frames.
 struct JitterStatistics {
-  int windows = 0;  // 0: fewer than six frames, nothing is known
+  int windows = 0;  // 0: fewer than six frames, not measured
   double p50_mm_per_s = 0, p99_mm_per_s = 0, max_mm_per_s = 0;
   Index worst_vertex = -1;
   int worst_frame = -1;  // frame 2 of the window of max, counted from the first frame added
@@ -34,7 +34,7 @@ struct JitterStatistics {
 // Frames are fed in their order.  Memory does not grow with them: six frames and a histogram in steps of 0.1 mm/s are
 // kept, so percentiles (nearest rank) are rounded to that; max is not.
 //
-// A body that begins to move ends the drape: what was measured before is forgotten, and the last frame in which it
+// A body that begins to move ends the drape: earlier measurements are dropped, and the last frame in which it
 // stood is the first of the motion.  A body that never moves is measured from the first frame on.
 class JitterMeter {
  public:

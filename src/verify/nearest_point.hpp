@@ -1,10 +1,10 @@
-// verify/nearest_point.hpp: the point of a triangle that is nearest to p, and how far it is.
+// verify/nearest_point.hpp: the point of a triangle nearest to p, and its distance.
 //
 // Above the triangle when p lies on the inner side of the three planes through its edges along the normal; else nearest
 // to an edge.  A triangle without area is its edges.
 //
 // Easily got wrong: the weights of the obtuse triangle.  Clamping the weights of the foot of the perpendicular to 0..1
-// does not give the nearest point; the nearest edge has to be asked.
+// does not give the nearest point; that is on the nearest edge.
 #pragma once
 #include "core/types.hpp"
 
@@ -14,7 +14,7 @@
 
 namespace toile::internal {
 
-// Where on ab, 0 at a and 1 at b.
+// The parameter on ab, 0 at a and 1 at b.
 inline double nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;
   const double length2 = ab.squaredNorm();

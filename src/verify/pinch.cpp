@@ -42,7 +42,7 @@ class Pinches {
   }
 
  private:
-  // Of a point p of the surface, where its normal is `out`.
+  // Whether a point p of the surface, with the normal `out`, lies in a pinch.
   bool lies_in_one(const Vec3& p, const Vec3& out) const {
     if (interior_.depth(p + just_outside_m * out) > 0) return true;
     const auto distance2 = [&](Index t) {
@@ -67,7 +67,7 @@ class Pinches {
     return lies_in_one(w[0] * x_[at(c[0])] + w[1] * x_[at(c[1])] + w[2] * x_[at(c[2])], normals_[at(t)]);
   }
 
-  // Of the faces at an edge, together.
+  // The sum of the normals of the faces at an edge.
   Vec3 edge_normal(const std::array<Index, 2>& edge) const {
     Vec3 sum = Vec3::Zero();
     ExactBox box;

@@ -1,4 +1,4 @@
-// verify/predicates.hpp: on which side of a plane a point lies and whether a segment passes through a triangle: exact.
+// verify/predicates.hpp: exact predicates: the side of a plane, and whether a segment passes through a triangle.
 //
 //                 | ax ay az 1 |      Filter: the determinant in double, with Shewchuk's a-priori bound on its error;
 //   orient3d =    | bx by bz 1 |      when the bound does not decide, the same determinant as an exact sum of doubles.

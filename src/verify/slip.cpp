@@ -26,7 +26,7 @@ constexpr double faces_up = 0.5;    // cosine: slopes of up to 60 degrees carry 
 constexpr double neck = 0.87;       // of the height
 constexpr double level_axis = 0.5;  // cosine against the vertical below which a loop lies on its side
 constexpr double least_area =
-    0.25;  // of a circle as long as the loop: waists have 0.9, a frill half as long again 0.4; open fronts 0.15
+    0.25;  // of the area of a circle as long as the loop: waists have 0.9, a frill half as long again 0.4; open fronts 0.15
 constexpr double longest_way_m = 0.1;  // a person is not wider
 constexpr double two_pi = 6.283185307179586477;
 constexpr std::size_t named_panels = 3;
@@ -49,14 +49,14 @@ Curve curve_of(const std::vector<Index>& loop, std::span<const Vec3> x) {
   return curve;
 }
 
-// Along which a loop slides off: `middle` is its garment's.
+// The direction in which a loop slides off; `middle`: its garment's.
 Vec3 axis_of(const Curve& curve, const Vec3& middle) {
   const Vec3 normal = curve.area.normalized();
   if (std::abs(normal.y()) < level_axis) return normal.dot(curve.middle - middle) < 0 ? Vec3(-normal) : normal;
   return normal.y() > 0 ? Vec3(-normal) : normal;
 }
 
-// A dome of flesh within a hole of the cloth does not come as far out of it as the hole is wide.
+// A bulge of the body in a hole of the cloth does not reach as far out of it as the hole is wide.
 bool body_goes_through(const Curve& curve, const Vec3& axis, const Interior& body) {
   const double way_m = std::min(curve.length_m / two_pi, longest_way_m);
   return body.depth(curve.middle) != 0 && body.depth(curve.middle + way_m * axis) != 0 &&
@@ -72,7 +72,7 @@ void note(Slip& slip, double moved_m, int frame) {
 
 }  // namespace
 
-// What of a body is which part of a person.
+// The parts of a person that a body consists of.
 struct SlipMeter::Person {
   double waist_m = 0, roots_m = 0, neck_m = 0, middle_m = 0;  // heights; the middle along x
   std::vector<char> of_arm;                                   // [vertex]

@@ -1,4 +1,4 @@
-// verify/statistics.hpp: how far cloth is stretched and sheared, how near it is to the body, how fast it still moves.
+// verify/statistics.hpp: stretch and shear of cloth, its gap to the body, and its remaining speed.
 //
 //   stretch = max(|w_u| / b_u, |w_v| / b_v) - 1        of a triangle; negative when both directions are shortened
 //   shear   = |90 deg - angle(w_u, w_v)|
@@ -28,12 +28,12 @@ struct StretchStatistics {
   // By triangle, without elastic panels, which are meant to be longer than their rest length.
   double triangle_p99 = 0, triangle_max = 0;
   Index triangle_worst = -1;
-  // Likewise, over a gauge (verify/gauge.hpp): what is judged.
+  // Likewise, over a gauge (verify/gauge.hpp): the judged values.
   double gauge_p99 = 0, gauge_max = 0;
   Index gauge_worst_triangle = -1;
   Vec3 gauge_worst_m{0, 0, 0};  // its middle
   ClothRing ring;               // the cloth along the stretched thread there
-  double body_girth_m = 0;      // of the body within it; 0: there is none
+  double body_girth_m = 0;      // of the body within it; 0: no body
   Index elastic_triangles = 0;  // with b other than (1, 1)
 };
 
@@ -44,13 +44,13 @@ StretchStatistics measure_stretch(const ClothMesh& mesh, std::span<const Vec3> x
 struct GapStatistics {
   double min_mm = 0, p50_mm = 0;
   Index nearest_vertex = -1;  // of min: the nearest, or the deepest inside
-  // How high the cloth that lies on the body hovers over it: of the vertices outside within hover_reach_mm.
-  Index hovering = 0;  // how many these are
+  // The gap of the cloth that lies on the body: of the vertices outside within hover_reach_mm.
+  Index hovering = 0;  // the number of these vertices
   double hover_p50_mm = 0, hover_p90_mm = 0;
 };
 
-// Twice the offset at which cloth rests on a body (2.5 mm): farther away it does not lie on the body.  What bridges a hollow nearer
-// than this counts as well, so the p90 is an upper bound for what touches.
+// Twice the offset at which cloth rests on a body (2.5 mm): cloth farther away does not lie on the body.  Cloth that bridges a hollow
+// nearer than this counts as well, so the p90 is an upper bound for touching cloth.
 constexpr double hover_reach_mm = 5;
 
 // Over all vertices `x`, signed.  A vertex is inside when the surface winds around it (either way: non-zero rule).

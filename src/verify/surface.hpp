@@ -1,4 +1,4 @@
-// verify/surface.hpp: what every measurement asks of a surface before it reads a coordinate.
+// verify/surface.hpp: the checks of a surface before any measurement.
 #pragma once
 #include "core/types.hpp"
 

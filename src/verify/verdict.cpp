@@ -34,7 +34,7 @@ std::string first_of(const std::vector<std::string>& all) {
 // Written so that NaN is an excess.
 bool within(double value, double limit) { return value <= limit; }
 
-// What is too long and where, and how long the cloth is there as cut and as worn, around which girth of the body.
+// The cloth that is too long: its place, its length as cut and as worn, and the girth of the body within it.
 std::string misfit(const StretchStatistics& s, const Limits& limits) {
   std::string text;
   if (s.ring.cut_m < s.body_girth_m)
@@ -50,7 +50,7 @@ std::string misfit(const StretchStatistics& s, const Limits& limits) {
          percent(limits.stretch_p99) + "; max " + percent(s.gauge_max) + ", limit " + percent(limits.stretch_max);
 }
 
-// Of what held a garment and has slid; empty where all stayed.
+// The edges or shoulders that held a garment and have slid; empty if none has.
 std::string slid(const SlipStatistics& slip, const Limits& limits) {
   std::string text;
   const auto add = [&](const std::string& what, const Slip& s, double limit_m) {

@@ -99,7 +99,7 @@ RunAudit::RunAudit(RunDescription run)
       slip_(run_.mesh, run_.body_triangles),
       crossings_(run_.mesh.triangles, run_.body_triangles) {
   if (!(run_.fps > 0) || !std::isfinite(run_.fps)) throw InputError("audit", "fps", "> 0", std::to_string(run_.fps));
-  // Positions come later; every other complaint about the meshes comes now.
+  // Positions come later; all other errors of the meshes are found now.
   const Vec3s no_cloth(static_cast<std::size_t>(run_.mesh.particle_count), Vec3::Zero());
   const Vec3s no_body(static_cast<std::size_t>(run_.body_particle_count), Vec3::Zero());
   measure_stretch(run_.mesh, no_cloth, run_.b);
@@ -162,7 +162,7 @@ VerifyReport RunAudit::report() const {
 
 namespace {
 
-// What is known of a run beside its meshes and caches.
+// The record of a run beside its meshes and caches.
 struct RunRecord {
   std::string text;            // of report.json
   std::optional<Json> report;  // absent while the run is not finished
@@ -185,7 +185,7 @@ RunRecord read_record(const std::string& directory) {
   record.text = read_file(path, Json::text_limit);
   record.report = Json::parse(record.text, printable(path));
   const Json& report = *record.report;
-  const bool any_frames = report.number_or("frames", -1) != 0;  // without, nothing is measured
+  const bool any_frames = report.number_or("frames", -1) != 0;  // without frames, nothing is measured
   if (any_frames || report.find("fps") != nullptr) {
     record.fps = report.at("fps").number();
     if (!(record.fps > 0)) report.at("fps").fail("a number > 0", report.at("fps").describe());
@@ -209,7 +209,7 @@ void add_reported(const Json& report, VerifyReport& result) {
       result.reported_qualifications.push_back({code, detail.string()});
 }
 
-// In words: of a run that has not ended.
+// Describes a run that has not ended.
 std::string interrupted(const std::string& directory, const UnfinishedRun& run, int frames) {
   if (is_written_to(directory)) return "the run still goes on (" + run.process + ")";
   return (frames > 0 ? "interrupted at frame " + std::to_string(frames - 1)
@@ -221,7 +221,7 @@ struct Caches {
   std::optional<Pc2Reader> cloth, body;
 };
 
-// Every frame, judged and compared with what the report says of it.
+// Judges every frame, and compares it with its checksum in the report.
 VerifyReport audit_frames(const std::string& directory, const RunRecord& record, Integrity* integrity) {
   const std::string cloth_obj = join(directory, "cloth.obj"), cloth_pc2 = join(directory, "cloth.pc2");
   const std::string body_obj = join(directory, "body.obj"), body_pc2 = join(directory, "body.pc2");
@@ -280,7 +280,7 @@ VerifyReport verify_directory(const std::string& directory) {
   const RunRecord record = read_record(directory);
   std::optional<Integrity> integrity;
   if (record.report) integrity.emplace(directory, record.text, *record.report);
-  // A run whose seams did not close, or that has only begun, has no cloth to measure: then its own word is all there is, and it is no pass.
+  // A run whose seams did not close, or that has only begun, has no cloth to measure: then its own report is used, and it is no pass.
   const bool any_cloth =
       std::filesystem::exists(join(directory, "cloth.obj")) && std::filesystem::exists(join(directory, "cloth.pc2"));
   const bool may_lack_cloth = record.report ? record.report->number_or("frames", -1) == 0 : true;

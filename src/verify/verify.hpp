@@ -1,7 +1,7 @@
 // verify/verify.hpp: judges a finished run from its files alone, with exact arithmetic.    `toile verify DIR`
 //
 // The judge shares no code with contact: its own tree, its own predicates.  It reads positions as they were written
-// (float32, which double holds exactly) and believes nothing that report.json says about them.
+// (float32, which double holds exactly) and does not trust report.json about them.
 // Theory: docs/theory/verify.md.
 //
 //   predicates.hpp   signs, exactly                      crossings.hpp    edges through triangles
@@ -29,7 +29,7 @@ namespace toile::internal {
 
 struct Reason {
   std::string code;
-  std::string detail;  // one line: what was measured, where, and the limit
+  std::string detail;  // one line: the measured value, its place, and the limit
   template <class Archive>
   void remember(Archive& archive) {
     archive(code, detail);
@@ -38,7 +38,7 @@ struct Reason {
 
 // Distinct edges that pass through a triangle.
 struct PenetrationCount {
-  int max = 0, last = 0, frames = 0;  // over frames; in the last frame; how many frames have any
+  int max = 0, last = 0, frames = 0;  // over frames; in the last frame; the number of frames with any
 };
 
 struct VerifyReport {
@@ -60,16 +60,16 @@ struct VerifyReport {
   Index worst_frame = -1;  // the first of those with most crossings; -1: no frame has any
   std::vector<Crossing> worst_body_crossings, worst_cloth_crossings;
   bool must_be_still = false;  // from report.json: limits.still_mm_per_s is a number
-  // Reason codes of report.json that no file shows (a time limit, a crash): the judge cannot acquit of them.
+  // Reason codes of report.json that cannot be measured (a time limit, a crash): the judge cannot refute them.
   std::vector<std::string> reported_reasons;
   std::vector<std::string> changes;         // of the files since they were written, in words (verify/integrity.hpp)
-  std::vector<std::string> changed_inputs;  // which do not hold what the run read
-  int inputs = 0, missing_inputs = 0;       // of report.json; no longer where they were
-  std::string interrupted;  // of a run that has not ended: in words, how far it came and what to do; empty otherwise
-  std::vector<Reason> reported_qualifications;  // of report.json, likewise: what no file shows
+  std::vector<std::string> changed_inputs;  // input files that have changed since the run
+  int inputs = 0, missing_inputs = 0;       // of report.json; no longer at their paths
+  std::string interrupted;  // of a run that has not ended: in words, its progress and how to resume it; empty otherwise
+  std::vector<Reason> reported_qualifications;  // of report.json, likewise not measurable
 };
 
-// What stays the same over the frames of a run.
+// The data common to all frames of a run.
 struct RunDescription {
   ClothMesh mesh;
   std::vector<Vec2> b;  // (b_u, b_v) per triangle; empty: 1
@@ -87,7 +87,7 @@ class RunAudit {
   // `body_x` is empty when the run has no body.  Throws InputError when a size is not that of the description.
   void add(std::span<const Vec3> x, std::span<const Vec3> body_x);
 
-  // Of the frames added so far.
+  // The result for the frames added so far.
   VerifyReport report() const;
 
  private:
@@ -101,12 +101,12 @@ class RunAudit {
   std::vector<double> speed_p99_;  // one per pair of consecutive frames
 };
 
-// Reads the files of a run; every frame is judged, and compared with the checksum that the report has of it.  The body's files may be absent
-// together when report.json knows of no body; those of the cloth when it says that no frame was written.  Of report.json it uses `fps`, and if
-// present `frames`, `body.vertices`, `reasons`, `qualification_details`, `limits.still_mm_per_s`, `inputs`, `files` and `rest_stretch` {"panel": [b_u, b_v]}.  A run that goes on or
-// was killed has unfinished.json instead: what it wrote is judged, and it is no pass.
-// Throws IoError (missing, unreadable) or InputError (truncated, not what the format says, sizes that contradict each
-// other), naming the file, what was expected and what it has.
+// Reads the files of a run; every frame is judged, and compared with its checksum in the report.  All files of the body may be absent when
+// report.json has no body; those of the cloth when it has no frames.  Of report.json it uses `fps`, and if present `frames`,
+// `body.vertices`, `reasons`, `qualification_details`, `limits.still_mm_per_s`, `inputs`, `files` and `rest_stretch` {"panel": [b_u, b_v]}.
+// A run in progress or one that was killed has unfinished.json instead: its frames are judged, and it is no pass.
+// Throws IoError (missing, unreadable) or InputError (truncated, not in its format, sizes that contradict each
+// other), naming the file, the expected and the actual value.
 VerifyReport verify_directory(const std::string& directory);
 
 }  // namespace toile::internal

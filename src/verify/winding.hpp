@@ -1,4 +1,4 @@
-// verify/winding.hpp: how often a surface winds around a point, exactly: 0 outside, 1 inside, 2 where a body is within itself.
+// verify/winding.hpp: the exact winding number of a surface about a point: 0 outside, 1 inside, 2 where a body overlaps itself.
 #pragma once
 #include "core/types.hpp"
 #include "verify/box_tree.hpp"
@@ -9,7 +9,7 @@
 
 namespace toile::internal {
 
-// A surface without boundary: that of `triangles`, and a fan around the middle of each hole.
+// A surface without boundary: `triangles`, and a fan around the middle of each hole.
 class ClosedSurface {
  public:
   // Indices must be in range and positions finite.

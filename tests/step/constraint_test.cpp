@@ -38,7 +38,7 @@ TEST(Pins, HoldAPointALineAndAPlaneOnTheirPathsAndLeaveTheRestFree) {
   for (std::size_t k = 0; k < 3; ++k) {
     Pin pin;
     pin.particle = particle[k];
-    pin.held_directions = 3 - static_cast<int>(k);
+    pin.constrained_directions = 3 - static_cast<int>(k);
     pin.p = p;
     pin.q = q;
     pin.path = path(k);

@@ -55,7 +55,7 @@ double resting_gap(double edge_m, double gravity) {
   for (Index i = half; i < 2 * half; ++i) {
     Pin rail;
     rail.particle = i;
-    rail.held_directions = 2;
+    rail.constrained_directions = 2;
     rail.p = Vec3::UnitX();
     rail.q = Vec3::UnitZ();
     run.world.pins.push_back(rail);

@@ -51,7 +51,7 @@ TEST(Pressure, ATubeStretchesUntilItsThreadsCarryPTimesR) {
     for (Index i = 0; i < run.model.particle_count(); ++i) {
       if (i >= around && i < rows * around) continue;  // both rims keep their height
       run.pin(i);
-      run.world.pins.back().held_directions = 1;
+      run.world.pins.back().constrained_directions = 1;
       run.world.pins.back().p = Vec3(0, 1, 0);
     }
     run.run(90);

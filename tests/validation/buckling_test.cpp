@@ -34,7 +34,7 @@ double critical_gamma(double width_m, double length_m, int cells_across) {
     Pin pin;
     pin.particle = static_cast<Index>(i);
     if (-sheet.x[i].z() > 1.5 * row) {
-      pin.held_directions = 1;  // it stays in its plane
+      pin.constrained_directions = 1;  // it stays in its plane
       pin.p = normal;
       free.push_back(pin.particle);
     }

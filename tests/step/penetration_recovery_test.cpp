@@ -48,7 +48,7 @@ bool is_through(const ClothRun& run, const BodySurface& body) {
   return mark_through_body(cloth, tree, run.state.x, body, workspace, marked);
 }
 
-TEST(Swallowed, ASheetFiveCentimetresWithinABallIsOutOfItInASecond) {
+TEST(PenetrationRecovery, ASheetFiveCentimetresWithinABallIsOutOfItInASecond) {
   BodySurface body = test::sphere(Vec3(0, 0, 0), 0.3, 4);
   SheetAt run(body, 0.25);
   ASSERT_LT(least_gap(run, body), -0.04);
@@ -63,7 +63,7 @@ TEST(Swallowed, ASheetFiveCentimetresWithinABallIsOutOfItInASecond) {
   for (const Vec3& p : run.state.x) EXPECT_GT(p.y(), 0.2) << "the short way";
 }
 
-TEST(Swallowed, ItGoesWithTheBodyWhileItComesOut) {
+TEST(PenetrationRecovery, ItGoesWithTheBodyWhileItComesOut) {
   BodySurface body = test::sphere(Vec3(0, 0, 0), 0.3, 4);
   const Vec3s start(body.positions().begin(), body.positions().end());
   SheetAt run(body, 0.25);
@@ -74,7 +74,7 @@ TEST(Swallowed, ItGoesWithTheBodyWhileItComesOut) {
   EXPECT_GT(least_gap(run, body), 1e-3);
 }
 
-TEST(Swallowed, WhereTwoPartsAreWithinEachOtherThereIsNoWayOutUntilTheyPart) {
+TEST(PenetrationRecovery, WhereTwoPartsAreWithinEachOtherThereIsNoWayOutUntilTheyPart) {
   // The balls overlap by 20 cm, the sheet is in the middle of it.
   BodySurface body = two_spheres(Vec3(0, -0.2, 0), Vec3(0, 0.2, 0), 0.3);
   const Vec3s start(body.positions().begin(), body.positions().end());

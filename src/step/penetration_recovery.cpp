@@ -1,4 +1,4 @@
-#include "step/swallowed.hpp"
+#include "step/penetration_recovery.hpp"
 
 #include "core/parallel.hpp"
 
@@ -14,12 +14,12 @@ constexpr std::size_t grain = 64;
 
 }  // namespace
 
-void Swallowed::clear() {
+void PenetrationRecovery::clear() {
   deep_.clear();
   any_ = false;
 }
 
-void Swallowed::detect(std::span<const Vec3> x, const BodyConstraints& constraints) {
+void PenetrationRecovery::detect(std::span<const Vec3> x, const BodyConstraints& constraints) {
   clear();
   if (!body_) return;
   const std::span<const BodyPoint> known = constraints.points();
@@ -31,7 +31,7 @@ void Swallowed::detect(std::span<const Vec3> x, const BodyConstraints& constrain
     if (near.triangle < 0 || !constraints.too_deep(near)) return;
     const Vec3 outside = x[i] + (constraints.offset_m(near) - near.gap_m) * near.normal;
     has_way_out_[i] =
-        body_->winding_number(outside) > 0 ? 0 : 1;  // else into another part, or there are two of them here
+        body_->winding_number(outside) > 0 ? 0 : 1;  // 0: the way out leads into another part, or parts overlap here
   });
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (nearest_[i].triangle < 0 || !constraints.too_deep(nearest_[i])) continue;
@@ -39,13 +39,13 @@ void Swallowed::detect(std::span<const Vec3> x, const BodyConstraints& constrain
     if (has_way_out_[i] != 0) deep_.push_back({static_cast<Index>(i), nearest_[i]});
   }
   if (any_) return;
-  // In front of one part and within another, the nearest point does not say so.
+  // A particle in front of one part and within another: the nearest point does not show it.
   std::vector<char>& within = has_way_out_;
   parallel_for(x.size(), grain, [&](std::size_t i) { within[i] = body_->winding_number(x[i]) > 0 ? 1 : 0; });
   any_ = std::find(within.begin(), within.end(), 1) != within.end();
 }
 
-void Swallowed::append_springs(std::vector<LinearSpring>& springs) const {
+void PenetrationRecovery::append_springs(std::vector<LinearSpring>& springs) const {
   for (const Deep& deep : deep_) {
     LinearSpring drag;
     drag.particle[0] = deep.particle;
