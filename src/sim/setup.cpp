@@ -200,7 +200,7 @@ LoadedCloth load_cloth(const Scene& scene, std::size_t k, const TextSource& read
     if (!file.empty()) throw error.within(where);
     throw error.within(where).of(shape_path);
   }
-  check_labels(cloth, loaded.garment, shape_path);
+  check_labels(cloth, loaded.garment, path_of_cloth(k));
   loaded.fabrics = fabrics_of(scene, k, loaded.garment.mesh);
   loaded.rest_stretch = rest_stretch_of(cloth, loaded.garment.mesh);
   if (!cloth.is_sewn()) loaded.pins = pins_of(scene, k, loaded.garment.x);
