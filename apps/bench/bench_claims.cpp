@@ -31,7 +31,7 @@ BenchRow claim(std::string key, std::string what, std::string of_1998, double me
 Drape drape_to(BenchRuns& runs, int particles, std::string_view what) {
   runs.say(what, 0);
   Scene scene = embedded_scene("fig1-drape");
-  SceneGrid& grid = *scene.cloth.front().grid;
+  SceneGrid& grid = std::get<SceneGrid>(scene.cloth.front().kind);
   grid.edge_m = edge_for(grid, particles);
   return Drape(scene);
 }

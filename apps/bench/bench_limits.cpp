@@ -254,8 +254,8 @@ BenchTable measure_limits(BenchRuns& runs) {
   BenchTable table{"limits", {}, false};
   for (const int size : runs.line().limit_sizes) {
     Scene scene = embedded_scene("fig1-drape");
-    SceneCloth& cloth = scene.cloth.front();
-    cloth.grid->edge_m = edge_for(*cloth.grid, size);
+    SceneGrid& grid = std::get<SceneGrid>(scene.cloth.front().kind);
+    grid.edge_m = edge_for(grid, size);
     measure(load_cloth(scene, 0, read_text_file), runs, table.rows);
   }
   return table;

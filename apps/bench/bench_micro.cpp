@@ -140,7 +140,7 @@ void measure_contact(Stopwatches& time, Drape& drape) {
 BenchResult bench_micro(BenchRuns& runs) {
   BenchResult result{"micro", {{"rows", {}, false}}, {}, {}, true};
   Scene scene = embedded_scene("fig1-drape");
-  SceneGrid& grid = *scene.cloth.front().grid;
+  SceneGrid& grid = std::get<SceneGrid>(scene.cloth.front().kind);
   grid.edge_m = edge_for(grid, runs.line().sizes.front());
   runs.say("state", 0);
   Drape drape(scene);

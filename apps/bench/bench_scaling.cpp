@@ -52,7 +52,7 @@ BenchResult bench_scaling(BenchRuns& runs) {
   std::vector<Point> points;
   for (const int size : runs.line().sizes) {
     Scene scene = embedded_scene("cylinder");
-    SceneGrid& grid = *scene.cloth.front().grid;
+    SceneGrid& grid = std::get<SceneGrid>(scene.cloth.front().kind);
     grid.edge_m = edge_for(grid, size);
     set_frames(scene, frames);
     const Report report = runs.run(scene, std::to_string(size) + "-particles");

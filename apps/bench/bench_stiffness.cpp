@@ -124,7 +124,8 @@ BenchResult bench_stiffness(BenchRuns& runs) {
   std::vector<BenchRow>& rows = result.tables.front().rows;
   Scene scene = embedded_scene("cylinder");
   SceneCloth& cloth = scene.cloth.front();
-  cloth.grid->edge_m = edge_for(*cloth.grid, runs.line().sizes.front());
+  SceneGrid& grid = std::get<SceneGrid>(cloth.kind);
+  grid.edge_m = edge_for(grid, runs.line().sizes.front());
   const int frames = runs.line().bench_frames.value_or(drape_frames);
   set_frames(scene, frames);
   const Fabric base = cloth.fabric;

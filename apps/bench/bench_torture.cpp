@@ -51,11 +51,11 @@ std::vector<std::string> torture_scenes(const std::vector<std::string>& wanted) 
 }
 
 double extent_m(const SceneCloth& cloth) {
-  if (cloth.grid) return std::max(cloth.grid->width_m, cloth.grid->height_m);
-  if (cloth.tube) return std::max(2 * cloth.tube->radius_m, cloth.tube->length_m);
-  if (cloth.ribbon) {
+  if (const auto* grid = cloth.as<SceneGrid>()) return std::max(grid->width_m, grid->height_m);
+  if (const auto* tube = cloth.as<SceneTube>()) return std::max(2 * tube->radius_m, tube->length_m);
+  if (const auto* ribbon = cloth.as<SceneRibbon>()) {
     double farthest = 0;
-    for (const Vec3& p : cloth.ribbon->path_m) farthest = std::max(farthest, (p - cloth.ribbon->path_m.front()).norm());
+    for (const Vec3& p : ribbon->path_m) farthest = std::max(farthest, (p - ribbon->path_m.front()).norm());
     return farthest;
   }
   return 1;

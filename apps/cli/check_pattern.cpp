@@ -67,8 +67,9 @@ std::string load_as_dress_does(const CommandLine& line, const std::string& path,
   dressed.seconds = Scene::longest_dress_s;
   dressed.until_still = true;
   dressed.body.shape = SceneMannequin{};
-  dressed.cloth.emplace_back().pattern = path;
-  dressed.cloth.front().set_edge_m(resolution_m);
+  SceneCloth& cloth = dressed.cloth.emplace_back();
+  cloth.kind = ScenePattern{path, {}};
+  cloth.set_edge_m(resolution_m);
   const std::string budget =
       fmt::sprintf("  as dressed for %g s: ", dressed.seconds) + describe_budget(dressed, line.limits, json);
   const LoadedCloth loaded = load_cloth(dressed, 0, [&](const std::string&) { return text; });

@@ -125,7 +125,7 @@ Scene dress_scene(const CommandLine& line) {
   scene.name.clear();
   for (const std::string& pattern : line.inputs) {
     SceneCloth cloth;
-    cloth.pattern = pattern;
+    cloth.kind = ScenePattern{pattern, {}};
     if (line.inputs.size() > 1) {
       cloth.name = name_of_pattern(pattern);
       const auto taken = [&](const SceneCloth& other) { return other.name == cloth.name; };

@@ -2,7 +2,6 @@
 
 #include "api/parts.hpp"
 #include "sim/check_garment.hpp"
-#include "sim/cloth_arrays.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -36,7 +35,7 @@ Cloth Cloth::from_pattern(const std::string& path, const PatternOptions& options
   return translated([&] {
     require_above_zero("edge_m", options.edge_m);
     auto parts = std::make_unique<Parts>();
-    parts->cloth.pattern = path;
+    parts->cloth.kind = internal::ScenePattern{path, {}};
     parts->cloth.resolution_m = options.edge_m;
     parts->cloth.name = std::filesystem::path(path).stem().string();
     return Cloth(std::move(parts));
@@ -46,10 +45,10 @@ Cloth Cloth::from_pattern(const std::string& path, const PatternOptions& options
 Cloth Cloth::from_file(const std::string& path, const MeshFileOptions& options) {
   return translated([&] {
     auto parts = std::make_unique<Parts>();
-    parts->cloth.mesh = path;
-    parts->cloth.mesh_unit = static_cast<internal::LengthUnit>(options.unit);
-    parts->cloth.rest_shape = static_cast<internal::RestShape>(options.rest_shape);
-    parts->cloth.name = std::filesystem::path(path).stem().string();
+    const internal::SceneClothMesh mesh{path, static_cast<internal::LengthUnit>(options.unit),
+                                        static_cast<internal::RestShape>(options.rest_shape)};
+    parts->cloth.name = usual_name(mesh);
+    parts->cloth.kind = mesh;
     return Cloth(std::move(parts));
   });
 }
@@ -60,27 +59,29 @@ Cloth Cloth::grid(const GridOptions& options) {
     require_above_zero("height_m", options.height_m);
     require_above_zero("edge_m", options.edge_m);
     auto parts = std::make_unique<Parts>();
-    parts->cloth.grid = internal::SceneGrid{options.width_m, options.height_m, options.edge_m};
-    parts->cloth.name = "sheet";
+    const internal::SceneGrid grid{options.width_m, options.height_m, options.edge_m};
+    parts->cloth.name = usual_name(grid);
+    parts->cloth.kind = grid;
     return Cloth(std::move(parts));
   });
 }
 
 Cloth Cloth::from_arrays(const ClothArrays& given) {
   return translated([&] {
-    auto arrays = std::make_shared<internal::SceneClothArrays>();
-    arrays->x = engine_vectors(given.vertices_m);
-    arrays->triangles.assign(given.faces.begin(), given.faces.end());
-    arrays->uv.reserve(given.uv_m.size());
+    auto surface = std::make_shared<internal::ClothSurface>();
+    surface->x = engine_vectors(given.vertices_m);
+    surface->triangles.assign(given.faces.begin(), given.faces.end());
+    surface->uv.reserve(given.uv_m.size());
     for (const CornerUvs& uv : given.uv_m)
-      arrays->uv.push_back(
+      surface->uv.push_back(
           {internal::Vec2(uv[0][0], uv[0][1]), internal::Vec2(uv[1][0], uv[1][1]), internal::Vec2(uv[2][0], uv[2][1])});
-    arrays->panel.assign(given.panel.begin(), given.panel.end());
-    arrays->panel_names.assign(given.panel_names.begin(), given.panel_names.end());
+    surface->panel.assign(given.panel.begin(), given.panel.end());
+    surface->panel_names.assign(given.panel_names.begin(), given.panel_names.end());
     auto parts = std::make_unique<Parts>();
-    parts->cloth.name = "cloth";
-    parts->cloth.arrays = std::move(arrays);
-    internal::check_garment("cloth", internal::cloth_of_arrays(parts->cloth));
+    const internal::SceneClothArrays arrays{std::move(surface)};
+    parts->cloth.name = usual_name(arrays);
+    parts->cloth.kind = arrays;
+    internal::check_garment(parts->cloth.name, internal::cloth_of_surface(*arrays.surface, parts->cloth));
     return Cloth(std::move(parts));
   });
 }

@@ -21,6 +21,7 @@ std::string input_message(std::string_view where, std::string_view place, std::s
 
 InputError::InputError(std::string_view where, std::string_view place, std::string_view expected, std::string_view got)
     : Error(ErrorKind::bad_input, input_message(where, place, expected, got)),
+      where_(where),
       place_(place),
       expected_(expected),
       got_(got) {}
@@ -28,6 +29,7 @@ InputError::InputError(std::string_view where, std::string_view place, std::stri
 InputError::InputError(const std::string& message, const InputError& like)
     : Error(ErrorKind::bad_input, message),
       path_(like.path_),
+      where_(like.where_),
       place_(like.place_),
       expected_(like.expected_),
       got_(like.got_) {}
@@ -41,7 +43,9 @@ InputError InputError::of(std::string_view path) const {
 InputError InputError::within(std::string_view where) const {
   const std::string_view message = what();
   if (message.starts_with(where)) return *this;
-  return InputError(std::string(where).append(": ").append(message), *this);
+  InputError error(std::string(where).append(": ").append(message), *this);
+  error.where_ = where_.empty() ? std::string(where) : std::string(where).append(": ").append(where_);
+  return error;
 }
 
 IoError::IoError(std::string_view path, std::string_view what)

@@ -47,6 +47,7 @@ class InputError : public Error {
   InputError within(std::string_view where) const;
 
   const std::string& path() const { return path_; }
+  const std::string& where() const { return where_; }
   const std::string& place() const { return place_; }
   const std::string& expected() const { return expected_; }
   const std::string& got() const { return got_; }
@@ -54,7 +55,7 @@ class InputError : public Error {
  private:
   InputError(const std::string& message, const InputError& like);
 
-  std::string path_, place_, expected_, got_;
+  std::string path_, where_, place_, expected_, got_;
 };
 
 // A file that cannot be opened, read or written; names the path and the system's reason.

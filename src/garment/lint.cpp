@@ -50,33 +50,16 @@ Round look(const Json& root, std::string_view file, const std::optional<BodyFigu
   return {std::move(context.problems), std::move(context.reading.pattern)};
 }
 
-// The parts of an InputError: "<where>: <place>: expected <expected>, got <got>".
+// Why the file cannot be read at all.
 LintFinding finding_of(const InputError& error, std::string_view file) {
   LintFinding finding;
   finding.code = reason::unreadable;
   finding.repair = "refused: what is meant cannot be known";
-  std::string text = error.what();
-  const auto cut = [&](std::string_view mark) {
-    const std::size_t found = text.find(mark);
-    if (found == std::string::npos) return std::string();
-    std::string head = text.substr(0, found);
-    text.erase(0, found + mark.size());
-    return head;
-  };
-  std::string head = cut("expected ");
-  if (head.size() >= 2) head.resize(head.size() - 2);
-  if (const std::size_t pointer = head.find(": /"); pointer != std::string::npos) {
-    finding.pointer = head.substr(pointer + 2);
-    head.resize(pointer);
-  }
-  finding.where = head.empty() ? std::string(file) : head;
-  finding.place = finding.pointer.empty() ? "file" : finding.pointer;
-  if (const std::size_t got = text.rfind(", got "); got != std::string::npos) {
-    finding.expected = text.substr(0, got);
-    finding.got = text.substr(got + 6);
-  } else {
-    finding.got = text;
-  }
+  finding.where = error.where().empty() ? std::string(file) : error.where();
+  finding.place = error.place().empty() ? "file" : error.place();
+  if (error.place().starts_with('/')) finding.pointer = error.place();
+  finding.expected = error.expected();
+  finding.got = error.got();
   return finding;
 }
 

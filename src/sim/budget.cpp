@@ -7,7 +7,6 @@
 #include "dress/dressing_body.hpp"
 #include "dress/outfit_run.hpp"
 #include "dress/sewing.hpp"
-#include "garment/pattern_check.hpp"
 #include "io/pc2.hpp"
 
 #include <fmt/printf.h>
@@ -15,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <system_error>
 
 namespace toile::internal {
@@ -35,23 +33,9 @@ constexpr double body_step_us = 0.3;            // per triangle of a body
 constexpr double second_core = 1.5;             // how much faster two threads are than one
 constexpr double meshing_us = 20, load_us = 5;  // per particle of a pattern, per triangle of a body
 
-// A seam wider than two of the largest panels laid side by side is a mistake of units or of a sign; 40 s of sewing would close it.
-constexpr double most_drawn_m = 2 * PatternLimits::max_panel_m;
 constexpr double after_closing_s = 0.5;  // until the weld lets go
-constexpr int seam_samples = 8;
 
 constexpr std::size_t told_items = 3;
-
-double cell_m2(double edge_m) { return std::sqrt(3.0) / 2 * edge_m * edge_m; }  // that one particle has
-
-struct Counts {
-  double particles = 0, triangles = 0;
-};
-
-Counts counts_of(double area_m2, double outline_points, double edge_m) {
-  const double inner = std::max(0.0, area_m2 / cell_m2(edge_m) - outline_points / 2);
-  return {inner + outline_points, 2 * inner + outline_points};
-}
 
 std::string quoted(const std::string& name) { return '"' + printable(name) + '"'; }
 
@@ -94,91 +78,18 @@ class Estimate {
   }
 
  private:
-  void add_part(std::string what, const Counts& counts) {
-    budget_.items.push_back({std::move(what), counts.triangles, mb_per_particle * counts.particles});
-    budget_.particles += counts.particles;
-    budget_.triangles += counts.triangles;
-  }
-
   void add_cloth(const SceneCloth& cloth) {
-    if (cloth.is_sewn()) {
-      add_pattern(cloth);
-      return;
+    const ClothCost cost = cost_of(cloth, *read_);
+    for (const ClothCost::Part& part : cost.parts) {
+      budget_.items.push_back({part.what, part.triangles, mb_per_particle * part.particles});
+      budget_.particles += part.particles;
+      budget_.triangles += part.triangles;
     }
-    double area_m2 = 0, outline_m = 0;
-    const char* shape = "grid";
-    if (cloth.grid) {
-      area_m2 = cloth.grid->width_m * cloth.grid->height_m;
-      outline_m = 2 * (cloth.grid->width_m + cloth.grid->height_m);
-    } else if (cloth.tube) {
-      shape = "tube";
-      area_m2 = 2 * std::numbers::pi * cloth.tube->radius_m * cloth.tube->length_m;
-      outline_m = 4 * std::numbers::pi * cloth.tube->radius_m;
-    } else if (cloth.ribbon) {
-      shape = "ribbon";
-      const std::vector<Vec3>& path = cloth.ribbon->path_m;
-      double length_m = cloth.ribbon->closed ? (path.front() - path.back()).norm() : 0;
-      for (std::size_t k = 1; k < path.size(); ++k) length_m += (path[k] - path[k - 1]).norm();
-      area_m2 = length_m * cloth.ribbon->width_m;
-      outline_m = 2 * length_m;
-    } else if (!cloth.mesh.empty()) {
-      const double triangles = cost_of_file(cloth.mesh).triangles;
-      add_part("cloth " + quoted(cloth.name), {triangles / 2, triangles});
-      return;
-    } else if (cloth.arrays) {
-      add_part("cloth " + quoted(cloth.name),
-               {static_cast<double>(cloth.arrays->x.size()), static_cast<double>(cloth.arrays->triangles.size())});
-      return;
-    }
-    const double edge_m = cloth.edge_m();
-    add_part("cloth " + quoted(cloth.name) + " (" + shape + ')', counts_of(area_m2, outline_m / edge_m, edge_m));
-  }
-
-  void add_pattern(const SceneCloth& cloth) {
-    const Pattern pattern = parse_pattern((*read_)(cloth.pattern), printable(cloth.pattern));
-    const PatternSummary summary = summarize(pattern);
-    const double edge_m = cloth.vertices
-                              ? std::sqrt(summary.area_m2 / (std::sqrt(3.0) / 2 * std::max(1, *cloth.vertices)))
-                              : cloth.resolution_m;
-    const std::string name = cloth.name.empty() ? pattern.name : cloth.name;
-    for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
-      double points = 0;
-      for (const PanelEdge& edge : pattern.panels[p].edges)
-        points += std::ceil(edge_length_m(pattern.panels[p], edge) / edge_m);
-      add_part("cloth " + quoted(name) + ", panel " + quoted(pattern.panels[p].name),
-               counts_of(summary.panels[p].area_m2, points, edge_m));
-    }
-    patterned_ = true;
-    if (!scene_->start.empty()) return;  // nothing is sewn
-    find_far_panels(pattern, printable(cloth.pattern));
-  }
-
-  // The widest seam says how long sewing takes; one that is too wide, which panel is meant.
-  void find_far_panels(const Pattern& pattern, const std::string& file) {
-    double widest_m = 0;
-    std::optional<FarPanel> farthest;
-    for (const Stitch& stitch : pattern.stitches) {
-      const Panel &a = pattern.panels[static_cast<std::size_t>(stitch.a.panel)],
-                  &b = pattern.panels[static_cast<std::size_t>(stitch.b.panel)];
-      std::vector<Vec2> on_a = sample_edge(a, a.edges[static_cast<std::size_t>(stitch.a.edge)], seam_samples),
-                        on_b = sample_edge(b, b.edges[static_cast<std::size_t>(stitch.b.edge)], seam_samples);
-      if (!stitch.right_wrong) std::reverse(on_b.begin(), on_b.end());
-      double wide_m = 0;
-      for (std::size_t k = 0; k < on_a.size(); ++k)
-        wide_m = std::max(wide_m, (a.place(on_a[k]) - b.place(on_b[k])).norm());
-      if (wide_m <= widest_m) continue;
-      widest_m = wide_m;
-      if (wide_m <= most_drawn_m) continue;
-      const bool a_is_far = a.place(on_a.front()).norm() >= b.place(on_b.front()).norm();  // from the body
-      farthest = FarPanel{file, (a_is_far ? a : b).name, (a_is_far ? b : a).name,
-                          printable(a.name) + '.' + std::to_string(a.file_number(stitch.a.edge)) + " - " +
-                              printable(b.name) + '.' + std::to_string(b.file_number(stitch.b.edge)),
-                          wide_m};
-    }
-    if (farthest) budget_.far_panels.push_back(*farthest);
-    if (pattern.stitches.empty()) return;
+    sewn_ = sewn_ || cloth.is_sewn();
+    if (!cost.seams || !scene_->start.empty()) return;  // nothing is sewn
+    if (cost.seams->farthest) budget_.far_panels.push_back(*cost.seams->farthest);
     const SewingOptions sewing;
-    sewing_frames_ += std::ceil((widest_m / sewing.closing_speed_m_per_s + after_closing_s) * sewing.fps);
+    sewing_frames_ += std::ceil((cost.seams->widest_m / sewing.closing_speed_m_per_s + after_closing_s) * sewing.fps);
   }
 
   void add_collider(const std::string& name, const SceneCollider& collider, std::string_view path) {
@@ -219,13 +130,13 @@ class Estimate {
     }
     budget_.frames = frames_in(duration_s);
     if (moves) budget_.frames += scene_->drape_seconds > 0 ? frames_in(scene_->drape_seconds) : 1;
-    const double inner = patterned_ && scene_->start.empty() ? static_cast<double>(scene_->cloth.size() - 1) : 0;
+    const double inner = sewn_ && scene_->start.empty() ? static_cast<double>(scene_->cloth.size() - 1) : 0;
     const double inner_frames = inner * frames_in(scene_->drape_seconds);
-    const bool grows = patterned_ && scene_->start.empty() && body_triangles_ > 0;  // if it is a person
+    const bool grows = sewn_ && scene_->start.empty() && body_triangles_ > 0;  // if it is a person
     const double growth_frames = grows ? frames_in(DressingBody::longest_growth_s) : 0;
     budget_.unwritten_frames = sewing_frames_ + growth_frames + inner_frames;
 
-    const double longest_s = scene_->step_max_s.value_or(patterned_ ? 1.0 / 60 : 1 / scene_->fps);
+    const double longest_s = scene_->step_max_s.value_or(sewn_ ? 1.0 / 60 : 1 / scene_->fps);
     const double steps = sewing_frames_ + (budget_.frames + growth_frames + inner_frames) *
                                               std::ceil(1 / (scene_->fps * longest_s) - 1e-9);
     // Iterations and refused steps grow with the number of particles, measured by its power 0.35: 3/8 is made of square roots.
@@ -234,13 +145,13 @@ class Estimate {
     const double step_s = 1e-6 * (step_us * slower * budget_.particles + body_step_us * body_triangles_);
     const double threads = available_threads() > 1 ? 1 : second_core;
     budget_.seconds += threads * steps * step_s + 1e-6 * load_us * body_triangles_;
-    if (patterned_) budget_.seconds += 1e-6 * meshing_us * budget_.particles;
+    if (sewn_) budget_.seconds += 1e-6 * meshing_us * budget_.particles;
   }
 
   const Scene* scene_;
   const TextSource* read_;
   Budget budget_;
-  bool patterned_ = false;
+  bool sewn_ = false;
   double sewing_frames_ = 0, motion_duration_s_ = 0;
   double body_triangles_ = 0;
   double making_mb_ = 0;  // the most that making one body takes, before there is cloth

@@ -10,7 +10,6 @@
 //
 // Easily missed: every item has a limit of its own where it is read (a grid of two million triangles); this is about all of them together.
 #pragma once
-#include "garment/pattern.hpp"
 #include "sim/scene.hpp"
 
 #include <optional>
@@ -23,12 +22,6 @@ struct BudgetItem {
   std::string what;  // `cloth "skirt", panel "front"`, "body woman", "solid 2 (sphere)"
   double triangles = 0;
   double memory_mb = 0;
-};
-
-// Panels that sewing would have to draw together over a distance that no garment has.
-struct FarPanel {
-  std::string file, panel, other, seam;
-  double distance_m = 0;
 };
 
 struct Budget {

@@ -4,7 +4,10 @@
 #include "core/hash.hpp"
 #include "dress/rigid_path.hpp"
 #include "mesh/check.hpp"
-#include "sim/setup.hpp"
+#include "sim/cloths.hpp"
+#include "sim/collider.hpp"
+
+#include <Eigen/Geometry>
 
 #include <numeric>
 #include <string>
@@ -32,52 +35,67 @@ void require(bool good, const std::string& place, const std::string& expected, c
 
 }  // namespace
 
-GarmentMesh cloth_of_arrays(const SceneCloth& cloth) {
-  const SceneClothArrays& arrays = *cloth.arrays;
-  const std::size_t faces = arrays.triangles.size();
+GarmentMesh cloth_of_surface(const ClothSurface& surface, const SceneCloth& whole) {
+  const std::size_t faces = surface.triangles.size();
   const std::string for_each = std::to_string(faces) + ", one for each face";
-  require(arrays.uv.empty() || arrays.uv.size() == faces, "uv_m", for_each, std::to_string(arrays.uv.size()));
-  require(arrays.panel.empty() || arrays.panel.size() == faces, "panel", for_each, std::to_string(arrays.panel.size()));
-  check_triangles("faces", arrays.x, arrays.triangles);
-  check_areas("faces", arrays.x, arrays.triangles);
+  require(surface.uv.empty() || surface.uv.size() == faces, "uv_m", for_each, std::to_string(surface.uv.size()));
+  require(surface.panel.empty() || surface.panel.size() == faces, "panel", for_each,
+          std::to_string(surface.panel.size()));
+  check_triangles("faces", surface.x, surface.triangles);
+  check_areas("faces", surface.x, surface.triangles);
 
   GarmentMesh garment;
-  garment.name = cloth.name;
+  garment.name = whole.name;
   ClothMesh& mesh = garment.mesh;
-  mesh.particle_count = static_cast<Index>(arrays.x.size());
-  mesh.triangles = arrays.triangles;
-  mesh.panel = arrays.panel;
+  mesh.particle_count = static_cast<Index>(surface.x.size());
+  mesh.triangles = surface.triangles;
+  mesh.panel = surface.panel;
   if (mesh.panel.empty()) mesh.panel.assign(faces, 0);
-  mesh.panel_names = arrays.panel_names;
-  if (mesh.panel_names.empty()) mesh.panel_names = {cloth.name};
+  mesh.panel_names = surface.panel_names;
+  if (mesh.panel_names.empty()) mesh.panel_names = {whole.name};
   for (std::size_t t = 0; t < faces; ++t)
     require(mesh.panel[t] >= 0 && at(mesh.panel[t]) < mesh.panel_names.size(), "panel of face " + std::to_string(t),
             "a number below " + std::to_string(mesh.panel_names.size()), std::to_string(mesh.panel[t]));
-  mesh.uv = arrays.uv;
+  mesh.uv = surface.uv;
   if (mesh.uv.empty()) {
     mesh.uv.reserve(faces);
     for (const Triangle& t : mesh.triangles)
-      mesh.uv.push_back(laid_flat(arrays.x[at(t[0])], arrays.x[at(t[1])], arrays.x[at(t[2])]));
+      mesh.uv.push_back(laid_flat(surface.x[at(t[0])], surface.x[at(t[1])], surface.x[at(t[2])]));
   }
-  const Mat3 turn = rotation_from_degrees(cloth.rotation_deg);
-  garment.x.reserve(arrays.x.size());
-  for (const Vec3& x : arrays.x) garment.x.push_back(turn * x + cloth.translation_m);
-  garment.merged.resize(arrays.x.size());
+  const Mat3 turn = rotation_from_degrees(whole.rotation_deg);
+  garment.x.reserve(surface.x.size());
+  for (const Vec3& x : surface.x) garment.x.push_back(turn * x + whole.translation_m);
+  garment.merged.resize(surface.x.size());
   std::iota(garment.merged.begin(), garment.merged.end(), 0);
-  garment.on_panel_edge.assign(arrays.x.size(), false);
+  garment.on_panel_edge.assign(surface.x.size(), false);
   return garment;
 }
 
-std::uint64_t hash_of(const SceneClothArrays& arrays) {
+std::uint64_t hash_of(const ClothSurface& surface) {
   Hash hash;
-  hash.add_counted(std::span<const Vec3>(arrays.x));
-  hash.add_counted(std::span<const Triangle>(arrays.triangles));
-  hash.add_counted(std::span<const std::array<Vec2, 3>>(arrays.uv));
-  hash.add_counted(std::span<const Index>(arrays.panel));
-  const std::uint64_t names = arrays.panel_names.size();
+  hash.add_counted(std::span<const Vec3>(surface.x));
+  hash.add_counted(std::span<const Triangle>(surface.triangles));
+  hash.add_counted(std::span<const std::array<Vec2, 3>>(surface.uv));
+  hash.add_counted(std::span<const Index>(surface.panel));
+  const std::uint64_t names = surface.panel_names.size();
   hash.add_bytes(&names, sizeof names);
-  for (const std::string& name : arrays.panel_names) hash.add_text(name);
+  for (const std::string& name : surface.panel_names) hash.add_text(name);
   return hash.value();
+}
+
+MeshedCloth load(const SceneClothArrays& arrays, const SceneCloth& whole, const TextSource&) {
+  MeshedCloth meshed;
+  meshed.input_hash = hash_of(*arrays.surface);
+  meshed.garment = cloth_of_surface(*arrays.surface, whole);
+  meshed.edge_m = mesh_quality(meshed.garment.mesh).mean_edge_m;
+  return meshed;
+}
+
+ClothCost cost(const SceneClothArrays& arrays, const SceneCloth& whole, const TextSource&) {
+  ClothCost cost;
+  cost.parts.push_back({cloth_in_words(whole.name), static_cast<double>(arrays.surface->x.size()),
+                        static_cast<double>(arrays.surface->triangles.size())});
+  return cost;
 }
 
 }  // namespace toile::internal

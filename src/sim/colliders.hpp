@@ -9,13 +9,13 @@
 #include "sim/collider_capsule.hpp"
 #include "sim/collider_person.hpp"
 #include "sim/collider_solid.hpp"
+#include "sim/kinds.hpp"
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -49,17 +49,6 @@ struct SceneCollider {
 // It stands elsewhere than where its shape was made, or will.
 inline bool is_placed(const SceneCollider& c) {
   return c.inside_out || !c.moves.empty() || c.translation_m != Vec3::Zero() || c.rotation_deg != Vec3::Zero();
-}
-
-// Calls f with a fresh one of every kind that a scene file can choose.
-template <class F>
-void for_each_kind(const F& f) {
-  const auto one = [&]<class Kind>(std::type_identity<Kind>) {
-    if constexpr (requires { Kind::key; }) f(Kind{});
-  };
-  [&]<class... Kind>(std::type_identity<std::variant<Kind...>>) {
-    (one(std::type_identity<Kind>{}), ...);
-  }(std::type_identity<ColliderShape>{});
 }
 
 // Where it stands and how it moves.  Nothing: no surface.  `path` is its own in the scene, "/solids/2".  Throws InputError of it for a shape

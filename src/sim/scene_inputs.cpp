@@ -37,10 +37,7 @@ std::vector<std::string> input_paths(const Scene& scene) {
   const auto add = [&](const std::string& path) {
     if (!path.empty()) paths.push_back(path);
   };
-  for (const SceneCloth& cloth : scene.cloth) {
-    add(cloth.pattern);
-    add(cloth.mesh);
-  }
+  for (const SceneCloth& cloth : scene.cloth) add(std::string(cloth.path()));
   const auto add_collider = [&](const SceneCollider& collider) {
     const SceneMesh* const mesh = collider.as<SceneMesh>();
     if (mesh != nullptr) add(mesh->path);

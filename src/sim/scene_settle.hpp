@@ -10,8 +10,6 @@ namespace toile::internal {
 template <class T>
 void settle(const Json&, T&) {}  // nothing: every key stands for itself
 
-void settle(const Json& value, SceneTube& tube);
-void settle(const Json& value, SceneRibbon& ribbon);
 void settle(const Json& value, ScenePin& pin);
 void settle(const Json& value, SceneDrag& drag);
 void settle(const Json& value, SceneCloth& cloth);

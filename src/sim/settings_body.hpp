@@ -4,7 +4,6 @@
 #include "sim/settings_cloth.hpp"
 
 #include <algorithm>
-#include <type_traits>
 #include <vector>
 
 namespace toile::internal {
@@ -35,18 +34,17 @@ void describe(V& v, SceneMotion& motion) {
 // Which shape it is: the keys of all kinds exclude each other.
 template <class V>
 void describe_shape(V& v, SceneCollider& collider) {
-  std::vector<std::string_view> keys;
-  for_each_kind([&](const auto& kind) { keys.push_back(std::remove_cvref_t<decltype(kind)>::key); });
+  const std::vector<std::string_view> keys = keys_of_kinds<ColliderShape>();
   if (collider.worn)
     v.at_most_one(keys);
   else
     v.exactly_one(keys);
-  for_each_kind([&]<class Kind>(const Kind&) {
+  for_each_kind<ColliderShape>([&]<class Kind>(const Kind&) {
     v.alternative(
         Kind::key, collider.as<Kind>() != nullptr, [&] { collider.shape = Kind{}; },
         [&](auto& of) { describe_choice(of, std::get<Kind>(collider.shape), collider.worn); });
   });
-  for_each_kind([&]<class Kind>(Kind not_chosen) {
+  for_each_kind<ColliderShape>([&]<class Kind>(Kind not_chosen) {
     if constexpr (requires { describe_beside(v, not_chosen, true); }) {
       Kind* const chosen = std::get_if<Kind>(&collider.shape);
       describe_beside(v, chosen != nullptr ? *chosen : not_chosen, collider.worn);

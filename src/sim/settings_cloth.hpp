@@ -1,9 +1,12 @@
-// sim/settings_cloth.hpp: the keys of a cloth, its shape, fabric, pins and hands.                  sim/settings.hpp
+// sim/settings_cloth.hpp: the keys of a cloth, its kind, fabric, pins and hands.                  sim/settings.hpp
 #pragma once
 #include "sim/scene.hpp"
 #include "sim/settings.hpp"
 
 #include <limits>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace toile::internal {
@@ -18,11 +21,6 @@ void describe_times_and_place(V& row, double& t_s, Vec3& x_m) {
   row.column("z", anywhere, x_m.z());
 }
 inline constexpr auto path_row = [](auto& row, VectorKey& key) { describe_times_and_place(row, key.t_s, key.x); };
-inline constexpr auto point_row = [](auto& row, Vec3& p) {
-  row.column("x", anywhere, p.x());
-  row.column("y", anywhere, p.y());
-  row.column("z", anywhere, p.z());
-};
 
 struct Placement {  // the two members of whatever is placed
   Vec3 &translation_m, &rotation_deg;
@@ -71,32 +69,6 @@ void describe(V& v, Fabric& fabric) {
   v.number({"friction", "on another layer; the larger of two counts", as_base}, {0, 100}, fabric.friction);
   v.number({"thickness_m", "distance of two layers that lie on each other", as_base}, {0, 0.1, 1, true},
            fabric.thickness_m);
-}
-
-inline constexpr Range length_of_a_shape{1e-3, 10}, edge_of_a_shape{5e-4, 1};
-
-template <class V>
-void describe(V& v, SceneGrid& grid) {
-  v.number({"width_m", "along x"}, length_of_a_shape, grid.width_m);
-  v.number({"height_m", "along y"}, length_of_a_shape, grid.height_m);
-  v.number({"edge_m", "edge length of its triangles"}, edge_of_a_shape, grid.edge_m);
-}
-
-template <class V>
-void describe(V& v, SceneTube& tube) {
-  v.number({"radius_m", "about the y axis"}, length_of_a_shape, tube.radius_m);
-  v.number({"length_m", "along the y axis"}, length_of_a_shape, tube.length_m);
-  v.number({"edge_m", "edge length of its triangles, at most the radius"}, edge_of_a_shape, tube.edge_m);
-}
-
-template <class V>
-void describe(V& v, SceneRibbon& ribbon) {
-  v.number({"width_m", "its breadth"}, length_of_a_shape, ribbon.width_m);
-  v.number({"edge_m", "edge length of its triangles"}, edge_of_a_shape, ribbon.edge_m);
-  v.flag({"closed", "from the last point back to the first"}, ribbon.closed);
-  v.rows(Setting{"path_m", "points that its middle runs through, smoothly"}.needs(), Rows{}, ribbon.path_m, point_row);
-  v.vector({"across", "direction of its breadth at the first point; it turns as little as it can from there"}, anywhere,
-           ribbon.across);
 }
 
 template <class V>
@@ -170,31 +142,41 @@ void describe(V& v, SceneDrag& drag) {
   v.number({"to_s", "when it lets go", "the path's last time"}, within_a_run, drag.to_s);
 }
 
+// Which kind it is: the keys of all kinds exclude each other.
+template <class V>
+void describe_kind(V& v, SceneCloth& cloth) {
+  v.exactly_one(keys_of_kinds<ClothKind>());
+  for_each_kind<ClothKind>([&]<class Kind>(const Kind&) {
+    std::optional<Kind> chosen;
+    if (const Kind* kind = cloth.as<Kind>()) chosen = *kind;
+    describe_choice(v, chosen);
+    if (chosen) cloth.kind = std::move(*chosen);
+  });
+  v.number({"resolution_cm", "edge length of a pattern's triangles"}, {0.1, 20, 0.01}, cloth.resolution_m);
+  for_each_kind<ClothKind>([&]<class Kind>(Kind not_chosen) {
+    if constexpr (requires { describe_beside(v, not_chosen); }) {
+      Kind* const chosen = std::get_if<Kind>(&cloth.kind);
+      describe_beside(v, chosen != nullptr ? *chosen : not_chosen);
+    }
+  });
+}
+
+// "sheet", "tube", "ribbon": of those that have one whatever they are made of.
+inline std::string usual_names() {
+  std::string names;
+  for_each_kind<ClothKind>([&](const auto& kind) {
+    if constexpr (requires { usual_name(kind); })
+      if (const std::string name(usual_name(kind)); !name.empty())
+        names += (names.empty() ? "\"" : ", \"") + name + '"';
+  });
+  return names;
+}
+
 template <class V>
 void describe(V& v, SceneCloth& cloth) {
-  v.text({"name", "of the cloth; where there are several, their panels are named after them",
-          "the pattern's, the file's, or \"sheet\", \"tube\", \"ribbon\""},
-         cloth.name);
-  v.exactly_one({"pattern", "mesh", "grid", "tube", "ribbon"});
-  v.path({"pattern", "a sewing pattern ([pattern-format.md](pattern-format.md))", "a shape"}, cloth.pattern);
-  v.path({"mesh", "a garment that is modelled already: a [mesh file](#mesh-files) ([meshes](#meshes))", "no"},
-         cloth.mesh);
-  static constexpr std::array<std::pair<std::string_view, LengthUnit>, 3> units = {
-      {{"m", LengthUnit::m}, {"dm", LengthUnit::dm}, {"cm", LengthUnit::cm}}};
-  v.name({"mesh_unit", "of the mesh's coordinates"}, units, cloth.mesh_unit);
-  static constexpr std::array<std::pair<std::string_view, RestShape>, 3> rest_shapes = {
-      {{"automatic", RestShape::automatic}, {"drawing", RestShape::drawing}, {"start", RestShape::start}}};
-  v.name({"rest_shape",
-          "of a mesh: its `drawing` (`vt`, in metres), or itself as it is at the `start`; `automatic`: the drawing, if "
-          "it is in metres"},
-         rest_shapes, cloth.rest_shape);
-  v.object({"grid", "near-equilateral triangles, drawn upright around the origin, facing +z", "no"}, cloth.grid);
-  v.object({"tube", "around the y axis, open above and below", "no"}, cloth.tube);
-  v.object({"ribbon", "along a curve", "no"}, cloth.ribbon);
-  v.at_most_one({"resolution_cm", "vertices"});
-  v.number({"resolution_cm", "edge length of a pattern's triangles"}, {0.1, 20, 0.01}, cloth.resolution_m);
-  v.whole({"vertices", "instead: how many vertices the welded garment shall have, within 1 %", "by `resolution_cm`"},
-          {20, 2e6}, cloth.vertices);
+  static const std::string otherwise = "the pattern's, the file's, or " + usual_names();
+  v.text({"name", "of the cloth; where there are several, their panels are named after them", otherwise}, cloth.name);
+  describe_kind(v, cloth);
   v.object({"fabric", "a name, or an object with what differs from it", "cotton"}, cloth.fabric, fabric_by_name);
   v.table(
       {"panels", "what some panels have of their own, by their names ([extension](pattern-format.md#the-extension))",

@@ -2,21 +2,12 @@
 #include "sim/setup.hpp"
 
 #include "core/error.hpp"
-#include "core/hash.hpp"
-#include "io/mesh_file.hpp"
-#include "mesh/check.hpp"
-#include "sim/check_garment.hpp"
-#include "sim/cloth_arrays.hpp"
-#include "sim/cloth_of_mesh.hpp"
-#include "sim/cloth_shapes.hpp"
 
 #include <algorithm>
 #include <string_view>
 
 namespace toile::internal {
 namespace {
-
-bool is_set(const Vec3& v) { return !v.isZero(0); }
 
 Index nearest_particle(std::span<const Vec3> x, const Vec3& p) {
   std::size_t best = 0;
@@ -26,60 +17,6 @@ Index nearest_particle(std::span<const Vec3> x, const Vec3& p) {
 }
 
 std::string path_of_cloth(std::size_t k) { return "/cloth/" + std::to_string(k); }
-
-// Of what its mesh is made of, where that is no file of its own.
-std::string path_of_shape(const SceneCloth& cloth, std::size_t k) {
-  const std::string_view key = cloth.shape_key();
-  return key.empty() ? path_of_cloth(k) : path_of_cloth(k) + '/' + std::string(key);
-}
-
-// The pattern of the cloth, meshed and moved as `placement` says.
-void load_garment(const SceneCloth& cloth, const TextSource& read, std::optional<double>& counted_edge_m,
-                  LoadedCloth& loaded) {
-  const std::string text = read(cloth.pattern);
-  loaded.input_hash = hash_of_text(text);
-  const std::string file = printable(cloth.pattern);
-  PatternFile as_read = read_pattern(text, file);
-  const Pattern& pattern = loaded.pattern.emplace(std::move(as_read.pattern));
-  GarmentMesh& garment = loaded.garment;
-  try {
-    if (cloth.vertices) {
-      CountedGarment counted = mesh_garment_to_count(pattern, *cloth.vertices);
-      garment = std::move(counted.garment);
-      counted_edge_m = counted.resolution_m;
-    } else {
-      garment = mesh_garment(pattern, cloth.resolution_m);
-    }
-  } catch (const InputError& error) {
-    throw as_read.places.complete(error).within(file);
-  }
-  if (!cloth.name.empty()) garment.name = cloth.name;
-  if (is_set(cloth.translation_m) || is_set(cloth.rotation_deg)) {
-    const Mat3 turn = rotation_from_degrees(cloth.rotation_deg);
-    for (Vec3& x : garment.x) x = turn * x + cloth.translation_m;
-  }
-}
-
-// The shape of the cloth, or the refusal of one that has none.
-void load_shape(const SceneCloth& cloth, const TextSource& read, LoadedCloth& loaded) {
-  if (!cloth.mesh.empty()) {
-    const std::string text = read(cloth.mesh), file = printable(cloth.mesh);
-    Hash bytes;
-    bytes.add_text(text);
-    SceneCloth as_arrays = cloth;
-    const SurfaceMesh mesh = parse_mesh(text, cloth.mesh, [&](std::string_view beside) { bytes.add_text(beside); });
-    loaded.input_hash = bytes.value();
-    as_arrays.arrays = std::make_shared<const SceneClothArrays>(
-        arrays_of_mesh(mesh, file, metres_in(cloth.mesh_unit), cloth.rest_shape, loaded.warnings));
-    loaded.garment = cloth_of_arrays(as_arrays);
-  } else if (cloth.arrays) {
-    loaded.input_hash = hash_of(*cloth.arrays);
-    loaded.garment = cloth_of_arrays(cloth);
-  } else {
-    loaded.garment = shaped_cloth(cloth);
-    check_areas("", loaded.garment.x, loaded.garment.mesh.triangles);
-  }
-}
 
 std::vector<Fabric> fabrics_of(const Scene& scene, std::size_t k, const ClothMesh& mesh) {
   const SceneCloth& cloth = scene.cloth[k];
@@ -123,8 +60,8 @@ bool has_label(const GarmentMesh& garment, const std::string& label) {
 void check_labels(const SceneCloth& cloth, const GarmentMesh& garment, std::string_view path = {}) {
   for (const LabelHeight& height : cloth.label_heights)
     if (!has_label(garment, height.label))
-      throw InputError(printable(cloth.pattern), "/label_heights_m", "a label that an edge of the pattern carries",
-                       '"' + printable(height.label) + '"')
+      throw InputError(cloth.is_sewn() ? printable(cloth.path()) : std::string(), "/label_heights_m",
+                       "a label that an edge of the pattern carries", '"' + printable(height.label) + '"')
           .of(path);
 }
 
@@ -185,22 +122,8 @@ TimedPin timed_pin(const ScenePin& given, Index particle) {
 
 LoadedCloth load_cloth(const Scene& scene, std::size_t k, const TextSource& read) {
   const SceneCloth& cloth = scene.cloth[k];
-  LoadedCloth loaded;
-  std::optional<double> counted_edge_m;
-  const std::string shape_path = path_of_shape(cloth, k);
-  const std::string& file = cloth.is_sewn() ? cloth.pattern : cloth.mesh;
-  const std::string where = printable(file.empty() ? cloth.name : file);
-  try {
-    if (cloth.is_sewn())
-      load_garment(cloth, read, counted_edge_m, loaded);
-    else
-      load_shape(cloth, read, loaded);
-    check_garment(where, loaded.garment);
-  } catch (const InputError& error) {
-    if (!file.empty()) throw error.within(where);
-    throw error.within(where).of(shape_path);
-  }
-  check_labels(cloth, loaded.garment, shape_path);
+  LoadedCloth loaded{mesh_cloth(cloth, path_of_cloth(k), read), {}, {}, {}, {}, {}};
+  check_labels(cloth, loaded.garment, path_of_cloth(k));
   loaded.fabrics = fabrics_of(scene, k, loaded.garment.mesh);
   loaded.rest_stretch = rest_stretch_of(cloth, loaded.garment.mesh);
   if (!cloth.is_sewn()) loaded.pins = pins_of(scene, k, loaded.garment.x);
@@ -220,8 +143,6 @@ LoadedCloth load_cloth(const Scene& scene, std::size_t k, const TextSource& read
     const auto number = static_cast<Index>(std::find(names.begin(), names.end(), panel.name) - names.begin());
     loaded.panels.push_back({number, panel});
   }
-  loaded.edge_m =
-      cloth.arrays ? mesh_quality(loaded.garment.mesh).mean_edge_m : counted_edge_m.value_or(cloth.edge_m());
   if (scene.cloth.size() > 1)  // two garments may both have a "front"
     for (std::string& panel : loaded.garment.mesh.panel_names) panel.insert(0, loaded.garment.name + '/');
   return loaded;

@@ -4,7 +4,6 @@
 #include "dress/keyed.hpp"
 #include "dress/outfit.hpp"
 #include "dress/outfit_run.hpp"
-#include "garment/garment_mesh.hpp"
 #include "garment/pattern_figures.hpp"
 #include "sim/colliders.hpp"
 #include "sim/scene.hpp"
@@ -17,21 +16,16 @@
 
 namespace toile::internal {
 
-// A cloth of the scene, meshed and moved as `placement` says: a pattern's panels, or a shape of one panel.
-struct LoadedCloth {
-  GarmentMesh garment;
-  std::optional<Pattern> pattern;  // as read; none of a shape
+// A cloth of the scene, with what its panels are of and what holds it.
+struct LoadedCloth : MeshedCloth {
   std::vector<Fabric> fabrics;     // [panel] with the scene's contact overrides
   std::vector<Vec2> rest_stretch;  // [panel] (b_u, b_v)
   std::vector<TimedPin> pins;      // on the particles of `garment`, of a cloth that is not sewn
   std::vector<TimedDrag> drags;    // likewise
   std::vector<TimedPanel> panels;  // of `garment`
-  double edge_m = 0;               // that its triangles were asked to have
-  std::vector<std::string> warnings;
-  std::uint64_t input_hash = 0;  // of the files or arrays that it was made of; 0: of none
 };
-// That of scene.cloth[k]; `read` gives the text of a pattern.  Errors of the mesher are given the name of the file, or are of the path of the
-// shape.  Throws InputError for a panel or a label that the cloth does not have, and for what check_garment refuses.
+// That of scene.cloth[k]; `read` gives the texts of its files.  Throws what mesh_cloth throws, and InputError for a panel or a label that the
+// cloth does not have.
 LoadedCloth load_cloth(const Scene& scene, std::size_t k, const TextSource& read);
 
 // All that a scene names, read.

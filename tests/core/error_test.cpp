@@ -32,6 +32,12 @@ TEST(InputError, KnowsWhatOfTheModelItIsAboutAndSaysNoMoreOfIt) {
   EXPECT_EQ(error.within("sheet").path(), "/solids/0");
 }
 
+TEST(InputError, KnowsTheFileThatItsMessageBeginsWith) {
+  EXPECT_EQ(InputError("p.json:3:4", "/x", "a", "b").where(), "p.json:3:4");
+  EXPECT_EQ(InputError("", "uv_m", "a", "b").within("sheet").where(), "sheet");
+  EXPECT_EQ(InputError("line 3", "uv_m", "a", "b").within("a.obj").where(), "a.obj: line 3");
+}
+
 TEST(InputError, IsOfAFileThatItDoesNotNameItself) {
   EXPECT_STREQ(InputError("", "uv_m", "a", "b").within("sheet").what(), "sheet: uv_m: expected a, got b");
   EXPECT_STREQ(InputError("p.json:3:4", "/x", "a", "b").within("p.json").what(), "p.json:3:4: /x: expected a, got b");

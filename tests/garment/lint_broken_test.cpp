@@ -237,5 +237,17 @@ TEST(LintBroken, AFileThatIsNoPatternIsToldWithItsPlace) {
   EXPECT_EQ(lint_pattern("{", "p.json").findings.size(), 1U);
 }
 
+TEST(LintBroken, WhatAFileHasBetweenTheWordsOfAMessageIsNotTakenForThem) {
+  const LintReport report = lint_pattern(
+      R"({"pattern": {"panels": {"as expected ": {"translation": "0, got 0", "rotation": [0, 0, 0]}}, "stitches": []}})",
+      "p.json");
+  ASSERT_EQ(report.findings.size(), 1U);
+  EXPECT_EQ(report.findings[0].code, reason::unreadable);
+  EXPECT_EQ(report.findings[0].pointer, "/pattern/panels/as expected /translation");
+  EXPECT_EQ(report.findings[0].place, report.findings[0].pointer);
+  EXPECT_EQ(report.findings[0].where, "p.json:1:57");
+  EXPECT_EQ(report.findings[0].got, "the string \"0, got 0\"");
+}
+
 }  // namespace
 }  // namespace toile::internal

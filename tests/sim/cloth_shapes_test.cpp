@@ -1,8 +1,7 @@
 // Tubes and ribbons: whole, unstretched, where they are asked to be.
-#include "sim/cloth_shapes.hpp"
-
 #include "core/elementary.hpp"
 #include "mesh/check.hpp"
+#include "sim/scene.hpp"
 #include "verify/crossings.hpp"
 
 #include <gtest/gtest.h>
@@ -16,8 +15,9 @@
 namespace toile::internal {
 namespace {
 
-SceneCloth cloth(const std::string& shape) {
-  return parse_scene("{\"cloth\": [{" + shape + "}]}", "s.json").cloth.at(0);
+GarmentMesh shaped_cloth(const std::string& shape) {
+  const Scene scene = parse_scene("{\"cloth\": [{" + shape + "}]}", "s.json");
+  return mesh_cloth(scene.cloth.at(0), "/cloth/0", read_text_file).garment;
 }
 
 // How many edges have one triangle only.
@@ -48,8 +48,8 @@ double strain(const GarmentMesh& garment) {
 }
 
 TEST(ClothShapes, ATubeIsClosedAroundAndFacesOutwards) {
-  const GarmentMesh tube = shaped_cloth(cloth(
-      R"("tube": {"radius_m": 0.2, "length_m": 0.5, "edge_m": 0.03}, "placement": {"translation_m": [1, 2, 3]})"));
+  const GarmentMesh tube = shaped_cloth(
+      R"("tube": {"radius_m": 0.2, "length_m": 0.5, "edge_m": 0.03}, "placement": {"translation_m": [1, 2, 3]})");
   check_cloth("tube", tube.mesh, tube.x);
   double low = 1e9, high = -1e9;
   for (const Vec3& x : tube.x) {
@@ -70,7 +70,7 @@ TEST(ClothShapes, ATubeIsClosedAroundAndFacesOutwards) {
 
 TEST(ClothShapes, ARibbonFollowsItsPath) {
   const GarmentMesh straight = shaped_cloth(
-      cloth(R"("ribbon": {"width_m": 0.1, "edge_m": 0.02, "path_m": [[0, 0, 0], [1, 0, 0]], "across": [0, 1, 0.5]})"));
+      R"("ribbon": {"width_m": 0.1, "edge_m": 0.02, "path_m": [[0, 0, 0], [1, 0, 0]], "across": [0, 1, 0.5]})");
   check_cloth("ribbon", straight.mesh, straight.x);
   EXPECT_LT(strain(straight), 1e-9);
   const Vec3 across = Vec3(0, 1, 0.5).normalized();
@@ -84,8 +84,8 @@ TEST(ClothShapes, ARibbonFollowsItsPath) {
     for (int k = 0; k <= points; ++k)
       path += (k > 0 ? ", [" : "[") + std::to_string(0.3 * std::cos(0.3 * k)) + ", " + std::to_string(0.02 * k) + ", " +
               std::to_string(0.3 * std::sin(0.3 * k)) + "]";
-    return shaped_cloth(
-        cloth("\"ribbon\": {\"width_m\": 0.04, \"edge_m\": 0.01, \"across\": [0, 1, 0], \"path_m\": [" + path + "]}"));
+    return shaped_cloth("\"ribbon\": {\"width_m\": 0.04, \"edge_m\": 0.01, \"across\": [0, 1, 0], \"path_m\": [" +
+                        path + "]}");
   };
   const GarmentMesh some = helix(4), turns = helix(24);
   check_cloth("ribbon", turns.mesh, turns.x);
@@ -97,9 +97,9 @@ TEST(ClothShapes, ARibbonFollowsItsPath) {
 
 TEST(ClothShapes, AClosedRibbonMeetsItselfWhateverItsTurns) {
   // A curve in space that does not lie in a plane: carried around it, a direction comes back turned.
-  const GarmentMesh ring = shaped_cloth(cloth(
+  const GarmentMesh ring = shaped_cloth(
       R"("ribbon": {"width_m": 0.05, "edge_m": 0.015, "closed": true,
-                   "path_m": [[0.3, 0, 0], [0.2, 0.15, 0.2], [0, 0, 0.3], [-0.2, 0.1, 0.2], [-0.3, -0.1, 0], [0, 0.1, -0.3]]})"));
+                   "path_m": [[0.3, 0, 0], [0.2, 0.15, 0.2], [0, 0, 0.3], [-0.2, 0.1, 0.2], [-0.3, -0.1, 0], [0, 0.1, -0.3]]})");
   check_cloth("ring", ring.mesh, ring.x);
   const std::size_t edges = 3 * ring.mesh.triangles.size();
   const int open = open_edges(ring);

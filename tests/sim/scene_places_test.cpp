@@ -79,6 +79,13 @@ TEST(ScenePlaces, OfLabelsOfAPattern) {
                 ": /label_heights_m: expected a label that an edge of the pattern carries, got \"wrist\"");
 }
 
+TEST(ScenePlaces, OfLabelsOfAShapeThatHasNone) {
+  const Refusal label = refusal("{\"cloth\": [\n  {\"grid\": {}, \"label_heights_m\": {\"wrist\": 1}}]}");
+  EXPECT_EQ(
+      label.of_a_file,
+      "s.json:2:3: /cloth/0/label_heights_m: expected a label that an edge of the pattern carries, got \"wrist\"");
+}
+
 TEST(ScenePlaces, OfColliders) {
   const std::string cloth = "{\"cloth\": [{\"grid\": {}}],\n";
   const Refusal solid = refusal(cloth +

@@ -28,7 +28,7 @@ TEST(Scene, APatternAndABodyAreAComplete) {
   const Scene scene =
       parse_scene(R"({"cloth": [{"pattern": "p.json"}], "body": {"mesh": "../b.obj"}})", "dir/scenes/s.json");
   EXPECT_EQ(scene.name, "s");
-  EXPECT_EQ(scene.cloth.at(0).pattern, "dir/scenes/p.json") << "paths start at the scene's folder";
+  EXPECT_EQ(scene.cloth.at(0).path(), "dir/scenes/p.json") << "paths start at the scene's folder";
   EXPECT_EQ(std::get<SceneMesh>(scene.body.shape).path, "dir/b.obj");
   EXPECT_EQ(scene.cloth[0].fabric.name, "cotton");
   EXPECT_EQ(scene.cloth[0].resolution_m, 0.01);
@@ -43,7 +43,7 @@ TEST(Scene, APatternAndABodyAreAComplete) {
 }
 
 TEST(Scene, AnAbsolutePathStaysAsItIs) {
-  EXPECT_EQ(parse_scene(R"({"cloth": [{"pattern": "/x/p.json"}]})", "dir/s.json").cloth.at(0).pattern, "/x/p.json");
+  EXPECT_EQ(parse_scene(R"({"cloth": [{"pattern": "/x/p.json"}]})", "dir/s.json").cloth.at(0).path(), "/x/p.json");
 }
 
 TEST(Scene, ReadsEveryKeyInItsUnit) {
@@ -62,7 +62,7 @@ TEST(Scene, ReadsEveryKeyInItsUnit) {
     "output": {"dir": "out/x", "preview": false}})",
                                   "s.json");
   const SceneCloth& cloth = scene.cloth.at(0);
-  EXPECT_EQ(cloth.grid->width_m, 1.5);
+  EXPECT_EQ(cloth.as<SceneGrid>()->width_m, 1.5);
   EXPECT_EQ(cloth.fabric.density_kg_per_m2, 0.08);
   EXPECT_EQ(cloth.fabric.stretch_u_N_per_m, 1200) << "silk's";
   EXPECT_EQ(cloth.panels.at(0).fabric->name, "knit");
@@ -100,7 +100,7 @@ TEST(Scene, ReadsSolidsShapesAndPinsThatMove) {
                {"box": {"size_m": [1, 2, 3]}}, {"revolved": {"profile_m": [[0, 0], [1, 0], [0, 1]]}}, {"mesh": "b.obj"}]})",
                                   "dir/s.json");
   EXPECT_EQ(scene.cloth.at(0).name, "tube");
-  EXPECT_EQ(scene.cloth[0].tube->length_m, 2);
+  EXPECT_EQ(std::get<SceneTube>(scene.cloth[0].kind).length_m, 2);
   const ScenePin& pin = scene.cloth[0].pins.at(0);
   EXPECT_EQ((*pin.in_box_m)[0], Vec3(-1, -1, -2));
   EXPECT_EQ((*pin.in_box_m)[1], Vec3(1, 0, 2));
@@ -111,8 +111,8 @@ TEST(Scene, ReadsSolidsShapesAndPinsThatMove) {
   EXPECT_EQ(pin.moves.keys()[1].shift_m, Vec3(1, 0, 0)) << "what a key leaves out is as before";
   EXPECT_EQ(pin.moves.keys()[1].rotation_deg, Vec3(0, 720, 0));
   EXPECT_EQ(scene.cloth.at(1).name, "ribbon");
-  EXPECT_TRUE(scene.cloth[1].ribbon->closed);
-  EXPECT_EQ(scene.cloth[1].ribbon->across, Vec3(0, 0, 2));
+  EXPECT_TRUE(std::get<SceneRibbon>(scene.cloth[1].kind).closed);
+  EXPECT_EQ(std::get<SceneRibbon>(scene.cloth[1].kind).across, Vec3(0, 0, 2));
   ASSERT_EQ(scene.solids.size(), 4u);
   EXPECT_EQ(std::get<SceneSphere>(scene.solids[0].shape).radius_m, 0.4);
   EXPECT_TRUE(scene.solids[0].inside_out);

@@ -1,13 +1,19 @@
-#include "sim/cloth_of_mesh.hpp"
+#include "sim/cloth_mesh.hpp"
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
+#include "io/json.hpp"
+#include "io/mesh_file.hpp"
 #include "mesh/join_sides.hpp"
+#include "sim/cloths.hpp"
+#include "sim/collider_person.hpp"
 
 #include <fmt/printf.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -115,15 +121,15 @@ Particles particles_of(const SurfaceMesh& mesh, double unit_m) {
 
 }  // namespace
 
-SceneClothArrays arrays_of_mesh(const SurfaceMesh& mesh, std::string_view file, double unit_m, RestShape rest,
-                                std::vector<std::string>& warnings) {
+ClothSurface surface_of_mesh(const SurfaceMesh& mesh, std::string_view file, double unit_m, RestShape rest,
+                             std::vector<std::string>& warnings) {
   const std::string name(file);
   if (mesh.triangles.empty()) throw InputError(file, "mesh", "faces", "none");
   Particles particles = particles_of(mesh, unit_m);
-  SceneClothArrays arrays;
-  arrays.x = std::move(particles.x);
+  ClothSurface surface;
+  surface.x = std::move(particles.x);
   for (const Triangle& t : mesh.triangles)
-    arrays.triangles.push_back({particles.of[at(t[0])], particles.of[at(t[1])], particles.of[at(t[2])]});
+    surface.triangles.push_back({particles.of[at(t[0])], particles.of[at(t[1])], particles.of[at(t[2])]});
   warnings.insert(warnings.end(), mesh.notes.begin(), mesh.notes.end());
   if (particles.joined > 0)
     warnings.push_back(name + ": " + std::to_string(particles.joined) +
@@ -136,9 +142,9 @@ SceneClothArrays arrays_of_mesh(const SurfaceMesh& mesh, std::string_view file, 
 
   const bool groups = mesh.group_names.size() > 1 || (mesh.group_names.size() == 1 && !mesh.group_names[0].empty());
   if (groups || mesh.object_names.size() > 1) {
-    arrays.panel = groups ? mesh.group : mesh.object;
-    arrays.panel_names = groups ? mesh.group_names : mesh.object_names;
-    for (std::string& panel : arrays.panel_names)
+    surface.panel = groups ? mesh.group : mesh.object;
+    surface.panel_names = groups ? mesh.group_names : mesh.object_names;
+    for (std::string& panel : surface.panel_names)
       if (panel.empty()) panel = "(no group)";
   }
 
@@ -151,19 +157,19 @@ SceneClothArrays arrays_of_mesh(const SurfaceMesh& mesh, std::string_view file, 
     if (rest == RestShape::automatic)
       warnings.push_back(name + (uv.empty() ? ": not every face has vt" : ": a face has no area in the drawing") +
                          "; the cloth is at rest as it starts, its warp upright");
-    return arrays;
+    return surface;
   }
   face_up(mesh, uv);
   double drawn = 0, area = 0;
   for (std::size_t t = 0; t < uv.size(); ++t) {
-    const auto& [a, b, c] = arrays.triangles[t];
+    const auto& [a, b, c] = surface.triangles[t];
     drawn += 0.5 * std::abs(twice_area(uv[t]));
-    area += 0.5 * (arrays.x[at(b)] - arrays.x[at(a)]).cross(arrays.x[at(c)] - arrays.x[at(a)]).norm();
+    area += 0.5 * (surface.x[at(b)] - surface.x[at(a)]).cross(surface.x[at(c)] - surface.x[at(a)]).norm();
   }
   const bool metric = drawn < metric_ratio * area && area < metric_ratio * drawn;
   if (rest == RestShape::drawing || (rest == RestShape::automatic && metric)) {
-    arrays.uv = std::move(uv);
-    return arrays;
+    surface.uv = std::move(uv);
+    return surface;
   }
   if (rest == RestShape::automatic)
     warnings.push_back(name +
@@ -171,10 +177,37 @@ SceneClothArrays arrays_of_mesh(const SurfaceMesh& mesh, std::string_view file, 
                                     "cloth is at rest as it starts, its warp as drawn",
                                     drawn, area));
   for (std::size_t t = 0; t < uv.size(); ++t) {
-    const Triangle& c = arrays.triangles[t];
-    arrays.uv.push_back(as_it_starts({arrays.x[at(c[0])], arrays.x[at(c[1])], arrays.x[at(c[2])]}, uv[t]));
+    const Triangle& c = surface.triangles[t];
+    surface.uv.push_back(as_it_starts({surface.x[at(c[0])], surface.x[at(c[1])], surface.x[at(c[2])]}, uv[t]));
   }
-  return arrays;
+  return surface;
+}
+
+void refuse_beside(const Json& value, const SceneClothMesh&, const SceneCloth&) {
+  for (const std::string_view key : {"mesh_unit", "rest_shape"})
+    if (const Json* given = value.find(key)) given->fail("a mesh beside it", given->describe());
+}
+
+std::string usual_name(const SceneClothMesh& mesh) { return std::filesystem::path(mesh.path).stem().string(); }
+
+MeshedCloth load(const SceneClothMesh& given, const SceneCloth& whole, const TextSource& read) {
+  MeshedCloth meshed;
+  const std::string text = read(given.path);
+  Hash bytes;
+  bytes.add_text(text);
+  const SurfaceMesh mesh = parse_mesh(text, given.path, [&](std::string_view beside) { bytes.add_text(beside); });
+  meshed.input_hash = bytes.value();
+  meshed.garment = cloth_of_surface(
+      surface_of_mesh(mesh, printable(given.path), metres_in(given.unit), given.rest_shape, meshed.warnings), whole);
+  meshed.edge_m = whole.resolution_m;
+  return meshed;
+}
+
+ClothCost cost(const SceneClothMesh& given, const SceneCloth& whole, const TextSource&) {
+  const double triangles = cost_of_file(given.path).triangles;
+  ClothCost cost;
+  cost.parts.push_back({cloth_in_words(whole.name), triangles / 2, triangles});
+  return cost;
 }
 
 }  // namespace toile::internal

@@ -1,11 +1,11 @@
 // Cloth that is modelled already, wind in time, and pins on what was sewn.
-#include "sim/cloth_of_mesh.hpp"
+#include "sim/cloth_mesh.hpp"
 
 #include "core/error.hpp"
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
 #include "io/scratch.hpp"
-#include "sim/cloth_arrays.hpp"
+#include "sim/cloths.hpp"
 #include "sim/simulate.hpp"
 
 #include <gtest/gtest.h>
@@ -26,18 +26,17 @@ std::string two_squares(double scale, bool flipped = false) {
 }
 
 struct Read {
-  SceneClothArrays arrays;
+  ClothSurface surface;
   std::vector<std::string> warnings;
   GarmentMesh garment;
 };
 
 Read read(const std::string& text, RestShape rest = RestShape::automatic, double unit_m = 1) {
   Read made;
-  made.arrays = arrays_of_mesh(parse_obj(text, "g.obj"), "g.obj", unit_m, rest, made.warnings);
+  made.surface = surface_of_mesh(parse_obj(text, "g.obj"), "g.obj", unit_m, rest, made.warnings);
   SceneCloth cloth;
   cloth.name = "g";
-  cloth.arrays = std::make_shared<const SceneClothArrays>(made.arrays);
-  made.garment = cloth_of_arrays(cloth);
+  made.garment = cloth_of_surface(made.surface, cloth);
   return made;
 }
 
@@ -65,9 +64,9 @@ std::pair<Vec3, Vec3> threads(const GarmentMesh& garment, std::size_t t) {
 
 TEST(ClothOfMesh, SplitVerticesAreOneAndGroupsArePanels) {
   const Read made = read(two_squares(1));
-  EXPECT_EQ(made.arrays.x.size(), 6U);
-  EXPECT_EQ(made.arrays.panel_names, (std::vector<std::string>{"left", "right"}));
-  EXPECT_EQ(made.arrays.panel, (std::vector<Index>{0, 0, 1, 1}));
+  EXPECT_EQ(made.surface.x.size(), 6U);
+  EXPECT_EQ(made.surface.panel_names, (std::vector<std::string>{"left", "right"}));
+  EXPECT_EQ(made.surface.panel, (std::vector<Index>{0, 0, 1, 1}));
   ASSERT_EQ(made.warnings.size(), 2U);
   EXPECT_NE(made.warnings[0].find("2 vertices"), std::string::npos);
   EXPECT_NE(made.warnings[1].find("1 vertices that no face uses"), std::string::npos);
@@ -112,7 +111,7 @@ TEST(ClothOfMesh, WithoutADrawingItIsAtRestAsItStarts) {
 
 TEST(ClothOfMesh, UnitsAreThoseOfTheFile) {
   const Read made = read("v 0 0 0\nv 30 0 0\nv 0 20 0\nf 1 2 3\n", RestShape::start, 0.01);
-  EXPECT_EQ(made.arrays.x[1], Vec3(0.3, 0, 0));
+  EXPECT_EQ(made.surface.x[1], Vec3(0.3, 0, 0));
 }
 
 struct Film {

@@ -1,0 +1,66 @@
+// sim/cloth.hpp: what a kind of cloth (sim/cloths.hpp) is made into, and what that takes.
+#pragma once
+#include "garment/garment_mesh.hpp"
+#include "garment/pattern.hpp"
+#include "sim/settings.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace toile::internal {
+
+class Json;
+struct SceneCloth;
+
+// Where the texts of scenes, patterns and meshes come from: the disk, or the files inside the program.
+using TextSource = std::function<std::string(const std::string& path)>;
+
+// In panels, meshed, and moved as the cloth's `placement` says.
+struct MeshedCloth {
+  GarmentMesh garment;
+  std::optional<Pattern> pattern;  // as read, of what is sewn
+  double edge_m = 0;               // that its triangles were asked to have
+  std::vector<std::string> warnings;
+  std::uint64_t input_hash = 0;  // of the files or arrays that it was made of; 0: of none
+};
+
+// Panels that sewing would have to draw together over a distance that no garment has.
+struct FarPanel {
+  std::string file, panel, other, seam;
+  double distance_m = 0;
+};
+
+// What it takes, before it is made.
+struct ClothCost {
+  struct Part {
+    std::string what;  // `cloth "skirt", panel "front"`
+    double particles = 0, triangles = 0;
+  };
+  std::vector<Part> parts;
+  struct Seams {
+    double widest_m = 0;
+    std::optional<FarPanel> farthest;  // the widest of those that are too wide
+  };
+  std::optional<Seams> seams;  // absent: nothing is sewn
+};
+// Of an area, by its outline's points: formulas in sim/budget.hpp.
+ClothCost::Part part_of_area(std::string what, double area_m2, double outline_points, double edge_m);
+// `cloth "skirt"`
+std::string cloth_in_words(std::string_view name);
+
+// The choice of a kind by the path of its file.
+template <class V, class Kind>
+void describe_path(V& v, const Setting& s, std::optional<Kind>& kind) {
+  std::string path = kind ? kind->path : std::string();
+  v.path(s, path);
+  if (path.empty()) return;
+  if (!kind) kind.emplace();
+  kind->path = std::move(path);
+}
+
+}  // namespace toile::internal

@@ -1,0 +1,37 @@
+// sim/cloth_pattern.hpp: cloth that is sewn: a pattern of panels and stitches.                            docs/pattern-format.md
+#pragma once
+#include "garment/pattern_check.hpp"
+#include "sim/cloth.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace toile::internal {
+
+struct ScenePattern {
+  static constexpr std::string_view key = "pattern";
+  static constexpr bool sewn = true;
+  std::string path;             // resolved
+  std::optional<int> vertices;  // of the welded garment: then the cloth's resolution_m does not count
+};
+template <class V>
+void describe_choice(V& v, std::optional<ScenePattern>& pattern) {
+  describe_path(v, {"pattern", "a sewing pattern ([pattern-format.md](pattern-format.md))", "a shape"}, pattern);
+}
+template <class V>
+void describe_beside(V& v, ScenePattern& pattern) {
+  v.at_most_one({"resolution_cm", "vertices"});
+  v.whole({"vertices", "instead: how many vertices the welded garment shall have, within 1 %", "by `resolution_cm`"},
+          {20, 2e6}, pattern.vertices);
+}
+void refuse_beside(const Json& value, const ScenePattern& none, const SceneCloth& chosen);
+
+// A seam wider than two of the largest panels laid side by side is a mistake of units or of a sign; 40 s of sewing would close it.
+inline constexpr double most_drawn_m = 2 * PatternLimits::max_panel_m;
+
+// Throws IoError; InputError of the pattern's file, for what it says and for what cannot be meshed.
+MeshedCloth load(const ScenePattern& given, const SceneCloth& whole, const TextSource& read);
+ClothCost cost(const ScenePattern& given, const SceneCloth& whole, const TextSource& read);
+
+}  // namespace toile::internal
