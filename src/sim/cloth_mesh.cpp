@@ -199,7 +199,7 @@ MeshedCloth load(const SceneClothMesh& given, const SceneCloth& whole, const Tex
   meshed.input_hash = bytes.value();
   meshed.garment = cloth_of_surface(
       surface_of_mesh(mesh, printable(given.path), metres_in(given.unit), given.rest_shape, meshed.warnings), whole);
-  meshed.edge_m = whole.resolution_m;
+  meshed.edge_m = mesh_quality(meshed.garment.mesh).mean_edge_m;
   return meshed;
 }
 

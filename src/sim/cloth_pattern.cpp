@@ -44,10 +44,10 @@ ClothCost::Seams seams_of(const Pattern& pattern, const std::string& file) {
 }  // namespace
 
 void refuse_beside(const Json& value, const ScenePattern&, const SceneCloth& chosen) {
-  const Json* const vertices = value.find("vertices");
-  if (vertices == nullptr) return;
   const std::string pattern = "a pattern beside it";
-  vertices->fail(chosen.has_own_edge() ? pattern + ": other shapes have an edge_m" : pattern, "a number of vertices");
+  for (const std::string_view key : {"vertices", "resolution_cm"})
+    if (const Json* given = value.find(key))
+      given->fail(chosen.has_own_edge() ? pattern + ": other shapes have an edge_m" : pattern, given->describe());
 }
 
 MeshedCloth load(const ScenePattern& given, const SceneCloth& whole, const TextSource& read) {

@@ -72,6 +72,13 @@ TEST(ClothOfMesh, SplitVerticesAreOneAndGroupsArePanels) {
   EXPECT_NE(made.warnings[1].find("1 vertices that no face uses"), std::string::npos);
 }
 
+TEST(ClothOfMesh, ItsEdgesAreAsLongAsTheyAre) {
+  SceneCloth cloth;
+  cloth.kind = SceneClothMesh{"g.obj"};
+  const TextSource in_memory = [](const std::string&) { return two_squares(1); };
+  EXPECT_NEAR(mesh_cloth(cloth, "", in_memory).edge_m, (0.2 + 0.2 + 0.2 * std::sqrt(2.0)) / 3, 1e-6);
+}
+
 TEST(ClothOfMesh, ADrawingInMetresIsHowItWasCut) {
   for (const bool flipped : {false, true}) {
     const Read made = read(two_squares(1.1, flipped));

@@ -177,6 +177,10 @@ TEST(Scene, NamesThePlaceOfEveryRefusal) {
       {"path_m", "ascend"});
   expect_refused(R"({"cloth": [{"grid": {}, "mesh_unit": "cm"}]})", {"/cloth/0/mesh_unit", "a mesh beside it"});
   expect_refused(R"({"cloth": [{"mesh": "a.obj", "vertices": 100}]})", {"/cloth/0/vertices", "a pattern beside it"});
+  expect_refused(R"({"cloth": [{"mesh": "a.obj", "resolution_cm": 2}]})",
+                 {"/cloth/0/resolution_cm", "a pattern beside it", "got 2"});
+  expect_refused(R"({"cloth": [{"grid": {}, "resolution_cm": 2}]})",
+                 {"/cloth/0/resolution_cm", "a pattern beside it: other shapes have an edge_m"});
   expect_refused(R"({"cloth": [{"grid": {}}], "world": {"wind_path": [[1, 0, 0, 0], [1, 2, 0, 0]]}})",
                  {"/world/wind_path", "ascend"});
   expect_refused(R"({"cloth": [{"grid": {}}], "body": {"mesh": "b.obj", "mannequin": "woman"}})",
