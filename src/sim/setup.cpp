@@ -206,7 +206,7 @@ std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const Garment
 }
 
 double default_offset_m(const SceneCollider& collider, double edge_m) {
-  constexpr double limb_m = 0.033;   // radius of a thin forearm
+  constexpr double limb_m = 0.034;   // radius of a thin forearm
   constexpr double rim_share = 0.2;  // of an edge that lies over a rim
   const bool skin = collider.as<SceneMannequin>() != nullptr || (collider.worn && collider.is_person());
   return std::clamp(skin ? edge_m * edge_m / (8 * limb_m) : rim_share * edge_m, 1.5e-3, 2.5e-3);

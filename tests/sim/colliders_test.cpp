@@ -83,6 +83,21 @@ TEST(Colliders, HaveTheirOwnFrictionAndOffsetOrTheBodys) {
   EXPECT_DOUBLE_EQ(slippery.offset_of(2), 9e-3);
 }
 
+TEST(Colliders, OfTheirOwnClothLiesCloserOnSkinThanOnRims) {
+  const auto offsets = [](const std::string& rest, double edge_m) {
+    return step_options(parse_scene(R"({"cloth": [{"grid": {}}], )" + rest + "}", "s.json"), edge_m).body;
+  };
+  const std::string solids = R"("solids": [{"box": {"size_m": [1, 1, 1]}}, {"mannequin": "man"}])";
+  const BodyContactOptions person = offsets(R"("body": {"mannequin": "woman"}, )" + solids, 0.02);
+  EXPECT_DOUBLE_EQ(person.offset_of(0), 1.5e-3);
+  EXPECT_DOUBLE_EQ(person.offset_of(1), 2.5e-3);
+  EXPECT_DOUBLE_EQ(person.offset_of(2), 1.5e-3);
+  const BodyContactOptions coarse = offsets(R"("body": {"mesh": "b.obj"}, )" + solids, 0.024);
+  EXPECT_NEAR(coarse.offset_of(0), 0.024 * 0.024 / (8 * 0.034), 1e-12);
+  const BodyContactOptions said = offsets(R"("body": {"mannequin": "woman", "offset_mm": 3}, )" + solids, 0.02);
+  for (const Index k : {0, 1, 2}) EXPECT_DOUBLE_EQ(said.offset_of(k), 3e-3) << "the body's is that of all";
+}
+
 // A second person, who walks beside the first and is carried away meanwhile.
 TEST(Colliders, APersonMayStandBesideTheBodyAndMove) {
   const LoadedColliders all = load(

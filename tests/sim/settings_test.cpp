@@ -324,7 +324,9 @@ TEST(Settings, TheDefaultsOfTheLibraryAreThoseOfAScene) {
   EXPECT_EQ(said.relinearisations, bare.relinearisations);
   EXPECT_EQ(said.rows.cloth_cloth, bare.rows.cloth_cloth);
   EXPECT_EQ(said.flypaper, bare.flypaper);
-  EXPECT_EQ(said.body.offset_m, bare.body.offset_m);
+  const Scene on_a_shape = parse_scene(R"({"cloth": [{"grid": {}}], "body": {"sphere": {"radius_m": 1}}})", "s.json");
+  EXPECT_EQ(step_options(on_a_shape, 0.02).body.offset_m, bare.body.offset_m);
+  EXPECT_EQ(said.body.offset_m, 1.5e-3) << "of a person";
   EXPECT_EQ(said.body.friction, bare.body.friction);
   EXPECT_EQ(scene.air.density_kg_per_m3, AirOptions{}.density_kg_per_m3);
   EXPECT_EQ(scene.gravity_m_per_s2, ModelOptions{}.gravity_m_per_s2);
