@@ -35,7 +35,7 @@ struct CommandLine {
   BudgetLimits limits;
   std::optional<double> time_limit_s;  // default_time_limit_s for `dress`, else none
 
-  // Of bench.
+  // Options of bench.
   bool csv = false;
   int repeats = 0;                // 0: 1, or 9 of the pieces in `bench micro`
   std::vector<int> sizes;         // particles

@@ -6,7 +6,7 @@
 //   memory      the program's own + cloth + bodies, each a constant per particle and per triangle
 //   frames      sewing until the widest seam has closed, drape, motion: the most there can be
 //   time        frames x steps x particles x (time of a particle's step), which grows with the number of particles
-// The constants stand in budget.cpp.  Memory is accurate to 25 %; time to a factor of three, as nobody knows beforehand how a cloth will fold.
+// The constants are in budget.cpp.  Memory is accurate to 25 %; time to a factor of three, as nobody knows beforehand how a cloth will fold.
 //
 // Easily missed: every item has a limit of its own where it is read (a grid of two million triangles); this is about all of them together.
 #pragma once

@@ -47,7 +47,7 @@ void describe_choice(V& v, std::optional<SceneClothMesh>& mesh) {
 }
 void refuse_beside(const Json& value, const SceneClothMesh& none, const SceneCloth& chosen);
 
-// Reports repairs in `warnings`.  Throws InputError, with `file` as its place, for a mesh without faces, and with
+// Reports deviations from the file in `warnings`.  Throws InputError, with `file` as its place, for a mesh without faces, and with
 // RestShape::drawing for a face without vt or without area in the drawing.
 ClothSurface surface_of_mesh(const SurfaceMesh& mesh, std::string_view file, double unit_m, RestShape rest,
                              std::vector<std::string>& warnings);

@@ -29,7 +29,7 @@ namespace toile::internal {
 // beside the body is then only found later.
 inline constexpr double most_glide = 4;
 
-// The state from frame to frame.
+// The state kept from frame to frame.
 struct TouchMemory {
   std::vector<std::uint8_t> touched;  // [part] has a particle of it touched the body or another solid since the weld?
   template <class Archive>

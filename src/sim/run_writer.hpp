@@ -58,7 +58,7 @@ class RunWriter {
   // The frames are on the disk afterwards.  May be called while another thread appends.
   void synchronize() const;
 
-  // "files" of the report, then the report.  `goes_on`: the run was stopped, and can be taken up again.
+  // "files" of the report, then the report.  `goes_on`: the run was stopped, and can be resumed.
   void finish(const std::function<std::string(const std::vector<WrittenFile>&)>& report_json, bool goes_on);
 
   int cloth_frames() const { return cloth_ ? cloth_->samples() : 0; }

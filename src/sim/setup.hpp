@@ -57,8 +57,9 @@ Outfit outfit_of_shapes(std::span<const LoadedCloth> cloth);
 // The changes of the cloth over time, for the particles and panels of `outfit`, whose parts are the cloths in their order.
 Events events_of(const Scene& scene, const Outfit& outfit, std::span<const LoadedCloth> cloth);
 // The heights of labelled edges: as the cloth says; if it says nothing, the waist ("lower_interface") is at the body's, unless the garment
-// hangs from the shoulders: its waist is as low as it is cut, and would bunch if held higher.  The other labels of GarmentCode are held only where
-// the cloth says (docs/theory/sewing.md#collars-and-strapless-tops); those that nobody knows are named in a warning.  Throws InputError for a height of a label that no edge carries.
+// hangs from the shoulders: its waist is as low as it is cut, and would bunch if held higher.  The other labels of GarmentCode are held
+// only where the cloth says (docs/theory/sewing.md#collars-and-strapless-tops); unknown labels are named in a warning.  Throws InputError
+// for a height of a label that no edge has.
 std::vector<LabelHeight> label_heights_of(const SceneCloth& cloth, const GarmentMesh& garment, bool on_shoulders,
                                           const BodyFigures& body, std::vector<std::string>& warnings);
 // The default distance at which cloth of this edge length rests on a collider: edges cut corners, those of skin by e^2 / 8R, and rims of solids

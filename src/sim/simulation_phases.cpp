@@ -23,7 +23,7 @@ PhasePlan plan_of(RunPhase which, const Phase& cloth, std::string_view doing) {
 
 }  // namespace
 
-// Starts a run of the present outfit.
+// The outfit's run; started from the present outfit if there is none.
 OutfitRun& Simulation::outfit_run() {
   if (!run_) run_.emplace(run_options(scene_, step_, stop()), outfit_, body(), new_garment_.value_or(NewGarment{}));
   return *run_;
