@@ -1,7 +1,7 @@
 // sim/cloth_mesh.hpp: a modelled garment: a mesh file as cloth.                                         docs/scenes.md#meshes
 //
-// Panels are the file's groups (or its objects, if it has no groups).  Vertices that the file had to split, because the drawing (`vt`) has a seam there,
-// are one particle (mesh/join_sides.hpp).  Unused vertices are left out; the others keep their order.
+// Panels are the file's groups (or its objects, if it has no groups).  Vertices that the file had to split at a seam of the drawing (`vt`) are one
+// particle (mesh/join_sides.hpp).  Unused vertices are left out; the others keep their order.
 //
 // A drawing in metres says how the cloth was cut: u of the warp is the second number of a vt, v of the weft the first one, leftwards.  One in other
 // units (0 ... 1, of a texture) says only where the warp runs: then the cloth is at rest as it starts.
