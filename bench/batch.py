@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How much faster a Batch is than its simulations one after the other, on one machine in one run, and that the bits are the same.
+"""Compares the time of a Batch with that of its simulations one after the other, in one run, and checks that the bits are the same.
 
     PYTHONPATH=build/release/python build/release/python_env/bin/python bench/batch.py [--simulations 8] [--threads 2] [--frames 30] [--rounds 3]
 """
@@ -10,7 +10,7 @@ import toile
 
 
 def sheets(count):
-    """Sheets of some 2,600 vertices that fall on a cylinder, each from another height."""
+    """Sheets of some 2,600 vertices that fall on a cylinder, each from a different height."""
     made = []
     for k in range(count):
         cloth = toile.Cloth.grid(width_m=1, height_m=1, edge_m=0.0214).place((0, 0.02 + 0.01 * k, 0), rotation_deg=(-90, 0, 0))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How much slower one build of toile runs the cylinder than another, in pairs of runs: checkpoint_cost.py OLD NEW [PAIRS]."""
+"""Compares the times of two builds of toile on the cylinder, in pairs of runs: checkpoint_cost.py OLD NEW [PAIRS]."""
 import json
 import statistics
 import subprocess

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Is one build faster than another?  Runs both in turn and compares pair by pair: other work on the machine hits both.
+"""Is one build faster than another?  Runs both in turn and compares pair by pair: other work on the machine slows both.
 
     bench/compare.py OLD_TOILE NEW_TOILE [SCENE ...] [--pairs 5] [--threads 1] [--busy N] [--json FILE]
 
 SCENE is a demo's name (cylinder, if none is given) or a scene's file.  Pairs are run as old new, new old, old new ...  For the whole
-frame and each of its phases: the median of the ratios new / old, and their least and largest; a ratio whose spread holds 1 says
-nothing.  Beside them what was computed, which does not depend on the machine: steps, iterations, stretch, the verdict, the state's hash.
---busy N keeps N cores loaded by other processes meanwhile.  Times count what the report counts: the steps, neither meshing nor writing.
+frame and each of its phases: the median of the ratios new / old, and their least and largest; a ratio whose range includes 1
+is no evidence.  Beside them results that do not depend on the machine: steps, iterations, stretch, the verdict, the state's hash.
+--busy N keeps N cores loaded by other processes meanwhile.  Times are the report's: those of the steps, without meshing and writing.
 Exit code 1 when a run writes no report; a run whose verdict is fail is compared like any other.
 """
 import argparse
@@ -35,7 +35,7 @@ def run(toile, scene, threads, folder):
 
 
 def work(report):
-    """What was computed: the same on every machine."""
+    """The results that are the same on every machine."""
     return {"frames": report["frames"], "steps": report["steps"], "steps_rejected": report["steps_rejected"],
             "cg_iterations_per_step": report["cg_iterations"]["mean"], "stretch_p99": report["stretch"]["p99"],
             "verdict": report["verdict"], "state_hash": report["state_hash"]}

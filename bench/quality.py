@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Is the motion still right?  Runs a scene as it is and with its systems solved to 1e-9, and says how far the two are apart.
+"""Is the motion still right?  Runs a scene as it is and with its systems solved to 1e-9, and reports the difference.
 
     bench/quality.py TOILE [SCENE.json ...] [--at 1.0] [--threads 1] [--json FILE]
 
@@ -9,9 +9,9 @@
     distance    sqrt( sum m_i |x_i - r_i|^2 / sum m_i ), mm, r the reference             asked: <= 5
     kinetic     | E / E_r - 1 |, E = sum m_i |v_i|^2 / 2 by central differences of the frames, %    asked: <= 5
 
-m_i are areas at rest, so for one fabric.  Cloth that folds by chance differs whatever solves it: the same two figures are taken between
-the reference and a third run, solved as well, whose gravity leans by 0.1 mrad.  What is no farther apart than that is not the solver's doing,
-and holds too.  Exit code 1 when a scene is farther apart than asked and than chance, 2 when it cannot be measured.
+m_i are areas at rest, so for one fabric.  Cloth that folds chaotically differs with any solver: the same two figures are taken between
+the reference and a third run, solved as exactly, whose gravity is tilted by 0.1 mrad.  A difference below theirs is not due to the solver,
+and holds too.  Exit code 1 when a scene exceeds both the limit and this difference, 2 when it cannot be measured.
 """
 import argparse
 import json
@@ -33,7 +33,7 @@ def fail(words):
 
 
 def with_whole_paths(value, folder):
-    """The scene with every file that it names by a whole path, so that it may be read from elsewhere."""
+    """The scene with absolute paths to its files, so that it may be read from elsewhere."""
     if isinstance(value, dict):
         return {key: with_whole_paths(inner, folder) for key, inner in value.items()}
     if isinstance(value, list):
@@ -69,7 +69,7 @@ def frames(path, wanted):
 
 
 def masses(path, vertices):
-    """[vertex] a third of the area at rest of its triangles, from the pattern's coordinates in the OBJ."""
+    """[vertex] a third of the rest area of its triangles, from the pattern's coordinates in the OBJ."""
     uv, mass = [], [0.0] * vertices
     for line in path.read_text().splitlines():
         words = line.split()

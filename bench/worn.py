@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Does what is put on stay on?  Dresses patterns, lets their bodies sway, and says how far each garment has moved against its body.
+"""Do garments stay on?  Dresses patterns, lets their bodies sway, and reports how far each garment has moved against its body.
 
     bench/worn.py TOILE PATTERN.json=BODY.obj ... [--motion sway] [--seconds 2] [--resolution 2] [--time-limit 240] [--out FOLDER]
                   [--most-cm 2] [--threads 1] [--json FILE]
 
 A body is an OBJ file or a mannequin's name.  One row for each pattern, from `slip` as `toile verify` measures it (docs/theory/verify.md#slip), in cm:
 
-    top edge    drop of what holds the garment, where nothing lies on the shoulders: in the last frame, at worst
-    waist       drop of what lies on the waist                       shoulders   slip of what lies on them
+    top edge    drop of the edge that holds the garment, if it does not lie on the shoulders: in the last frame, at worst
+    waist       drop of the cloth at the waist                       shoulders   slip of the cloth on them
 
-A dash: there is nothing of the kind.  Runs lie in --out, by the name of the pattern; one that is there already, of the same command, is not run again.
+A dash: the garment has no such part.  Runs lie in --out, by the name of the pattern; an existing run of the same command is not repeated.
 Exit code 1 when a garment that passes moved farther than --most-cm or one has `slid_off`, 2 when a run or its audit failed.
 """
 import argparse
@@ -41,7 +41,7 @@ def run(toile, pattern, body, options, folder):
 
 
 def row(report):
-    """Verdict, and (last, worst) in cm of each of the three; None where there is nothing of the kind."""
+    """Verdict, and (last, worst) in cm of each of the three; None where the garment has no such part."""
     slip = report.get("slip")
     holding = [loop for loop in slip["loops"] if loop["holds"]] if slip else []
     parts = [max(holding, key=lambda loop: loop["worst_cm"]) if holding else None, slip and slip["waist_drop"], slip and slip["shoulder_slip"]]

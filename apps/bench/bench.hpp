@@ -1,6 +1,6 @@
 // apps/bench/bench.hpp: the five benchmarks of `toile bench`.                                            docs/benchmarks.md
 //
-// Each fills tables and facts; bench_command.cpp adds the machine and prints.  An interrupt ends one after the row at hand.
+// Each fills tables and facts; bench_command.cpp adds the machine and prints.  An interrupt ends one after the current row.
 #pragma once
 #include "bench_runs.hpp"
 

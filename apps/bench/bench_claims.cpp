@@ -12,7 +12,7 @@ namespace toile::internal {
 namespace {
 
 constexpr int cg_particles = 6000;  // 18,000 variables
-constexpr int state_frame = 30;     // of the drape: the cloth has met itself, and still moves
+constexpr int state_frame = 30;     // of the drape: the cloth touches itself, and still moves
 constexpr int most_iterations = 5000;
 constexpr int explicit_particles = 2602;
 constexpr int explicit_steps = 200;
@@ -62,7 +62,7 @@ void add_cg_claims(BenchRuns& runs, std::vector<BenchRow>& claims) {
           options);
   }
   options.procedure = PcgProcedure::prefiltered;
-  options.tolerance = 1e-3;  // of all three
+  options.tolerance = 1e-3;  // of all three preconditioners
   for (const auto kind : {Preconditioner::diagonal, Preconditioner::block_jacobi, Preconditioner::block_ssor_coarse}) {
     options.preconditioner = kind;
     const std::string name(to_string(kind));
@@ -75,7 +75,7 @@ void add_cg_claims(BenchRuns& runs, std::vector<BenchRow>& claims) {
 void add_explicit_claims(BenchRuns& runs, std::vector<BenchRow>& claims) {
   Drape drape = drape_to(runs, explicit_particles, "explicit");
   reach(drape, std::min(state_frame, runs.line().bench_frames.value_or(state_frame)));
-  // Let go in the air, as it lies: contact would only shorten the step.
+  // Released in the air, without contacts: they would only shorten the step.
   ExplicitReference reference(drape.model(), {});
   const ExplicitLimit limit = reference.limit(drape.state());
   const auto stands = [&](double h_s) {

@@ -1,4 +1,4 @@
-// apps/bench/bench_command.cpp: `toile bench`: runs one of the benchmarks, says where, and prints what it found.
+// apps/bench/bench_command.cpp: `toile bench`: runs a benchmark, and prints the machine and the results.
 #include "bench.hpp"
 #include "commands.hpp"
 #include "core/parallel.hpp"

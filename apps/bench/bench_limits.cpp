@@ -18,7 +18,7 @@ namespace {
 
 constexpr double h_s = 1.0 / 60;
 constexpr double noise_m = 1e-3;
-constexpr int iterations = 49;                  // of a solve; after the next one it would make its residual anew
+constexpr int iterations = 49;                  // of a solve; the next one would recompute the residual
 constexpr double bytes_per_measurement = 64e6;  // some milliseconds
 
 // The system of a flat sheet with noise: without contacts, so that the sum of bytes is that of the mesh alone.
@@ -67,11 +67,11 @@ class SheetSystem {
   Vec3s b_, reference_;
 };
 
-// Bytes of a piece: those that it works on, which it moves once at least, and those that it moves again, from where as many bytes as
-// went through in between can lie.
+// Bytes of a piece: its working set, which it reads at least once, and the bytes that it reads again, from the cache that holds the
+// bytes read in between.
 struct Traffic {
   double worked_on = 0;
-  double again_in_domain = 0, domain = 0;    // while the sweeps are at one domain
+  double again_in_domain = 0, domain = 0;    // while the sweeps work on one domain
   double again_in_vectors = 0, vectors = 0;  // while only vectors are worked on
   double moved() const { return worked_on + again_in_domain + again_in_vectors; }
 };
@@ -82,18 +82,18 @@ struct Sizes {  // as doubles: bytes are their products
 constexpr double lane = sizeof(Lane<float>), block = sizeof(Block<float>), index = sizeof(Index);
 constexpr double stored_block = block + index;  // with its column
 
-// Every block and vector once: y is added to where it is in the cache.
+// Every block and vector once: y is updated in the cache.
 Traffic traffic_of_product(const Sizes& n) {
   return {n.blocks * stored_block + n.particles * (index + block + 2 * lane)};
 }
 
-// A gather reads each block for both of its rows, but the second time from a cache: rows that share a block lie near each other.
+// A gather reads each block for both of its rows, but the second time from a cache: rows that share a block are near each other.
 Traffic traffic_of_residual_product(const Sizes& n) {
   return {n.blocks * (stored_block + sizeof(BlockPattern::Above)) +
           n.particles * (2 * index + sizeof(Mat3) + 2 * sizeof(Vec3))};
 }
 
-// Of a particle, G = D^-1 and in lanes; a vector that changes is read and written:
+// Per particle, with G = D^-1 in lanes; a vector that changes is read and written:
 //   forward sweep    G, 3     r to As, s
 //   backward sweep   G, 4     s, As                          again in the domain
 //   delta               2     r.s
@@ -112,12 +112,12 @@ Traffic traffic_of_ssor(const Sizes& n) {
   return traffic;
 }
 
-// Besides:
+// In addition:
 //   restrict         basis, aggregate, 2     r, As
-//   substitute       the factor's blocks, which are read again at once on the way back
+//   substitute       the factor's blocks, which are read again at once in the back substitution
 //   prolong          basis, aggregate, 5     s, Zy, As, and the columns of A' Z
 Traffic traffic_of_coarse(const Sizes& n) {
-  const double place = sizeof(Vec3) + index;  // of a particle in the coarse space
+  const double place = sizeof(Vec3) + index;  // per particle in the coarse space
   const double columns = n.coarse_entries * (9 * lane + index) + n.particles * index;
   const double factor = n.factor_blocks * (sizeof(double) * BlockCholesky::side * BlockCholesky::side + index);
   Traffic traffic = traffic_of_ssor(n);
@@ -134,7 +134,7 @@ struct Piece {
   std::function<double()> seconds;  // of one measurement
 };
 
-// One call of many.
+// The mean time of a call.
 double time_calls(const Traffic& traffic, const std::function<void()>& call) {
   const int calls = std::max(1, static_cast<int>(bytes_per_measurement / traffic.worked_on));
   call();
@@ -143,13 +143,13 @@ double time_calls(const Traffic& traffic, const std::function<void()>& call) {
   return watch.seconds() / calls;
 }
 
-// One of many, and its share of the solve's start, which is some percent.
+// The mean time of an iteration, including its share of the solve's start, a few percent.
 double time_iteration(const SheetSystem& sheet, Preconditioner kind) {
   PcgOptions options;
   options.preconditioner = kind;
-  options.loosen = 0;  // never good enough
+  options.loosen = 0;  // never converges
   options.max_iterations = iterations;
-  // Its own solver for every measurement: one that waited too long for its threads goes on alone for a hundred solves.
+  // A new solver for every measurement: one that waited too long for its threads goes on alone for a hundred solves.
   ModifiedPcg<float> pcg(sheet.mesh());
   pcg.prepare(sheet.system(), options);
   Vec3s dv(sheet.b().size(), Vec3::Zero());
@@ -160,7 +160,7 @@ double time_iteration(const SheetSystem& sheet, Preconditioner kind) {
   return seconds / iterations;
 }
 
-// The time in which a machine that does nothing else reads as many bytes from as far away.
+// The time in which the machine only reads as many bytes from the same caches.
 class Limit {
  public:
   Limit(const Traffic& traffic, int threads) {

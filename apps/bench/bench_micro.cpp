@@ -1,7 +1,7 @@
-// apps/bench/bench_micro.cpp: `toile bench micro`: what the pieces of a step cost, each called again and again on one state.
+// apps/bench/bench_micro.cpp: `toile bench micro`: the cost of the pieces of a step, each repeated on one state.
 //
-// The state is the paper's first row after 45 frames, so that contact queries find what they find in a run.  Medians: a mean would
-// hold what else the machine did.  `make bench` has the solver's pieces with more statistics.
+// The state is the paper's first row after 45 frames, so that contact queries find as many contacts as in a run.  Medians: a mean would
+// include other work of the machine.  `make bench` has the solver's pieces with more statistics.
 #include "bench.hpp"
 #include "bench_limits.hpp"
 #include "bench_probe.hpp"
@@ -27,12 +27,12 @@ class Stopwatches {
  public:
   Stopwatches(BenchRuns& runs, std::vector<BenchRow>& rows) : runs_(&runs), rows_(&rows) {}
 
-  // The median time of `piece`, divided by how many units it has worked on.
+  // The median time of `piece`, divided by the number of units of its work.
   template <class Piece>
   void add(const std::string& what, std::string_view unit, double units, Piece&& piece) {
     if (interrupted()) return;
     runs_->say("micro", 0);
-    piece();  // memory is there, caches are warm
+    piece();  // allocates memory, warms the caches
     std::vector<double> times;
     for (int k = 0; k < runs_->line().repeats; ++k) {
       const Stopwatch watch;
@@ -128,7 +128,7 @@ void measure_contact(Stopwatches& time, Drape& drape) {
     x.push_back({Vec3((a + b + c) / 3 + 5e-3 * normal), a, b, c});
     u.push_back({Vec3(-4.8e-3 * normal + 0.1 * (b - a)), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
   }
-  double sum = 0;  // so that the queries are not left out
+  double sum = 0;  // so that the queries are not optimised away
   time.add("continuous collision, vertex and face", "query", triangles, [&] {
     for (std::size_t k = 0; k < x.size(); ++k) sum += vertex_face_impact(x[k], u[k], ccd_separation_m);
   });

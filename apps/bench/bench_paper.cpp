@@ -69,7 +69,7 @@ BenchRow row_of(const Row1998& then, const Report& report) {
   return row;
 }
 
-// The row of a run that could not begin, or never came to its motion: what is known of 1998, and why.
+// The row of a run that could not begin, or failed before its motion: the figures of 1998, and the reason.
 BenchRow row_without_figures(const Row1998& then, Report report, const Error* error) {
   report.verdict.pass = false;
   if (error != nullptr) report.verdict.reasons = {{"error", error->what()}};
@@ -81,7 +81,7 @@ BenchRow row_without_figures(const Row1998& then, Report report, const Error* er
   return row;
 }
 
-// Runs one row, whatever comes of it; `trouble` says why it did not reach its end.
+// Runs one row, even if it fails; `trouble` says why it did not reach its end.
 BenchRow measure(BenchRuns& runs, const Row1998& row, int frames, std::string& trouble) {
   try {
     Scene scene = embedded_scene(row.scene);

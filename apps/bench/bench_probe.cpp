@@ -70,7 +70,7 @@ void StepSystem::find_contacts(Drape& drape) {
   StepLimits limits;
   limits.stretch = std::numeric_limits<double>::infinity();
   ClothState candidate;
-  // Whether the step would be accepted does not matter: the active set is found either way.
+  // The step need not be accepted: the active set is found either way.
   (void)integrator.attempt(*state_, 0, h_s_, limits, candidate);
   for (const Pin& pin : world.pins) constraints_.hold(pin.particle, -state_->v[static_cast<std::size_t>(pin.particle)]);
   integrator.body_constraints().apply(*state_, h_s_, constraints_, y_, landing_, springs_);

@@ -2,7 +2,7 @@
 //
 //   (A + sum a g g^T) dv = b  under S, z          as ImplicitEuler poses it in the last pass of the active set
 //
-// So that two fabrics or two solvers can be compared on one and the same problem: state, contacts and constraints are the drape's.
+// To compare two fabrics or two solvers on the same problem: state, contacts and constraints are the drape's.
 #pragma once
 #include "dress/outfit_run.hpp"
 #include "sim/scene.hpp"
@@ -40,19 +40,19 @@ class Drape {
 
 class StepSystem {
  public:
-  // Of the drape's own cloth, or of cloth of another fabric at the same positions and with the same contacts.  `drape` must outlive
+  // The system of the drape's own cloth, or of another fabric at the same positions and with the same contacts.  `drape` must outlive
   // this object and stay where it is.
   StepSystem(Drape& drape, double h_s) : StepSystem(drape, h_s, drape.model()) {}
   StepSystem(Drape& drape, double h_s, const Fabric& fabric);
   StepSystem(const StepSystem&) = delete;
   StepSystem& operator=(const StepSystem&) = delete;
 
-  // From the guess of a cloth at rest: dv = 0.
+  // With the initial guess dv = 0.
   PcgReport solve(const PcgOptions& options) { return solve(options, b_); }
   // The same with another right-hand side, to compare matrices alone.
   PcgReport solve(const PcgOptions& options, std::span<const Vec3> b);
 
-  // The two halves of it, to be timed.
+  // Its two halves, to be timed.
   void prepare(const PcgOptions& options) { pcg_.prepare(system_, options); }
   PcgReport solve_prepared(const PcgOptions& options, std::span<const Vec3> b);
 

@@ -121,7 +121,7 @@ double edge_for(const SceneGrid& grid, long particles) {
   const auto count = [&](double edge_m) {
     return static_cast<long>(equilateral_sheet(grid.width_m, grid.height_m, edge_m).points.size());
   };
-  // Between the two the count falls from above `particles` to below; a triangle has sqrt(3)/4 e^2 and half a particle.
+  // Between `fine` and `coarse` the count passes `particles`; a triangle has the area sqrt(3)/4 e^2 and half a particle.
   const double guess = std::sqrt(grid.width_m * grid.height_m * 2 / (std::sqrt(3.0) * static_cast<double>(particles)));
   double fine = 0.5 * guess, coarse = 2 * guess;
   while (coarse - fine > 1e-7 * guess) {

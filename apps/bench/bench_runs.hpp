@@ -1,4 +1,4 @@
-// apps/bench/bench_runs.hpp: runs scenes quietly, one after the other, and says what they took.
+// apps/bench/bench_runs.hpp: runs scenes quietly, one after the other, and reports their times.
 //
 //   seconds_per_frame   wall time of the steps alone: neither meshing, nor writing, nor the judge
 //   percent             of it: eval, cg, cloth_cloth, cloth_solid as in the paper; other is the rest, with the body's motion
@@ -12,10 +12,10 @@
 
 namespace toile::internal {
 
-// Of the scenes that are built in.  Throws IoError when there is none of that name.
+// The built-in scene of that name.  Throws IoError when there is none.
 Scene embedded_scene(std::string_view name);
 
-// Where the runs of one benchmark go: --out, or a folder that is gone at the end.
+// The runs of one benchmark, in --out, or in a temporary folder.
 class BenchRuns {
  public:
   explicit BenchRuns(const CommandLine& line);
@@ -23,7 +23,7 @@ class BenchRuns {
   BenchRuns(const BenchRuns&) = delete;
   BenchRuns& operator=(const BenchRuns&) = delete;
 
-  // As often as --repeat says; the report of the fastest.  An interrupt ends it early: Report::ended.
+  // Runs it --repeat times; returns the report of the fastest.  An interrupt ends it early: Report::ended.
   Report run(const Scene& scene, const std::string& name);
 
   void say(std::string_view what, double share);
@@ -40,20 +40,20 @@ class BenchRuns {
 const PhaseReport& measured_phase(const Report& report);
 double seconds_per_frame(const PhaseReport& phase);
 double cg_per_step(const PhaseReport& phase);
-// Whether it was run to the end that the scene sets.
+// Whether it ran to the end of the scene.
 bool reached_its_end(const Report& report);
 
 void add_phases(BenchRow& row, const PhaseReport& phase);
 void add_steps(BenchRow& row, const PhaseReport& phase);
-// Per frame, in its last step: particles that touch the body, rows of cloth on cloth.
+// Per frame, in its last step: particles that touch the body, contact rows of cloth on cloth.
 void add_contacts(BenchRow& row, const PhaseReport& phase);
 // Stretch, crossings, verdict.
 void add_quality(BenchRow& row, const Report& report);
 
-// The edge at which the scene's only grid comes nearest to `particles`, m.
+// The edge length at which the grid's number of particles is nearest to `particles`, m.
 double edge_for(const SceneGrid& grid, long particles);
 
-// Sets how many frames of it are simulated.
+// Sets the number of simulated frames.
 void set_frames(Scene& scene, int frames);
 
 }  // namespace toile::internal

@@ -1,11 +1,11 @@
-// apps/bench/bench_stiffness.cpp: `toile bench stiffness`: what stiffer cloth costs.                              [BW98 8]
+// apps/bench/bench_stiffness.cpp: `toile bench stiffness`: the cost of stiffer cloth.                             [BW98 8]
 //
-//   whole runs     the drape again and again with bend, or stretch, multiplied; damping follows, k_d / k stays
-//   one system     the iterations of block Jacobi from dv = 0 at one and the same state, h = 1/60 s:
+//   whole runs     the drape with bend, or stretch, multiplied; damping is scaled with it, k_d / k stays
+//   one system     the iterations of block Jacobi from dv = 0 at the same state, h = 1/60 s:
 //                    own forces   as a step would pose it.  The state is that of the base cloth; a cloth 1000 times as stiff is as far
 //                                 from its rest there as b' is large, and the stop rule is not relative to b' (solver/modified_pcg.hpp)
-//                    same b       the base cloth's b for all: what the matrix alone does
-//   states         the iterations with the same b over bend, again at other frames of the base cloth's drape
+//                    same b       the base cloth's b for all: the effect of the matrix alone
+//   states         the iterations with the same b over bend, at other frames of the base cloth's drape
 //
 // 1998: bend x 0.1, 1, 10, 100, 1000 at 2,602 particles; the running times differ by less than 5 %.
 #include "bench.hpp"
@@ -20,7 +20,7 @@ namespace toile::internal {
 namespace {
 
 constexpr int drape_frames = 75;
-constexpr int state_frame = 30;  // the cloth has met itself, and still moves
+constexpr int state_frame = 30;  // the cloth touches itself, and still moves
 // It lands, folds (state_frame lies here), swings out and hangs.
 constexpr std::array<int, 6> other_state_frames = {5, 15, 25, 45, 60, 75};
 constexpr double state_h_s = 1.0 / 60;
@@ -89,7 +89,7 @@ PcgOptions block_jacobi() {
   return options;
 }
 
-// A row per state of the drape of `scene`, whose cloth is the base cloth; as many as lie in its `frames`.
+// A row per state of the drape of `scene`, whose cloth is the base cloth; as many as fit in its `frames`.
 std::vector<BenchRow> iterations_along_the_drape(const Scene& scene, int frames) {
   std::vector<BenchRow> rows;
   Drape drape(scene);

@@ -1,6 +1,6 @@
-// apps/bench/bench_table.hpp: what a benchmark found, once, and printed in three ways: table, CSV, JSON.
+// apps/bench/bench_table.hpp: the results of a benchmark, printed as table, CSV or JSON.
 //
-// A row carries its own columns; all rows of a table have the same ones in the same order.  What could not be measured is an
+// A row carries its own columns; all rows of a table have the same ones in the same order.  A missing measurement is an
 // empty cell: "-" in the table, nothing in CSV, null in JSON.
 #pragma once
 #include <string>
@@ -29,7 +29,7 @@ class BenchRow {
     fields_.push_back({key, title, std::move(value), 0});
   }
   void add_empty(std::string_view key, std::string_view title) { fields_.push_back({key, title, {}, 0}); }
-  // Empties what was not measured after all.
+  // Empties fields that were not measured.
   template <class Keep>
   void empty_unless(Keep&& keep) {
     for (BenchField& field : fields_)

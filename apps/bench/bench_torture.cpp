@@ -4,8 +4,8 @@
 // cloth.  Start 0 is the scene as it is; start k shifts every cloth by up to a thousandth of its extent and turns it by up to a
 // hundredth of a radian about each axis, by a generator with seed k.
 //
-// A run holds when it reaches its last frame, with finite positions, and no edge passes through a triangle in any frame; of a scene
-// that cannot be done, when it ends before with the right diagnosis, and nothing worse was written.
+// A run holds when it reaches its last frame, with finite positions, and no edge passes through a triangle in any frame; an
+// impossible scene holds when it ends early with the right diagnosis, and no frame with crossings was written.
 #include "bench.hpp"
 #include "embedded.hpp"
 
@@ -90,7 +90,7 @@ bool finished(const Scene& scene, const Report& report) {
   return reached_its_end(report) && measured_phase(report).frames == expected_frames(scene);
 }
 
-// Whether it came to what the scene should come to.  Only its first frames: what cannot be done may not have been asked for yet.
+// Whether it ended as the scene should.  With `first_frames` an impossible scene may finish: its impossible part may come later.
 bool came_to_its_end(const std::string& name, const Scene& scene, const Report& report, bool first_frames) {
   const auto scene_is = [&](const Impossible& one) { return one.scene == name; };
   const auto found = std::find_if(impossible.begin(), impossible.end(), scene_is);

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-// The widest registers that there are: narrower ones do not fill the way to the second cache.
+// The widest registers available: narrower ones do not saturate the second cache.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "read_stream.cpp"
 #include <hwy/foreach_target.h>
-// After it.
+// Has to follow foreach_target.h.
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +17,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Four sums that do not wait for each other.
+// Four independent sums.
 std::uint64_t sum_words(const std::uint64_t* words, std::size_t count) {
   const hn::CappedTag<std::uint64_t, 8> wide;
   const std::size_t lanes = hn::Lanes(wide);
@@ -61,9 +61,9 @@ double ReadStream::seconds_per_byte(std::size_t bytes) {
   double seconds = 0;
   bool all_read = false;
   const auto read = [&](int member, int present) {
-    if (present < team_.members()) return;  // with fewer readers it would be another limit
+    if (present < team_.members()) return;  // fewer readers would measure another limit
     read_part(member, 1);
-    team_.barrier();  // all are awake
+    team_.barrier();  // all threads are awake
     const Stopwatch watch;
     read_part(member, passes);
     team_.barrier();

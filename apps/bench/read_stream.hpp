@@ -1,7 +1,7 @@
-// apps/bench/read_stream.hpp: how fast this machine reads a buffer of a given size, again and again, with some threads.
+// apps/bench/read_stream.hpp: the bandwidth at which this machine reads a buffer of a given size repeatedly, with some threads.
 //
-// The limit of a piece that goes through as many bytes.  The buffer is as large as what the piece works on, so that it lies in the same
-// caches, and every thread reads a part of its own, as it does there.
+// The limit of a piece that reads as many bytes.  The buffer is as large as the piece's working set, so that it is in the same caches,
+// and every thread reads a part of its own, as in the piece.
 #pragma once
 #include "core/team.hpp"
 
@@ -14,7 +14,7 @@ class ReadStream {
  public:
   ReadStream(std::size_t bytes, int threads);
 
-  // Of one measurement over `bytes` of reading or more; the buffer is read once before, without the clock.
+  // Measures once, over at least `bytes` of reading; the buffer is read once before, untimed.
   double seconds_per_byte(std::size_t bytes);
 
  private:
@@ -25,7 +25,7 @@ class ReadStream {
 
   Team team_;
   std::vector<CacheLine> buffer_;
-  std::vector<CacheLine> sums_;  // [member] on a line of its own
+  std::vector<CacheLine> sums_;  // [member] on its own cache line
 };
 
 }  // namespace toile::internal

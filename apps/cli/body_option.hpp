@@ -1,4 +1,4 @@
-// apps/cli/body_option.hpp: what --body, --body-unit and --measurements name.
+// apps/cli/body_option.hpp: the options --body, --body-unit and --measurements.
 #pragma once
 #include "command_line.hpp"
 #include "sim/scene.hpp"

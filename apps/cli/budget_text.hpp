@@ -1,4 +1,4 @@
-// apps/cli/budget_text.hpp: what a run will take, in words.
+// apps/cli/budget_text.hpp: the budget of a run, in words.
 #pragma once
 #include "io/json_text.hpp"
 #include "sim/budget.hpp"
@@ -8,7 +8,7 @@
 
 namespace toile::internal {
 
-// Throws when that is beyond the limits.
+// Throws when the budget is beyond the limits.
 std::string describe_budget(const Scene& scene, const BudgetLimits& limits, JsonText& json);
 
 }  // namespace toile::internal

@@ -1,4 +1,4 @@
-// apps/cli/check_command.cpp: `toile check`: reads scenes, patterns and meshes, says what they hold or what is wrong with them.
+// apps/cli/check_command.cpp: `toile check`: reads scenes, patterns and meshes, and reports their contents or errors.
 #include "body/solid_shapes.hpp"
 #include "body_option.hpp"
 #include "budget_text.hpp"
@@ -24,7 +24,7 @@
 namespace toile::internal {
 namespace {
 
-// What this throws for bad input, or nothing.
+// The message of the InputError that `work` throws; empty if none.
 template <class Work>
 std::string complaint(Work&& work) {
   try {
@@ -127,7 +127,7 @@ Checked check_file(const CommandLine& line, const std::string& path, JsonText& j
     return {check_mesh(path, unit_option(line), json)};
   }
   if (ending != ".json" && ending != ".JSON") {
-    read_file(path);  // a missing file is told as such
+    read_file(path);  // throws for a missing file
     throw InputError(printable(path), "name",
                      "a file that ends in .json (scene or pattern), or as a mesh in " + mesh_formats_in_words(),
                      '"' + printable(ending) + '"');
@@ -155,7 +155,7 @@ ExitCode check_command(const CommandLine& line) {
   json.begin_array();
   std::string text;
   for (const std::string& path : line.inputs) {
-    const JsonText before = json;  // members of a file that fails half-way are not shown
+    const JsonText before = json;  // restored when a file fails half-way
     Checked checked;
     try {
       json.begin_object();

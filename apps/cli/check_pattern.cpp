@@ -18,7 +18,7 @@
 namespace toile::internal {
 namespace {
 
-// `garment` is the pattern meshed.
+// `garment` is the meshed pattern.
 std::string describe(const Pattern& pattern, const GarmentMesh& garment, double resolution_m, JsonText& json) {
   const PatternSummary summary = summarize(pattern);
   const MeshQuality quality = mesh_quality(garment.mesh);
@@ -57,7 +57,7 @@ std::string describe(const Pattern& pattern, const GarmentMesh& garment, double 
   return text;
 }
 
-// As `dress` loads it, and what that would take at most on the mannequin.
+// Loads it as `dress` does, and estimates the most that this takes on the mannequin.
 std::string load_as_dress_does(const CommandLine& line, const std::string& path, const std::string& text,
                                JsonText& json) {
   const double resolution_m = line.resolution_cm ? 0.01 * *line.resolution_cm : SceneCloth{}.resolution_m;
@@ -111,7 +111,7 @@ std::string describe_findings(const std::vector<LintFinding>& findings) {
   return text;
 }
 
-// `notes`: what is odd about the body.
+// `notes`: gets the warnings about the body.
 std::optional<BodyFigures> figures_of(const CommandLine& line, std::string& notes) {
   if (line.body.empty() && !line.measurements.empty())
     throw Error(ErrorKind::usage, "--measurements: expected --body beside it");
@@ -125,7 +125,7 @@ std::optional<BodyFigures> figures_of(const CommandLine& line, std::string& note
   return figures;
 }
 
-// What is said of a mended copy; its errors become those of `checked`.
+// Writes the mended copy and returns the text about it; its errors become those of `checked`.
 std::string write_mended(const CommandLine& line, const std::string& text, const LintReport& report, Checked& checked) {
   const auto mended =
       std::count_if(report.findings.begin(), report.findings.end(), [](const auto& f) { return f.mended; });

@@ -81,10 +81,10 @@ void add_garment_options(CLI::App& command, CommandLine& line) {
   add_checkpoint_option(command, line);
 }
 
-// `toile bench KIND`: each kind has the options that mean something to it, and no others.
+// `toile bench KIND`: each kind only has the options that affect it.
 CLI::App* add_bench(CLI::App& app, CommandLine& line) {
   CLI::App* bench = app.add_subcommand("bench", "Measure times, beside those of 1998");
-  bench->require_subcommand(0, 1);  // none is told below, in words
+  bench->require_subcommand(0, 1);  // no kind is an error with a message below
   CLI::App* scaling = bench->add_subcommand("scaling", "Time per frame of a drape over its number of particles");
   scaling->add_option("--sizes", line.sizes, "Particles, 500,899,2602,7359 (the default)")
       ->delimiter(',')
@@ -130,7 +130,7 @@ struct Commands {
   CLI::App *demo, *dress, *run, *check, *verify, *preview, *resume, *untangle, *export_run, *bench;
 };
 
-// `demo_name` is what `demo` was given.
+// `demo_name` gets the argument of `demo`.
 Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) {
   CLI::App* demo = app.add_subcommand("demo", "Run a scene that is built in: no files needed");
   demo->add_option("NAME", demo_name, "Name of the demo (default: tshirt)");

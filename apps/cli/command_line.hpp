@@ -1,4 +1,4 @@
-// apps/cli/command_line.hpp: what was typed.                                                        docs/command-line.md
+// apps/cli/command_line.hpp: the parsed command line.                                               docs/command-line.md
 #pragma once
 #include "sim/budget.hpp"
 
@@ -11,10 +11,10 @@ namespace toile::internal {
 struct CommandLine {
   enum class Command { help, demo, dress, run, check, verify, preview, resume, untangle, export_run, bench };
   Command command = Command::help;
-  std::string help;                 // Command::help: what to print
+  std::string help;                 // Command::help: the text to print
   std::vector<std::string> inputs;  // patterns, scene, files, directory, the demo's or the benchmark's name
   std::string typed;                // the whole line, for the report
-  std::vector<std::string> words;   // the same without the program's name, to ask for it again
+  std::vector<std::string> words;   // the arguments, to repeat the command
 
   std::string out;  // empty: ./out/NAME
   int threads = 0;  // 0: one per core
@@ -31,11 +31,11 @@ struct CommandLine {
   bool strict_start = false;
   bool list = false;
   std::optional<int> checkpoint_frames;  // absent: by time
-  bool resume = false;                   // simulate_command: go on with what is in `out`
+  bool resume = false;                   // simulate_command: go on with the run in `out`
   BudgetLimits limits;
   std::optional<double> time_limit_s;  // default_time_limit_s for `dress`, else none
 
-  // Of bench.
+  // Options of bench.
   bool csv = false;
   int repeats = 0;                // 0: 1, or 9 of the pieces in `bench micro`
   std::vector<int> sizes;         // particles
@@ -50,7 +50,7 @@ struct CommandLine {
 // Throws Error(usage) with one line.
 CommandLine parse_command_line(int argc, const char* const* argv);
 
-// Whether --json is among the words: known even when the rest is wrong.
+// Whether --json is among the arguments, even if the others are invalid.
 bool wants_json(int argc, const char* const* argv);
 
 }  // namespace toile::internal

@@ -1,4 +1,4 @@
-// apps/cli/embedded.hpp: the scenes and patterns that are part of the program.
+// apps/cli/embedded.hpp: the built-in scenes and patterns.
 #pragma once
 #include "core/error.hpp"
 
@@ -14,7 +14,7 @@ struct EmbeddedFile {
 
 std::span<const EmbeddedFile> embedded_files();
 
-// Throws IoError when there is none of that path.
+// Throws IoError for an unknown path.
 inline std::string embedded_text(const std::string& path) {
   for (const EmbeddedFile& file : embedded_files())
     if (file.path == path) return std::string(file.text);

@@ -1,4 +1,4 @@
-// apps/cli/exit_code.hpp: with what the program ends.                                             docs/command-line.md
+// apps/cli/exit_code.hpp: the exit codes of the program.                                          docs/command-line.md
 #pragma once
 #include "core/error.hpp"
 #include "sim/simulate.hpp"

@@ -1,4 +1,4 @@
-// apps/cli/main.cpp: the program `toile`.  Whatever happens, it ends with one of the codes of exit_code.hpp and, if
+// apps/cli/main.cpp: the program `toile`.  It always ends with one of the codes of exit_code.hpp and, if
 // that is not 0 or the verdict of a run, with one line on stderr.
 #include "commands.hpp"
 #include "core/parallel.hpp"
@@ -56,7 +56,7 @@ ExitCode fail(ExitCode code, const char* message, bool json) noexcept {
   return code;
 }
 
-// As many as asked for, as there are cores, and as the system gives.
+// The least of the threads asked for, the usable cores, and the threads that the system gives.
 int threads_for(const CommandLine& line) {
   const int cores = usable_cores(), wanted = line.threads == 0 ? cores : std::min(line.threads, cores);
   if (line.threads > cores && !line.quiet)

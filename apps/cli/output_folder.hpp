@@ -1,4 +1,4 @@
-// apps/cli/output_folder.hpp: where the files of a run go.
+// apps/cli/output_folder.hpp: the output folder of a run.
 #pragma once
 #include "command_line.hpp"
 #include "sim/scene.hpp"
@@ -7,8 +7,8 @@
 
 namespace toile::internal {
 
-// --out, the scene's output.dir, or out/NAME.  Throws InputError for an output.dir that is not within the folder where the program runs: a scene
-// that somebody sends may not write where it likes; --out says otherwise.
+// --out, the scene's output.dir, or out/NAME.  Throws InputError for an output.dir outside the folder where the program runs: a scene
+// from elsewhere may not choose where to write; --out may.
 std::string output_folder(const CommandLine& line, const Scene& scene);
 
 }  // namespace toile::internal

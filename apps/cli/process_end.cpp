@@ -17,17 +17,16 @@
 namespace toile::internal {
 namespace {
 
-constexpr long unheard_us = 800'000;  // with what the system takes to free a large run, a second
-constexpr long orderly_us =
-    2'000'000;  // the last files of a large run; what is not written then is taken up by `toile resume`
+constexpr long unheard_us = 800'000;    // a second, with the time in which the system frees a large run
+constexpr long orderly_us = 2'000'000;  // for the last files of a large run; `toile resume` writes the rest
 constexpr long refused_us =
-    2'000'000;  // exceptions unwind in milliseconds, unless a thread waits for one that has gone
-constexpr std::size_t reserve = 1 << 20;  // bytes, for the way out: an exception and a message take some kilobytes
+    2'000'000;  // exceptions unwind in milliseconds, unless a thread waits for one that has ended
+constexpr std::size_t reserve = 1 << 20;  // bytes, for the exit: an exception and a message take some kilobytes
 
-static_assert(std::atomic<int>::is_always_lock_free);  // handlers may touch them
+static_assert(std::atomic<int>::is_always_lock_free);  // signal handlers may use them
 std::atomic<int> stop_asked{0}, heard{0}, deadline_for{0}, memory_refused{0};
 bool says_json = false, on_terminal = false;
-void* held_back = nullptr;  // given up when memory is refused
+void* held_back = nullptr;  // freed when memory is refused
 
 void write_all(int to, const char* text) {
   std::size_t left = std::strlen(text);
@@ -39,7 +38,7 @@ void write_all(int to, const char* text) {
   }
 }
 
-// Calls nothing that a signal handler may not.
+// Only calls async-signal-safe functions.
 [[noreturn]] void leave(ExitCode code, const char* message) {
   static std::atomic<int> leaving{0};
   if (leaving.exchange(1) == 0) {
@@ -65,7 +64,7 @@ void leave_in(long us) {
   ::setitimer(ITIMER_REAL, &once, nullptr);
 }
 
-// The first reason to end is the one that is told.
+// The first reason to end is the one reported.
 bool set_deadline(ExitCode code, long us) {
   int none = 0;
   if (!deadline_for.compare_exchange_strong(none, static_cast<int>(code))) return false;
@@ -74,7 +73,7 @@ bool set_deadline(ExitCode code, long us) {
 }
 
 void on_signal(int signal) {
-  // Who closes a terminal may send SIGHUP twice, and the system sends SIGXCPU every second: no sign of impatience.
+  // Closing a terminal may send SIGHUP twice, and the system sends SIGXCPU every second: neither shows impatience.
   const bool impatient = signal == SIGINT || signal == SIGTERM;
   if (stop_asked.exchange(1) != 0 && impatient) leave(ExitCode::interrupted, "interrupted at once");
   set_deadline(ExitCode::interrupted, unheard_us);
@@ -93,7 +92,7 @@ void on_memory_refused() {
   throw std::bad_alloc();
 }
 
-// An exception where none may pass, in a thread of a library, say.
+// An uncaught exception, for example in a thread of a library.
 [[noreturn]] void on_terminate() {
   if (memory_refused != 0) leave(ExitCode::resource_limit, "out of memory");
   if (const std::exception_ptr thrown = std::current_exception()) {
@@ -129,7 +128,7 @@ void prepare_for_the_end(bool json) {
   listen(SIGALRM, on_deadline);
   listen(SIGPIPE, SIG_IGN);
   listen(SIGXFSZ, SIG_IGN);
-  sigset_t ours;  // whoever started us may have had them blocked
+  sigset_t ours;  // the parent process may have blocked them
   sigemptyset(&ours);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGALRM}) sigaddset(&ours, signal);
   ::sigprocmask(SIG_UNBLOCK, &ours, nullptr);

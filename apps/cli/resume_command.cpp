@@ -1,4 +1,4 @@
-// apps/cli/resume_command.cpp: `toile resume DIR`: asks again for what the unfinished run was asked for, and goes on with its state.
+// apps/cli/resume_command.cpp: `toile resume DIR`: repeats the command of an unfinished run, from its saved state.
 #include "commands.hpp"
 #include "io/run_folder.hpp"
 #include "sim/report.hpp"
@@ -42,7 +42,7 @@ ExitCode resume_command(const CommandLine& line) {
   again.threads = line.threads;
   if (line.checkpoint_frames) again.checkpoint_frames = line.checkpoint_frames;
   std::error_code error;
-  std::filesystem::current_path(run->working_directory, error);  // relative paths are meant from there
+  std::filesystem::current_path(run->working_directory, error);  // relative paths start there
   if (error)
     throw IoError(run->working_directory, "cannot go to the folder where the run was begun: " + error.message());
   return simulate_command(again);

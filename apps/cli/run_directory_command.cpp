@@ -1,4 +1,4 @@
-// apps/cli/run_directory_command.cpp: `toile verify` and `toile preview`: what is done to a finished run.
+// apps/cli/run_directory_command.cpp: `toile verify` and `toile preview`: commands on a finished run.
 #include "commands.hpp"
 #include "io/json_text.hpp"
 #include "io/run_folder.hpp"
@@ -52,7 +52,7 @@ std::string as_line(const Crossing& c, bool with_body) {
                       with_body && !c.edge_of_body ? "body" : "cloth", c.position.x(), c.position.y(), c.position.z());
 }
 
-// The first few; all of them are in --json.
+// The first few; --json has all.
 std::string crossings_as_text(const VerifyReport& audit) {
   std::string out;
   const std::size_t all = audit.worst_body_crossings.size() + audit.worst_cloth_crossings.size();

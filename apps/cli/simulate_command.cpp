@@ -1,4 +1,4 @@
-// apps/cli/simulate_command.cpp: `toile demo`, `toile dress` and `toile run`: from a scene, wherever it comes from, to a run.
+// apps/cli/simulate_command.cpp: `toile demo`, `toile dress` and `toile run`: from a scene of any origin to a run.
 #include "body/motion.hpp"
 #include "body_option.hpp"
 #include "commands.hpp"
@@ -89,7 +89,7 @@ std::string name_of_pattern(const std::string& path) {
   return name.empty() ? "garment" : name;
 }
 
-// What is no file's name at all is a motion's, misspelt; of a mesh a missing file is told when it is read.
+// A text that cannot be a file's name is a misspelt motion; a missing mesh file is reported when it is read.
 bool looks_like_a_file(const std::string& text) {
   return text.ends_with(".pc2") || text.find_first_of("/%") != std::string::npos || std::filesystem::exists(text);
 }
@@ -143,7 +143,7 @@ Scene dress_scene(const CommandLine& line) {
   return scene;
 }
 
-// What --quality sets; the options of one value come after it.
+// Applies --quality; options for single values override it later.
 void set_quality(const std::string& quality, Scene& scene) {
   struct Quality {
     std::string_view name;
@@ -189,8 +189,8 @@ SceneFile scene_of(const CommandLine& line) {
   return file;
 }
 
-// A scene file of the user's own that asks for pictures is refused by a build that makes none, before hours are spent on it; `demo` and `dress`
-// make them unasked, and do without.
+// A build without pictures refuses a user's scene that asks for them, before hours are spent on it; `demo` and `dress` make pictures by default,
+// and do without.
 bool wants_pictures(const CommandLine& line, const Scene& scene) {
   const bool asked = line.command == CommandLine::Command::run;
   const bool wanted = scene.preview.value_or(!asked) && !line.no_preview;
@@ -204,7 +204,7 @@ bool wants_pictures(const CommandLine& line, const Scene& scene) {
   return false;
 }
 
-// Of `dress`: what nobody watches may not run for a quarter of an hour.
+// For `dress`: an unattended run must not take a quarter of an hour.
 constexpr double default_time_limit_s = 300;
 
 std::string summary(const Report& report, const std::string& directory) {
@@ -254,7 +254,7 @@ ExitCode run_scene(const CommandLine& line, const Scene& scene, const Stopwatch&
 
   std::string picture_error;
   if (pictures_wanted && code != ExitCode::interrupted) {
-    // The run is complete without its pictures; what goes wrong here is told, and does not take the result away.
+    // The run is complete without its pictures: errors here are reported, and do not discard the result.
     try {
       const RunFolder folder(options.directory, RunFolder::Use::pictures, {}, {});
       PictureOptions pictures;

@@ -1,4 +1,4 @@
-// apps/cli/terminal.hpp: what a person sees while waiting.
+// apps/cli/terminal.hpp: the progress bar and messages on a terminal.
 #pragma once
 #include "command_line.hpp"
 #include "process_end.hpp"
@@ -26,7 +26,7 @@ class ProgressBar {
 
 // To stdout; throws IoError when it is closed or full.
 void print(std::string_view text);
-// The first reason of a verdict that is no pass, on stderr: "toile: DIR: stretch: p99 7 %, ...".
+// The first reason of a failed verdict, on stderr: "toile: DIR: stretch: p99 7 %, ...".
 void tell_failure(const std::string& directory, const Verdict& verdict);
 
 }  // namespace toile::internal

@@ -1,4 +1,4 @@
-// apps/cli/untangle_command.cpp: `toile untangle`: cloth that passes through itself or a body, moved until it does not.
+// apps/cli/untangle_command.cpp: `toile untangle`: untangles cloth that passes through itself or a body.
 #include "body_option.hpp"
 #include "commands.hpp"
 #include "dress/untangle.hpp"
@@ -137,7 +137,7 @@ void add(JsonText& json, std::string_view key, const ClothFile& cloth, const std
   json.end_array();
 }
 
-// In the format of the cloth, unless --out says another; what cannot be written (.gltf) is an OBJ.
+// In the format of the cloth, unless --out has another; a format without a writer (.gltf) becomes OBJ.
 std::string out_path(const CommandLine& line, bool resolved) {
   const std::filesystem::path in(line.inputs.front());
   std::filesystem::path path(line.out);
@@ -151,7 +151,7 @@ std::string out_path(const CommandLine& line, bool resolved) {
   return path.string();
 }
 
-// An input is never an output.
+// The output must not overwrite an input.
 void refuse_inputs(const CommandLine& line) {
   std::error_code ignored;
   for (const bool resolved : {true, false})
@@ -160,15 +160,15 @@ void refuse_inputs(const CommandLine& line) {
         throw IoError(printable(input), "is an input, which would be written over: name another file with --out");
 }
 
-// Writes the cloth's file with the cloth as it is now; of the report what passes through what, as somebody will read it.  Of an OBJ everything but
-// the positions stays as it was.
+// Writes the cloth's file with the present positions, and updates the report's crossings to those of the written file.  In an OBJ everything
+// but the positions stays unchanged.
 void write(const ClothFile& cloth, const SolidMesh& solid, const CommandLine& line, UntangleReport& report,
            std::string& out) {
   SurfaceMesh moved = cloth.mesh;
   for (std::size_t i = 0; i < moved.positions.size(); ++i)
     if (cloth.particle_of[i] >= 0) moved.positions[i] = cloth.x[at(cloth.particle_of[i])];
   std::string text;
-  Vec3s x = cloth.x;  // as it will be read
+  Vec3s x = cloth.x;  // as read from the written file
   if (cloth.is_obj) {
     text = with_positions(cloth.text, moved.positions, cloth.name);
     const SurfaceMesh written = parse_obj(text, cloth.name);

@@ -1,5 +1,5 @@
 // apps/settings/main.cpp: writes docs/scene.schema.json and the tables of docs/scenes.md.   The test Settings.TheDocumentsAreCurrent
-// fails until this has been run after a change of a description (sim/settings.hpp).
+// fails until this is run after a change of a description (sim/settings.hpp).
 #include "sim/settings_catalogue.hpp"
 
 #include <cstdio>

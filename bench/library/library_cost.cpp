@@ -1,4 +1,4 @@
-// What the library costs beside the solver: the same sheet by the engine's frames and by toile::Simulation, in turns of ten frames, in one run.
+// The overhead of the library: the same sheet by the engine's frames and by toile::Simulation, in turns of ten frames, in one run.
 //
 //   toile_library_cost [rounds]      prints both times of each round and the ratio of the sums
 #include "sim/simulation.hpp"
@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
 
   double engine_s = 0, library_s = 0, lowest = 0;
   for (int round = 0; round < rounds; ++round) {
-    // Who begins changes from round to round: what is second finds warm caches.
+    // They take turns in going first: the second one finds warm caches.
     for (int turn = 0; turn < 2; ++turn) {
       const toile::internal::Stopwatch watch;
       const bool by_engine = (turn + round) % 2 == 0;
@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
           engine.live().frame();
         } else {
           library.advance(1 / scene.fps);
-          lowest = library.positions_m()[0][1];  // as a caller would
+          lowest = library.positions_m()[0][1];  // read as a caller would
         }
       }
       (by_engine ? engine_s : library_s) += watch.seconds();

@@ -1,7 +1,7 @@
 // arrays.hpp: arrays of Python as spans of the library, and back.
 //
-// What comes in was brought into shape by toile/_arrays.py, which has the words for what does not fit; here it is read where it lies.
-// What goes out is a copy that belongs to the array, read-only: nothing that the simulation does later reaches it.
+// toile/_arrays.py has converted and checked the arguments; here they are read in place.  Results are read-only copies owned by the array:
+// later changes of the simulation do not reach them.
 #pragma once
 #include <toile/types.hpp>
 
@@ -39,7 +39,7 @@ inline std::span<const Point> points(const PointsIn& array) { return elements<Po
 inline std::span<const Face> faces(const FacesIn& array) { return elements<Face>(array, array.shape(0)); }
 inline std::span<const std::int32_t> indices(const IndicesIn& array) { return {array.data(), array.shape(0)}; }
 
-// `inner` is the shape of one element.
+// `inner`: the shape of an element.
 template <class Number, class Element>
 Out<Number> copy_out(std::span<const Element> values, std::initializer_list<std::size_t> inner) {
   static_assert(sizeof(Element) % sizeof(Number) == 0);

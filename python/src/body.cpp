@@ -1,4 +1,4 @@
-// body.cpp: what cloth collides with.
+// body.cpp: colliders.
 #include "arrays.hpp"
 #include "module.hpp"
 #include "named.hpp"

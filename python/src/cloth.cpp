@@ -55,7 +55,7 @@ void bind_cloth(nb::module_& module) {
           "width_m"_a, "height_m"_a, "edge_m"_a)
       .def_static("from_arrays", &from_arrays, "vertices_m"_a, "faces"_a, "uv_m"_a.none(), "panel"_a.none(),
                   "panel_names"_a)
-      // Changes are told, not chained: toile/_recipe.py returns the cloth of the package.
+      // Setters return nothing here: toile/_recipe.py returns the package's Cloth for chaining.
       .def(
           "set_name", [](Cloth& self, std::string_view name) { self.set_name(name); }, "name"_a)
       .def(

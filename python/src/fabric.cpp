@@ -1,4 +1,4 @@
-// fabric.cpp: what cloth is made of.
+// fabric.cpp: material parameters.
 #include "module.hpp"
 
 #include <toile/fabric.hpp>

@@ -1,4 +1,4 @@
-// module.cpp: toile._toile, the C++ library for Python as it is.  What users import stands on it: toile/*.py.
+// module.cpp: toile._toile, direct bindings of the C++ library.  The package that users import builds on it: toile/*.py.
 #include "module.hpp"
 
 #include <toile/version.hpp>

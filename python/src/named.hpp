@@ -1,4 +1,4 @@
-// named.hpp: enums as the words of Python, which are checked.
+// named.hpp: enums as checked strings.
 #pragma once
 #include <toile/error.hpp>
 #include <toile/types.hpp>

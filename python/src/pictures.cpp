@@ -1,4 +1,4 @@
-// pictures.cpp: stills as bytes.
+// pictures.cpp: still images as bytes.
 #include "module.hpp"
 #include "working.hpp"
 

@@ -1,4 +1,4 @@
-// reports.cpp: what a simulation says of itself, and the state that it goes on from.
+// reports.cpp: reports of a simulation, and its state.
 #include "module.hpp"
 
 #include <toile/simulation.hpp>
@@ -17,7 +17,7 @@ using namespace nb::literals;
 
 namespace {
 
-// Of an advance() in two parts: as if it had been one.
+// The report of an advance() in two parts, as if it were one.
 StepReport then(const StepReport& first, const StepReport& next) {
   StepReport both = next;
   both.steps += first.steps;

@@ -1,4 +1,4 @@
-// runs.cpp: runs as folders.
+// runs.cpp: run folders.
 #include "module.hpp"
 #include "working.hpp"
 

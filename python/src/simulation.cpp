@@ -1,4 +1,4 @@
-// simulation.cpp: cloth and body in time.
+// simulation.cpp: the simulation of cloth on a body.
 #include "arrays.hpp"
 #include "module.hpp"
 #include "working.hpp"

@@ -1,4 +1,4 @@
-// verdicts.cpp: what the judge and the linter say.
+// verdicts.cpp: verdicts of the judge and findings of the linter.
 #include "module.hpp"
 
 #include <toile/verify.hpp>

@@ -1,8 +1,8 @@
 // working.hpp: a simulation at work for Python.
 //
-// While it works the GIL is free, so other threads of Python run; every 50 ms it takes the GIL to hear Ctrl-C, and more rarely to tell of its
-// progress.  It is used by one call at a time: a second one, of another thread or of its own callback, is an error and not a wait, since the
-// latter could never end.
+// While it works the GIL is free, so other threads of Python run; every 50 ms it takes the GIL to check for Ctrl-C, and less often to report its
+// progress.  One call uses it at a time: a second one, from another thread or from its own callback, is an error and does not wait, since a
+// callback would wait for ever.
 #pragma once
 #include <toile/simulation.hpp>
 
@@ -19,11 +19,11 @@ namespace toile::python {
 
 namespace nb = nanobind;
 
-// Every 50 ms: a person does not notice, and taking the GIL costs a microsecond, or 5 ms beside a thread that computes in Python.
+// A person does not notice 50 ms, and taking the GIL costs a microsecond, or 5 ms beside a thread that computes in Python.
 constexpr std::chrono::milliseconds listening_interval{50};
 constexpr std::chrono::milliseconds telling_interval{100};
 
-// What a running call asks and tells.  None of it decides what is simulated, only whether it goes on.
+// Polls for cancellation and reports progress during a call.  It does not affect the result, only whether the call goes on.
 class Listener {
  public:
   void begin(nb::object progress) {
@@ -34,7 +34,7 @@ class Listener {
     phase_.clear();
     working_ = true;
   }
-  // With the GIL.  Throws what a signal or the callback has raised.
+  // Needs the GIL.  Throws the exception that a signal or the callback has raised.
   void end() {
     working_ = false;
     progress_ = nb::object();
@@ -49,11 +49,11 @@ class Listener {
   bool working() const { return working_; }
 
   bool stop() {
-    if (!working_) return false;  // while it is made
+    if (!working_) return false;  // under construction
     if (cancelled_) return true;
     if (!due(listened_, listening_interval)) return false;
     const nb::gil_scoped_acquire gil;
-    if (PyErr_CheckSignals() != 0) fail();  // heard in the main thread alone
+    if (PyErr_CheckSignals() != 0) fail();  // signals reach the main thread only
     return cancelled_;
   }
   void tell(const Progress& progress) {
@@ -91,7 +91,7 @@ class Listener {
   std::string phase_;
 };
 
-// A call that takes time, with the GIL free.
+// Makes a long call without the GIL.
 template <class Call>
 auto listened(Listener& listener, nb::object progress, const Call& call) {
   listener.begin(std::move(progress));
@@ -113,7 +113,7 @@ class Working {
   template <class Make>
   explicit Working(Make make) : listener_(std::make_unique<Listener>()), simulation_(make(hooks())) {}
 
-  // A call that takes time or changes something.
+  // Makes a call that is long or changes the simulation.
   template <class Call>
   auto work(Call call, nb::object progress = nb::none()) {
     idle();
@@ -143,7 +143,7 @@ class Working {
                   "use it when that call is over");
   }
 
-  std::unique_ptr<Listener> listener_;  // where it is, for the hooks
+  std::unique_ptr<Listener> listener_;  // at a fixed address, for the hooks
   Simulation simulation_;
 };
 

@@ -9,7 +9,7 @@
 namespace toile {
 namespace {
 
-// Its own of this panel.
+// The cloth's settings of this panel.
 internal::ScenePanel& panel_of(internal::SceneCloth& cloth, std::string_view name) {
   const auto known = std::find_if(cloth.panels.begin(), cloth.panels.end(),
                                   [&](const internal::ScenePanel& panel) { return panel.name == name; });

@@ -6,7 +6,7 @@
 namespace toile {
 namespace {
 
-// Of what is no InputError and no IoError.
+// The code of errors other than InputError and IoError.
 ErrorCode code_of(internal::ErrorKind kind) {
   switch (kind) {
     case internal::ErrorKind::usage:
@@ -19,7 +19,7 @@ ErrorCode code_of(internal::ErrorKind kind) {
       return ErrorCode::input_output;
     case internal::ErrorKind::resource_limit:
       return ErrorCode::resource_limit;
-    case internal::ErrorKind::simulation_failed:  // in the library both come back in a report
+    case internal::ErrorKind::simulation_failed:  // in the library both are in a report
     case internal::ErrorKind::interrupted:
     case internal::ErrorKind::internal:
       return ErrorCode::internal;
@@ -59,7 +59,7 @@ void throw_translated() {
   } catch (const internal::IoError& error) {
     throw IoError(error.what());
   } catch (const internal::Error& error) {
-    // Also what was given the name of its file on the way, and so another type.
+    // Adding the name of its file turns an InputError into an Error.
     if (error.kind() == internal::ErrorKind::bad_input) throw InputError(error.what());
     throw Error(code_of(error.kind()), error.what());
   } catch (const std::bad_alloc&) {

@@ -6,7 +6,7 @@
 namespace toile {
 namespace {
 
-// Every number of a fabric, in both languages.
+// Every number of a fabric, in the library's struct and in the engine's.
 template <class From, class To>
 To converted(const From& from) {
   To to;

@@ -1,4 +1,4 @@
-// api/hands.cpp: pins, hands, and a body that the caller leads.
+// api/hands.cpp: pins, hands, and a body that the caller moves.
 #include "api/implementation.hpp"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace toile {
 namespace {
 
-// Of an advance(): the last step ends where the way does, to the bit, although its time is a sum.
+// Share of an advance() that counts as its end: the last step ends exactly at the target, although its time is a rounded sum.
 constexpr double arrived_share = 1 - 1e-9;
 
 void require_particle(std::int32_t particle, std::size_t count) {
@@ -81,7 +81,7 @@ void Simulation::Implementation::lead_body(internal::OutfitRun& run) {
   run.start_motion([this](double since_s, std::span<internal::Vec3> x) { lead(since_s, x); });
 }
 
-// What moves by itself does so; what the caller leads is on its way.
+// Colliders with a motion follow it; the others move as the caller says.
 void Simulation::Implementation::lead(double since_s, std::span<internal::Vec3> x) const {
   if (const auto& motion = engine->motion()) motion->at.function()(since_s, x);
   if (interaction.body_to.empty()) return;
@@ -126,7 +126,7 @@ void Simulation::attach(std::span<const std::int32_t> particles) {
   translated([&] {
     Implementation& own = *implementation_;
     internal::OutfitRun& run = own.live("attach");
-    own.collider(0);  // there has to be one
+    own.collider(0);  // throws without a body
     const internal::Vec3s& x = own.state().x;
     for (const std::int32_t particle : particles) require_particle(particle, x.size());
     for (const std::int32_t particle : particles) {

@@ -1,4 +1,4 @@
-// api/implementation.hpp: what is behind toile::Simulation.
+// api/implementation.hpp: the implementation of toile::Simulation.
 #pragma once
 #include "api/parts.hpp"
 #include "core/parallel.hpp"
@@ -13,7 +13,7 @@
 namespace toile {
 
 struct Simulation::Implementation : internal::SimulationObserver {
-  // All that a simulation is made of, and may be made of again.
+  // The inputs of a simulation, from which it may be made again.
   struct Recipe {
     Recipe(internal::SceneFile made_of, SimulationOptions made_options);
     SimulationOptions options;
@@ -35,7 +35,7 @@ struct Simulation::Implementation : internal::SimulationObserver {
   };
   explicit Implementation(std::shared_ptr<const Recipe> made_of) : recipe(std::move(made_of)) {}
 
-  // Of what moves in the coming advance(): straight on from one place to the next.
+  // A straight motion during the next advance().
   struct Way {
     internal::Vec3 from, to;
     template <class Archive>
@@ -63,14 +63,14 @@ struct Simulation::Implementation : internal::SimulationObserver {
       archive(number, particle, weight, stiffness_N_per_m, damping_N_s_per_m, max_force_N, way);
     }
   };
-  // What the caller does to the cloth and the body, beside what the scene says.
+  // The caller's changes to the cloth and the body, beside the scene's.
   struct Interaction {
     std::vector<Held> held;   // by particle
     std::vector<Hand> hands;  // by number
     std::int32_t hands_ever = 0;
-    std::vector<internal::Vec3> body_from, body_to;  // empty: the caller has not led it
-    double from_s = 0, length_s = 1;                 // of the coming advance(), or of the last
-    bool moves = false;                              // the body has begun to
+    std::vector<internal::Vec3> body_from, body_to;  // empty: the caller has not moved it
+    double from_s = 0, length_s = 1;                 // of the next advance(), or of the last
+    bool moves = false;                              // the body has begun to move
     double moves_from_s = 0;
     template <class Archive>
     void remember(Archive& archive) {
@@ -78,11 +78,11 @@ struct Simulation::Implementation : internal::SimulationObserver {
     }
   };
 
-  void make();  // as it was made; nothing is on that has to be sewn
-  // Of one that is not made: as it was when this was written.  Throws internal::InputError.
+  void make();  // the state after construction; no sewn garment is on
+  // Instead of make(): restores the state saved in `bytes`.  Throws internal::InputError.
   void take_up(std::string_view bytes);
   void make_engine();
-  // A call that throws leaves everything as it was made.
+  // If `work` throws, resets everything by make().
   template <class Work>
   void unless_it_throws(const Work& work) {
     try {
@@ -92,13 +92,13 @@ struct Simulation::Implementation : internal::SimulationObserver {
       throw;
     }
   }
-  void begin();  // what is on hangs from now on
+  void begin();  // the garments that are on hang from now on
   void begins(const internal::OutfitRun& run);
-  // Throws unless everything is on.
+  // Throws unless all garments are on.
   internal::OutfitRun& live(std::string_view what);
   internal::Vec3 along(const Way& way, double t_s) const;
   void tell(internal::OutfitRun& run);          // of the interaction
-  void start_motion(internal::OutfitRun& run);  // when it is to, and has not
+  void start_motion(internal::OutfitRun& run);  // if it is due and has not begun
   void lead_body(internal::OutfitRun& run);
   void lead(double since_s, std::span<internal::Vec3> x) const;
   const internal::JoinedColliders::Part& collider(int number) const;  // throws if there is none
@@ -113,8 +113,8 @@ struct Simulation::Implementation : internal::SimulationObserver {
   std::shared_ptr<const Recipe> recipe;
   std::unique_ptr<internal::Simulation> engine;
   bool begun = false;
-  bool making = false;    // and is not to be stopped
-  internal::Outfit flat;  // the panels, until it has begun
+  bool making = false;    // and must not be stopped
+  internal::Outfit flat;  // the panels, until `begun`
   std::size_t scene_pins = 0, scene_drags = 0;
   Interaction interaction;
   std::vector<internal::Vec3> body_x;

@@ -1,4 +1,4 @@
-// api/parts.hpp: between the library's words (include/toile/) and the engine's.
+// api/parts.hpp: conversions between the library's types (include/toile/) and the engine's.
 #pragma once
 #include "core/error.hpp"
 #include "sim/scene.hpp"
@@ -23,7 +23,7 @@ struct Body::Parts {
   internal::SceneCollider body;
 };
 
-// What `work` throws becomes an error of toile/error.hpp.
+// Translates exceptions of `work` into errors of toile/error.hpp.
 [[noreturn]] void throw_translated();
 template <class Work>
 decltype(auto) translated(Work&& work) {
@@ -34,7 +34,7 @@ decltype(auto) translated(Work&& work) {
   }
 }
 
-// Of an argument; throw internal::InputError naming it.
+// Check an argument; throw internal::InputError naming it.
 void require_finite(const char* what, const Point& p);
 void require_above_zero(const char* what, double value);     // and finite
 void require_at_least_zero(const char* what, double value);  // likewise

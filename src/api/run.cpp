@@ -17,7 +17,7 @@ struct RunWriter::Parts {
   Parts(const std::string& directory, const Simulation& simulation, double fps);
 
   internal::Stopwatch watch;
-  // Until it is finished: then the folder is anybody's.
+  // Until it is finished: then the folder is no longer locked.
   std::optional<internal::RunFolder> folder;
   std::optional<internal::RunWriter> writer;
   std::optional<internal::Recorder> recorder;

@@ -79,7 +79,7 @@ void Simulation::Implementation::make() {
   make_engine();
   flat = internal::outfit_of_shapes(recipe->loaded.cloth);
   if (recipe->scene.cloth.front().is_sewn() && !recipe->loaded.start) return;
-  making = true;  // half made it would be none
+  making = true;  // a half-made simulation is useless
   recipe->in_threads([&] { engine->put_on(); });
   making = false;
   begin();
@@ -128,7 +128,7 @@ DressReport Simulation::Implementation::report() {
   return to;
 }
 
-// As files of this state would be judged.
+// Judges this state as if read from files.
 void Simulation::Implementation::judge(DressReport& to) {
   internal::RunAudit audit(internal::describe(mesh(), engine->outfit().rest_stretch, recipe->scene.fps,
                                               engine->body_triangles(), body_x.size()));

@@ -31,7 +31,7 @@ T read_at(std::string_view bytes, std::size_t place) {
   throw internal::InputError("state", place, expected, got);
 }
 
-// What is between head and checksum.
+// The bytes between head and checksum.
 std::string_view checked(std::string_view bytes, std::uint64_t input_hash) {
   constexpr std::size_t sum_bytes = sizeof(std::uint64_t);
   if (bytes.size() < head_bytes + sum_bytes || !bytes.starts_with(magic))
@@ -82,7 +82,7 @@ void Simulation::set_state(const State& state) {
   translated([&] {
     const Implementation& old = *implementation_;
     const std::string_view bytes = checked(state.bytes(), old.recipe->input_hash);
-    // A new one: a state that turns out to be wrong leaves this as it is, and nothing of what has been is left in it.
+    // A new object: an invalid state leaves the old one unchanged, and nothing of the old one remains after a valid state.
     auto fresh = std::make_unique<Implementation>(old.recipe);
     fresh->take_up(bytes);
     implementation_ = std::move(fresh);

@@ -1,4 +1,4 @@
-// api/verdict.hpp: what the judge says, in the library's words.
+// api/verdict.hpp: converts the judge's report into the library's types.
 #pragma once
 #include "toile/verify.hpp"
 #include "verify/verdict.hpp"

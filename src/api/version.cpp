@@ -4,6 +4,6 @@
 
 namespace toile {
 
-const char* version() noexcept { return internal::toile_version().data(); }  // of a literal, so it ends with a zero
+const char* version() noexcept { return internal::toile_version().data(); }  // a literal: it ends with a zero
 
 }  // namespace toile

@@ -10,13 +10,13 @@
 
 namespace toile::internal {
 
-// Of an upright person, measured on the surface; what is not found is 0.  A tape knows better where a waist is, and has what no surface shows:
-// what `measured` has goes before.
+// The figures of an upright person, measured on the surface; 0 where none is found.  A tape finds the waist better, and has lengths that no
+// surface shows: `measured` takes precedence.
 BodyFigures body_figures(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                          const std::optional<BodyMeasurements>& measured = {});
-// The pose is the mesh's: what a file says of it counts only where no arms were found.
+// The pose is the mesh's: the file's counts only where no arms were found.
 void add_arms(BodyFigures& figures, const Arms& arms);
-// A sentence when the file is about another pose than the mesh's; empty when not.
+// A sentence when the file's pose is not the mesh's; else empty.
 std::string odd_pose(const BodyMeasurements& measured, const BodyFigures& figures);
 
 }  // namespace toile::internal

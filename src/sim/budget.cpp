@@ -30,23 +30,23 @@ constexpr double mb_per_sample = 12.0 / (1 << 20);  // of a vertex of a motion f
 constexpr double step_us = 6;  // per particle, of small cloth
 constexpr double small_particles = 2600;
 constexpr double body_step_us = 0.3;            // per triangle of a body
-constexpr double second_core = 1.5;             // how much faster two threads are than one
+constexpr double second_core = 1.5;             // speed of two threads over one
 constexpr double meshing_us = 20, load_us = 5;  // per particle of a pattern, per triangle of a body
 
-constexpr double after_closing_s = 0.5;  // until the weld lets go
+constexpr double after_closing_s = 0.5;  // until the weld
 
 constexpr std::size_t told_items = 3;
 
 std::string quoted(const std::string& name) { return '"' + printable(name) + '"'; }
 
-// A motion that goes on for ever.
+// A periodic motion.
 bool by_name(const SceneCollider& collider) { return collider.motion && !collider.motion->name.empty(); }
 
 double samples_of_motion(const std::string& path) {
   if (std::filesystem::path(path).extension() == ".pc2") {
     try {
       return Pc2Reader(path).samples();
-    } catch (const Error&) {  // told when it is read
+    } catch (const Error&) {  // reported when it is read
       return 0;
     }
   }
@@ -107,7 +107,7 @@ class Estimate {
     budget_.items.push_back({"motion " + printable(motion.path), 0, mb_per_sample * samples * vertices});
   }
 
-  // What is too large by itself is refused where it stands in the file, as it would be when it is made, whatever all together would take.
+  // An item that is too large by itself is refused at its place in the file, as it would be when it is made, before the sum is checked.
   static void check_own_limit(const SceneCollider& solid, double triangles, std::string_view path) {
     constexpr auto most = static_cast<double>(most_solid_triangles);
     if (solid.is_person() || triangles <= most) return;
@@ -154,7 +154,7 @@ class Estimate {
   bool sewn_ = false;
   double sewing_frames_ = 0, motion_duration_s_ = 0;
   double body_triangles_ = 0;
-  double making_mb_ = 0;  // the most that making one body takes, before there is cloth
+  double making_mb_ = 0;  // the peak of making one body, before there is cloth
 };
 
 std::string with_thousands(double value) {

@@ -6,7 +6,7 @@
 namespace toile::internal {
 namespace {
 
-// A weld joins particles that are apart now: a triangle may lose a corner to it, an edge may get a third triangle.
+// A weld joins separate particles: it may collapse a triangle, or give an edge a third triangle.
 void check_weld(const std::string& where, const GarmentMesh& garment) {
   const auto& triangles = garment.mesh.triangles;
   for (std::size_t t = 0; t < triangles.size(); ++t) {

@@ -1,4 +1,4 @@
-// sim/check_garment.hpp: what is refused of a meshed cloth before anything moves, so that `check` finds it as well as a run does.
+// sim/check_garment.hpp: refuses invalid meshed cloth before anything moves, in `check` as well as in a run.
 #pragma once
 #include "garment/garment_mesh.hpp"
 

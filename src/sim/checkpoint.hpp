@@ -1,11 +1,11 @@
-// sim/checkpoint.hpp: the whole state of a run in one file, replaced now and then: checkpoint.bin.      docs/howto/resume.md
+// sim/checkpoint.hpp: the whole state of a run in one file, replaced at intervals: checkpoint.bin.      docs/howto/resume.md
 //
 //   "TOILESTATE"  uint32 format  uint64 input hash  uint64 bytes  state ...  uint64 checksum of all before      little-endian
 //
-// The state is that between two frames (core/state_archive.hpp).  The file is replaced whole, once the frames that it counts are on the disk: a
-// run that is killed at any moment leaves one that is complete, at most a second and a frame old.
+// The state is that between two frames (core/state_archive.hpp).  The file is replaced atomically, once the frames that it counts are on the disk: a
+// run that is killed at any moment leaves a complete one, at most a second and a frame old.
 //
-// Easily got wrong: the clock decides when a state is kept, never what it is: a run that is taken up anywhere ends with the same bits.
+// Easily got wrong: the clock decides when a state is saved, never its contents: a run that is resumed anywhere ends with the same bits.
 #pragma once
 #include "sim/run_writer.hpp"
 
@@ -18,7 +18,7 @@ namespace toile::internal {
 
 struct CheckpointOptions {
   double every_s = 1;    // of wall time
-  int every_frames = 0;  // instead, when above zero
+  int every_frames = 0;  // replaces every_s when above zero
 };
 
 class Checkpoints {
@@ -29,11 +29,11 @@ class Checkpoints {
   Checkpoints(const Checkpoints&) = delete;
   Checkpoints& operator=(const Checkpoints&) = delete;
 
-  // To be asked once after every frame.
+  // Call once after every frame.
   bool due();
-  // Writes the state while the run goes on.  Throws IoError of the one before.
+  // Writes the state while the run goes on.  Throws the IoError of the previous call.
   void save(std::string state);
-  // Until what was saved is on the disk; to be called before the writer begins or ends a file.  Throws IoError.
+  // Waits until the saved state is on the disk; call before the writer begins or ends a file.  Throws IoError.
   void wait();
 
  private:
@@ -41,11 +41,11 @@ class Checkpoints {
   std::uint64_t input_hash_;
   CheckpointOptions options_;
   double last_s_ = 0;
-  int frames_ = 0;  // since the last
+  int frames_ = 0;  // since the last save
   std::future<void> pending_;
 };
 
-// The state in the folder; empty when there is none.  Throws InputError when it is not whole, of another version, or of other inputs.
+// The state in the folder; empty when there is none.  Throws InputError when it is incomplete, of another version, or of other inputs.
 std::optional<std::string> read_checkpoint(const std::string& path, std::uint64_t input_hash);
 
 }  // namespace toile::internal

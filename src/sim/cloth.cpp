@@ -8,7 +8,7 @@
 namespace toile::internal {
 namespace {
 
-double cell_m2(double edge_m) { return std::sqrt(3.0) / 2 * edge_m * edge_m; }  // that one particle has
+double cell_m2(double edge_m) { return std::sqrt(3.0) / 2 * edge_m * edge_m; }  // area per particle
 
 }  // namespace
 

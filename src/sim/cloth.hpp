@@ -1,4 +1,4 @@
-// sim/cloth.hpp: what a kind of cloth (sim/cloths.hpp) is made into, and what that takes.
+// sim/cloth.hpp: the loaded form of a kind of cloth (sim/cloths.hpp), and its cost.
 #pragma once
 #include "garment/garment_mesh.hpp"
 #include "garment/pattern.hpp"
@@ -20,22 +20,22 @@ struct SceneCloth;
 // Where the texts of scenes, patterns and meshes come from: the disk, or the files inside the program.
 using TextSource = std::function<std::string(const std::string& path)>;
 
-// In panels, meshed, and moved as the cloth's `placement` says.
+// Panels, meshed and moved by the cloth's `placement`.
 struct MeshedCloth {
   GarmentMesh garment;
-  std::optional<Pattern> pattern;  // as read, of what is sewn
-  double edge_m = 0;               // that its triangles were asked to have
+  std::optional<Pattern> pattern;  // as read; only of sewn cloth
+  double edge_m = 0;               // the requested edge length of triangles
   std::vector<std::string> warnings;
-  std::uint64_t input_hash = 0;  // of the files or arrays that it was made of; 0: of none
+  std::uint64_t input_hash = 0;  // of its files or arrays; 0: it has none
 };
 
-// Panels that sewing would have to draw together over a distance that no garment has.
+// Panels too far apart to be sewn.
 struct FarPanel {
   std::string file, panel, other, seam;
   double distance_m = 0;
 };
 
-// What it takes, before it is made.
+// The cost of a cloth, before it is made.
 struct ClothCost {
   struct Part {
     std::string what;  // `cloth "skirt", panel "front"`
@@ -44,16 +44,16 @@ struct ClothCost {
   std::vector<Part> parts;
   struct Seams {
     double widest_m = 0;
-    std::optional<FarPanel> farthest;  // the widest of those that are too wide
+    std::optional<FarPanel> farthest;  // the panels farthest apart, if too far
   };
   std::optional<Seams> seams;  // absent: nothing is sewn
 };
-// Of an area, by its outline's points: formulas in sim/budget.hpp.
+// The cost of an area, by its outline's points: formulas in sim/budget.hpp.
 ClothCost::Part part_of_area(std::string what, double area_m2, double outline_points, double edge_m);
 // `cloth "skirt"`
 std::string cloth_in_words(std::string_view name);
 
-// The choice of a kind by the path of its file.
+// Describes a key that chooses a kind by the path of its file.
 template <class V, class Kind>
 void describe_path(V& v, const Setting& s, std::optional<Kind>& kind) {
   std::string path = kind ? kind->path : std::string();

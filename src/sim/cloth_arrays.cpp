@@ -16,7 +16,7 @@
 namespace toile::internal {
 namespace {
 
-// Below this share of a right angle's the vertical says nothing about a plane.
+// Sine of the angle between plane and horizontal, below which the plane counts as level.
 constexpr double level = 1e-3;
 
 std::array<Vec2, 3> laid_flat(const Vec3& a, const Vec3& b, const Vec3& c) {

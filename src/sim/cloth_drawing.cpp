@@ -27,7 +27,7 @@ Drawing draw(const ClothRectangle& rectangle) {
     if (!rectangle.joined || points[i].x() != rectangle.width_m) drawing.particle[i] = drawing.particles++;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (drawing.particle[i] >= 0) continue;
-    // Both sides are cut into the same pieces: the nearest in height on the other side.
+    // Both sides have the same points: the nearest in height on the other side is the match.
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < points.size(); ++j) {
       const double distance = std::abs(points[j].y() - points[i].y());
@@ -66,7 +66,7 @@ MeshedCloth drawn(const ClothRectangle& rectangle, const SceneCloth& whole,
   }
   const Mat3 turn = rotation_from_degrees(whole.rotation_deg);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (drawing.particle[i] != static_cast<Index>(garment.x.size())) continue;  // of the joined side
+    if (drawing.particle[i] != static_cast<Index>(garment.x.size())) continue;  // of the joined side: a duplicate
     garment.x.push_back(turn * where(points[i]) + whole.translation_m);
     garment.merged.push_back(static_cast<Index>(garment.merged.size()));
   }

@@ -21,9 +21,9 @@
 namespace toile::internal {
 namespace {
 
-// A drawing in metres has the surface's area, but for what ease and gathers take; one of a texture is off by the size of the garment.
+// A drawing in metres has the surface's area, but for ease and gathers; a texture's is off with the size of the garment.
 constexpr double metric_ratio = 1.5;
-// Of a triangle's longer sides: below, it has no area in the drawing.
+// Relative to a triangle's longer sides; below this it has no area in the drawing.
 constexpr double flat = 1e-9;
 
 using Corners = std::array<Vec2, 3>;
@@ -38,7 +38,7 @@ bool has_area(const Corners& uv) {
   return std::abs(twice_area(uv)) > flat * longest;
 }
 
-// [triangle] (u, v) as it is drawn; empty when a face has no vt.
+// [triangle] (u, v) of the drawing; empty when a face has no vt.
 std::vector<Corners> drawing_of(const SurfaceMesh& mesh) {
   std::vector<Corners> uv;
   if (mesh.texcoord.empty()) return uv;
@@ -54,7 +54,7 @@ std::vector<Corners> drawing_of(const SurfaceMesh& mesh) {
   return uv;
 }
 
-// Islands that are drawn from their wrong side are turned over.  An island: faces that share two vt.
+// Mirrored islands are turned over.  An island: faces connected by two shared vt.
 void face_up(const SurfaceMesh& mesh, std::vector<Corners>& uv) {
   std::vector<std::size_t> island(uv.size());
   std::iota(island.begin(), island.end(), std::size_t{0});
@@ -62,7 +62,7 @@ void face_up(const SurfaceMesh& mesh, std::vector<Corners>& uv) {
     while (island[t] != t) t = island[t] = island[island[t]];
     return t;
   };
-  std::map<std::array<Index, 2>, std::size_t> beside;  // side in the drawing -> a face that has it
+  std::map<std::array<Index, 2>, std::size_t> beside;  // side in the drawing -> a face with that side
   for (std::size_t t = 0; t < uv.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       std::array<Index, 2> side{mesh.texcoord[t][k], mesh.texcoord[t][(k + 1) % 3]};
@@ -77,12 +77,12 @@ void face_up(const SurfaceMesh& mesh, std::vector<Corners>& uv) {
       for (Vec2& p : uv[t]) p.y() = -p.y();
 }
 
-// Laid into the plane as it starts, with its warp where the drawing has it.
+// The shape at the start, laid into the plane with its warp as in the drawing.
 Corners as_it_starts(const std::array<Vec3, 3>& x, const Corners& uv) {
   const Vec3 ab = x[1] - x[0], ac = x[2] - x[0];
   const Vec2 p = uv[1] - uv[0], q = uv[2] - uv[0];
   const Vec3 normal = ab.cross(ac).normalized();
-  // dx/du of the linear map from the drawing, but for its length.
+  // dx/du of the linear map from the drawing, up to its length.
   const double d = p.x() * q.y() - p.y() * q.x();
   Vec3 warp = (q.y() * ab - p.y() * ac) * (d < 0 ? -1 : 1);
   warp.normalize();
@@ -90,7 +90,7 @@ Corners as_it_starts(const std::array<Vec3, 3>& x, const Corners& uv) {
   return {Vec2(0, 0), Vec2(ab.dot(warp), ab.dot(weft)), Vec2(ac.dot(warp), ac.dot(weft))};
 }
 
-// Vertices that the file had to split are one particle; those that no face uses are left out, the others keep their order.
+// Vertices that the file had to split are one particle; unused ones are left out, the others keep their order.
 struct Particles {
   std::vector<Index> of;  // [vertex of the file]; -1: no face uses it
   Vec3s x;

@@ -1,7 +1,7 @@
-// sim/cloth_mesh.hpp: a garment that somebody has modelled: a mesh file as cloth.                       docs/scenes.md#meshes
+// sim/cloth_mesh.hpp: a modelled garment: a mesh file as cloth.                                         docs/scenes.md#meshes
 //
-// Panels are the file's groups (or its objects, if it has no groups).  Vertices that the file had to split, because the drawing (`vt`) has a seam there,
-// are one particle (mesh/join_sides.hpp).  Those that no face uses are left out; the others keep their order.
+// Panels are the file's groups (or its objects, if it has no groups).  Vertices that the file had to split at a seam of the drawing (`vt`) are one
+// particle (mesh/join_sides.hpp).  Unused vertices are left out; the others keep their order.
 //
 // A drawing in metres says how the cloth was cut: u of the warp is the second number of a vt, v of the weft the first one, leftwards.  One in other
 // units (0 ... 1, of a texture) says only where the warp runs: then the cloth is at rest as it starts.
@@ -19,7 +19,7 @@
 
 namespace toile::internal {
 
-// Where the shape at rest comes from: the mesh's drawing (vt), or the mesh as it starts.
+// Where the rest shape comes from: the mesh's drawing (vt), or its positions at the start.
 enum class RestShape { automatic, drawing, start };  // automatic: the drawing, if it is in metres
 
 struct SceneClothMesh {
@@ -47,12 +47,12 @@ void describe_choice(V& v, std::optional<SceneClothMesh>& mesh) {
 }
 void refuse_beside(const Json& value, const SceneClothMesh& none, const SceneCloth& chosen);
 
-// Says in `warnings` what was not taken as it stands.  Throws InputError, with `file` as its place, for a mesh without faces, and with
+// Reports deviations from the file in `warnings`.  Throws InputError, with `file` as its place, for a mesh without faces, and with
 // RestShape::drawing for a face without vt or without area in the drawing.
 ClothSurface surface_of_mesh(const SurfaceMesh& mesh, std::string_view file, double unit_m, RestShape rest,
                              std::vector<std::string>& warnings);
 
-// The file's, without its ending.
+// The file's name, without its extension.
 std::string usual_name(const SceneClothMesh& mesh);
 // Throws IoError, InputError.
 MeshedCloth load(const SceneClothMesh& given, const SceneCloth& whole, const TextSource& read);

@@ -17,7 +17,7 @@ constexpr int seam_samples = 8;
 
 bool is_set(const Vec3& v) { return !v.isZero(0); }
 
-// The widest seam says how long sewing takes; one that is too wide, which panel is meant.
+// The widest seam gives the time of sewing; one that is too wide names the panel.
 ClothCost::Seams seams_of(const Pattern& pattern, const std::string& file) {
   ClothCost::Seams seams;
   for (const Stitch& stitch : pattern.stitches) {

@@ -1,4 +1,4 @@
-// sim/cloth_pattern.hpp: cloth that is sewn: a pattern of panels and stitches.                            docs/pattern-format.md
+// sim/cloth_pattern.hpp: sewn cloth: a pattern of panels and stitches.                                    docs/pattern-format.md
 #pragma once
 #include "garment/pattern_check.hpp"
 #include "sim/cloth.hpp"
@@ -13,7 +13,7 @@ struct ScenePattern {
   static constexpr std::string_view key = "pattern";
   static constexpr bool sewn = true;
   std::string path;             // resolved
-  std::optional<int> vertices;  // of the welded garment: then the cloth's resolution_m does not count
+  std::optional<int> vertices;  // of the welded garment; overrides the cloth's resolution_m
 };
 template <class V>
 void describe_choice(V& v, std::optional<ScenePattern>& pattern) {
@@ -30,7 +30,7 @@ void refuse_beside(const Json& value, const ScenePattern& none, const SceneCloth
 // A seam wider than two of the largest panels laid side by side is a mistake of units or of a sign; 40 s of sewing would close it.
 inline constexpr double most_drawn_m = 2 * PatternLimits::max_panel_m;
 
-// Throws IoError; InputError of the pattern's file, for what it says and for what cannot be meshed.
+// Throws IoError; InputError of the pattern's file, for invalid contents and for panels that cannot be meshed.
 MeshedCloth load(const ScenePattern& given, const SceneCloth& whole, const TextSource& read);
 ClothCost cost(const ScenePattern& given, const SceneCloth& whole, const TextSource& read);
 

@@ -23,10 +23,10 @@ double length_of(const std::vector<Vec3>& path, bool closed) {
   return length;
 }
 
-// A curve by points close to each other, with a direction across it at each.
+// A finely sampled curve, with the direction across the ribbon at each point.
 struct Curve {
   Vec3s x, across;
-  std::vector<double> s;  // length up to there
+  std::vector<double> s;  // arc length
 
   template <class Of>
   auto at_length(double length, const Of& of) const {
@@ -108,8 +108,8 @@ Curve curve_of(const SceneRibbon& ribbon) {
   return curve;
 }
 
-// A ribbon lies beside its middle line: where that turns back, or bends in its plane more narrowly than half its width, it would
-// lie on itself.  `!(... > 0)` holds for what is not a number, too.
+// Where the middle line turns back, or has a radius of curvature in the ribbon's plane below half its width, the ribbon would
+// overlap itself.  `!(... > 0)` also holds for NaN.
 void check_bends(const Curve& curve, double width_m) {
   const auto fail = [&](std::size_t k, const char* expected, const char* got) {
     const Vec3& x = curve.x[k];

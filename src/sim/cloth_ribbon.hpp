@@ -1,7 +1,7 @@
 // sim/cloth_ribbon.hpp: a ribbon along a curve.
 //
 // The curve runs through the points of its path (centripetal Catmull-Rom [Yuksel 2011], by arc length), and the ribbon turns as little as it can
-// [Wang 2008]; u runs along it.  A closed one is turned evenly besides, so that its ends meet: by less than half a turn.  Lengths in the drawing are
+// [Wang 2008]; u runs along it.  A closed one is also twisted evenly, by less than half a turn, so that its ends meet.  Lengths in the drawing are
 // those of the curve, so that only bending is strained at the start.
 #pragma once
 #include "sim/cloth_drawing.hpp"

@@ -31,7 +31,7 @@ MeshedCloth load(const SceneTube& tube, const SceneCloth& whole, const TextSourc
   const double around_m = 2 * std::numbers::pi * tube.radius_m;
   check_length("radius_m", "around it", around_m);
   return drawn({around_m, tube.length_m, tube.edge_m, true}, whole, upright, [&](const Vec2& p) {
-    const double angle = p.x() / tube.radius_m;  // from z to x: seen from outside it runs to the right
+    const double angle = p.x() / tube.radius_m;  // from z to x: to the right, seen from outside
     return Vec3(tube.radius_m * ieee_sin(angle), p.y() - 0.5 * tube.length_m, tube.radius_m * ieee_cos(angle));
   });
 }

@@ -6,7 +6,7 @@
 namespace toile::internal {
 namespace {
 
-// Of what it is made of, where that is no file of its own.
+// The place of errors of a cloth without a file of its own.
 std::string path_of_kind(const SceneCloth& cloth, std::string_view path) {
   std::string whole(path);
   std::visit(

@@ -1,16 +1,16 @@
-// sim/cloths.hpp: a cloth of a scene: its kind, and what any kind may have.
+// sim/cloths.hpp: a cloth of a scene: its kind, and the members common to all kinds.
 //
 // A kind of cloth is a struct that says whether it is `sewn`, with the key that chooses it (none: it is only given in memory) and three
-// functions: `describe_choice` (that key, sim/settings.hpp), `load` (it in panels, meshed and placed) and `cost` (what that takes).  What else it may
-// have, and what follows from that:
-//   path             a member: the file that it is read from; errors are of that file, and it is among the inputs of a run
-//   edge_m           a member: its triangles' edge length is its own; absent: the cloth's resolution_m
-//   settle           what the keys of its object ask of each other (sim/scene_settle.hpp)
-//   describe_beside  keys of its own beside the one that chooses it; those may stand in describe_choice, too
-//   refuse_beside    what is said of these keys where another kind is chosen
-//   usual_name       the cloth's, where nobody names it
-//   size_of          its area: more triangles than anyone means are refused as it is read
-// Everything else about it follows from its line in ClothKind.                              docs/howto/add-a-kind-of-cloth.md
+// functions: `describe_choice` (that key, sim/settings.hpp), `load` (its panels, meshed and placed) and `cost` (of loading it).  Optional members,
+// and their effect:
+//   path             a member: the file that it is read from; errors name that file, and it is among the inputs of a run
+//   edge_m           a member: the edge length of its triangles; absent: the cloth's resolution_m
+//   settle           checks the keys of its object against each other (sim/scene_settle.hpp)
+//   describe_beside  its keys beside the one that chooses it; they may be in describe_choice, too
+//   refuse_beside    the error for these keys where another kind is chosen
+//   usual_name       the default name of the cloth
+//   size_of          its area: too many triangles are refused as it is read
+// Everything else follows from its line in ClothKind.                                       docs/howto/add-a-kind-of-cloth.md
 #pragma once
 #include "dress/events.hpp"
 #include "dress/keyed.hpp"
@@ -37,7 +37,7 @@ namespace toile::internal {
 
 using ClothKind = std::variant<ScenePattern, SceneClothMesh, SceneGrid, SceneTube, SceneRibbon, SceneClothArrays>;
 
-struct ScenePanel : PanelInTime {  // what one panel has of its own
+struct ScenePanel : PanelInTime {  // the settings of one panel
   std::string name;
   std::optional<Fabric> fabric;
   std::optional<double> rest_stretch_u,
@@ -45,35 +45,35 @@ struct ScenePanel : PanelInTime {  // what one panel has of its own
 };
 
 struct ScenePin {
-  Vec3 near_m{0, 0, 0};                         // the particle nearest to it at the start is held
-  std::optional<std::array<Vec3, 2>> in_box_m;  // instead: all between two corners of a box at the start
+  Vec3 near_m{0, 0, 0};                         // pins the particle nearest to it at the start
+  std::optional<std::array<Vec3, 2>> in_box_m;  // instead: all particles within a box at the start
   enum class Hold { fixed, path, moves, body };
   Hold hold = Hold::fixed;
   std::vector<VectorKey> path;  // ascending times; straight in between, at rest before and after
-  RigidPath moves;  // instead: all that is held moves as one, from where it is when it is taken; times from there
-  double from_s = 0, to_s = std::numeric_limits<double>::infinity();  // it is held in this time
+  RigidPath moves;  // instead: the pinned particles move rigidly, from their positions when pinned; times from then
+  double from_s = 0, to_s = std::numeric_limits<double>::infinity();  // pinned in this time
 };
 
-// A hand that pulls the nearest particle by a damped spring to a place that may move.
+// Pulls the nearest particle by a damped spring to a place that may move.
 struct SceneDrag {
   Vec3 near_m{0, 0, 0};
   std::vector<VectorKey> path;  // of the hand
   double stiffness_N_per_m = Drag{}.stiffness_N_per_m, damping_N_s_per_m = Drag{}.damping_N_s_per_m,
          max_force_N = Drag{}.max_force_N;
-  double from_s = 0, to_s = 0;  // it holds the cloth in this time
+  double from_s = 0, to_s = 0;  // it pulls in this time
 };
 
 struct SceneCloth {
   std::string name;
   ClothKind kind;
-  double resolution_m = 0.01;  // edge length of triangles where the kind has none of its own
+  double resolution_m = 0.01;  // edge length of triangles where the kind has none
   Fabric fabric;
   std::vector<ScenePanel> panels;
   Vec3 translation_m{0, 0, 0};
   Vec3 rotation_deg{0, 0, 0};  // R = Rz Ry Rx, as in patterns
   std::vector<ScenePin> pins;
   std::vector<SceneDrag> drags;
-  std::vector<LabelHeight> label_heights;  // of edges with a label; the waist is measured when it is not given
+  std::vector<LabelHeight> label_heights;  // of edges with a label; a missing waist is measured
 
   template <class Kind>
   const Kind* as() const {
@@ -82,15 +82,15 @@ struct SceneCloth {
   bool is_sewn() const;
   bool has_own_edge() const;
   double edge_m() const;
-  void set_edge_m(double edge_m);  // a number of vertices no longer counts
-  // Of the file that it is read from; empty: there is none.
+  void set_edge_m(double edge_m);  // overrides a number of vertices
+  // The file that it is read from; empty: none.
   std::string_view path() const;
 };
 
-// `path` is the cloth's own in the scene, "/cloth/2".  Errors name the cloth's file, or are of what has none.  Throws InputError, IoError, also
-// for what check_garment refuses.
+// `path` is the cloth's own in the scene, "/cloth/2".  Errors name the cloth's file, if it has one.  Throws InputError, IoError, also for cloth
+// that check_garment refuses.
 MeshedCloth mesh_cloth(const SceneCloth& cloth, std::string_view path, const TextSource& read);
-// Reads patterns by `read`, and of other files the sizes.
+// Reads patterns by `read`, and only the sizes of other files.
 ClothCost cost_of(const SceneCloth& cloth, const TextSource& read);
 
 }  // namespace toile::internal

@@ -11,7 +11,7 @@
 namespace toile::internal {
 
 void check_areas(std::string_view file, std::span<const Vec3> positions, std::span<const Triangle> triangles) {
-  constexpr double smallest = 1e-9;  // of the longer side's square
+  constexpr double smallest = 1e-9;  // relative to the longer side's square
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Vec3& origin = positions[at(triangles[t][0])];
     const Vec3 a = positions[at(triangles[t][1])] - origin, b = positions[at(triangles[t][2])] - origin;
@@ -23,7 +23,7 @@ void check_areas(std::string_view file, std::span<const Vec3> positions, std::sp
 
 namespace {
 
-// Every collider writes its own vertices, where it stands or where it has moved; `at` [part] is empty for those that stand.
+// Every collider writes its own vertices, moved if it moves; `at` [part] is empty for static ones.
 BodyAt together(std::vector<JoinedColliders::Part> parts, std::vector<BodyAt> at, Vec3s standing) {
   return [parts = std::move(parts), at = std::move(at), standing = std::move(standing)](double t_s, std::span<Vec3> x) {
     for (std::size_t k = 0; k < parts.size(); ++k) {

@@ -1,4 +1,4 @@
-// sim/collider.hpp: what cloth collides with, loaded: a surface, how it moves, how cloth lies on it.  Many become one body.
+// sim/collider.hpp: a loaded collider: its surface, its motion, its friction and thickness.  All colliders become one body.
 #pragma once
 #include "body/collision_body.hpp"
 #include "body/solid_shapes.hpp"
@@ -15,35 +15,35 @@
 namespace toile::internal {
 
 struct BodyMovement {
-  BodyAt at;  // since it began to move; at 0 s the body is where it stands
+  BodyAt at;  // at 0 s the body is at its start
   std::string name;
-  double duration_s = 0;  // until the body holds still; infinite for what repeats
+  double duration_s = 0;  // until the body holds still; infinite for a periodic motion
 };
 
 struct Collider {
   SolidMesh surface;                             // where it stands, m
-  std::optional<BodyMovement> movement;          // absent: it stands
-  std::optional<BodyMeasurements> measurements;  // of a person, where they are known
-  std::vector<std::string> warnings;             // what of its file is left out
-  std::uint64_t input_hash = 0;                  // of the files and arrays that it was made of; 0: of none
+  std::optional<BodyMovement> movement;          // absent: it is static
+  std::optional<BodyMeasurements> measurements;  // of a person, if known
+  std::vector<std::string> warnings;             // parts of its file that are left out
+  std::uint64_t input_hash = 0;                  // of its files and arrays; 0: it has none
 };
 
 // The union of the colliders' surfaces, in their order.
 struct JoinedColliders {
   SolidMesh surface;
-  std::vector<Index> vertex_collider;  // [vertex] a place in `parts`
+  std::vector<Index> vertex_collider;  // [vertex] an index of `parts`
   struct Part {
     std::size_t first_vertex = 0, vertices = 0;
     bool moves = false;  // by itself
   };
   std::vector<Part> parts;
-  std::optional<BodyMovement> movement;  // of all, if any moves; it has the name of the first that has one
+  std::optional<BodyMovement> movement;  // of all, if any moves; it has the first name among them
 };
 JoinedColliders join(std::vector<Collider> colliders);
 
-// What making a collider takes, before it is made.
+// The cost of making a collider, before it is made.
 struct ColliderCost {
-  std::string what;  // "woman", "(sphere)"; empty: it is no collider
+  std::string what;  // "woman", "(sphere)"; empty: no collider
   double triangles = 0;
   double making_mb = 0;  // at the peak, given back
   double making_s = 0;

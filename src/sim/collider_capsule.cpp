@@ -16,7 +16,7 @@ namespace {
 
 constexpr double shortest_m = 1e-6;
 
-// Its outline along the y axis, from below: two quarters of a circle in pieces of at most edge_m.
+// Its profile along the y axis, from below: two quarters of a circle in pieces of at most edge_m.
 std::vector<Vec2> outline(const SceneCapsule& capsule, double edge_m) {
   constexpr double quarter = std::numbers::pi / 2;
   const double r = capsule.radius_m, half = 0.5 * (capsule.to_m - capsule.from_m).norm();

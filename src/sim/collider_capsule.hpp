@@ -11,7 +11,7 @@ namespace toile::internal {
 struct SceneCapsule {
   static constexpr std::string_view key = "capsule";
   double radius_m = 0;
-  Vec3 from_m{0, 0, 0}, to_m{0, 0, 0};  // the middles of its round ends
+  Vec3 from_m{0, 0, 0}, to_m{0, 0, 0};  // the centres of its round ends
 };
 template <class V>
 void describe(V& v, SceneCapsule& capsule) {
@@ -24,7 +24,7 @@ void describe_choice(V& v, SceneCapsule& capsule, bool) {
   v.object({"capsule", "a rod with round ends", "no"}, capsule);
 }
 
-// Throws InputError("", "to_m", ...) for ends at one place: that is a sphere.
+// Throws InputError("", "to_m", ...) for coincident ends: that is a sphere.
 Collider load(const SceneCapsule& capsule, const SceneCollider& whole);
 ColliderCost cost(const SceneCapsule& capsule, const SceneCollider& whole);
 

@@ -21,9 +21,9 @@ namespace toile::internal {
 namespace {
 
 // Measured as the peak of whole runs (bench/notes.md, "What a run takes").
-constexpr double mannequin_mb = 32;            // while it is made, and given back
+constexpr double mannequin_mb = 32;            // while it is made; freed again
 constexpr double obj_bytes_per_triangle = 40;  // "f 1234 1235 1236", and half of "v 0.123456 1.234567 -0.123456"
-constexpr double obj_copies = 4;               // of the text of a mesh while it is read: itself, and what it says
+constexpr double obj_copies = 4;               // of a mesh file while it is read: its text, and the parsed data
 constexpr double mannequin_s = 1.5;
 
 void add_input(std::uint64_t hash, Collider& loaded) { loaded.input_hash = combined({loaded.input_hash, hash}); }
@@ -47,7 +47,7 @@ void load_movement(const SceneMotion& motion, LengthUnit unit, const CollisionBo
                std::filesystem::path(motion.path).filename().string(), loaded);
 }
 
-// Hair and shoes are in a mesh and not on a tape; people differ by more.
+// Hair and shoes add to a mesh and not to measurements; people differ by more.
 constexpr double height_agrees = 0.02;
 
 void load_measurements(const SceneMesh& mesh, std::span<const Vec3> x, Collider& loaded) {
@@ -104,7 +104,7 @@ Collider load(const SceneMannequin& mannequin, const SceneCollider& whole) {
 
 namespace {
 
-// Of what is not worn: all that the file has, closed parts of any number.
+// A solid takes the whole file, closed parts of any number.
 CollisionBody read_whole(const std::string& path, LengthUnit unit, const BytesSeen& seen) {
   const std::string file = printable(path);
   SolidMesh read = whole_of(load_mesh(path, seen));
@@ -173,7 +173,7 @@ ColliderCost cost(const SceneMannequin& mannequin, const SceneCollider&) {
 }
 
 ColliderCost cost_of_file(const std::string& path) {
-  std::error_code error;  // a file that is not there is told when it is read
+  std::error_code error;  // a missing file is reported when it is read
   const auto size = std::filesystem::file_size(path, error);
   const double bytes = error ? 0 : static_cast<double>(size);
   return {printable(path), bytes / obj_bytes_per_triangle, obj_copies * bytes / (1 << 20)};

@@ -1,4 +1,4 @@
-// sim/collider_person.hpp: who wears cloth, or stands beside it: a mannequin, a mesh of a file, arrays in memory; and how she moves.
+// sim/collider_person.hpp: a body that wears cloth, or stands beside it: a mannequin, a mesh file, arrays in memory; and its motion.
 #pragma once
 #include "body/body_motion.hpp"
 #include "body/mannequin.hpp"
@@ -15,7 +15,7 @@ namespace toile::internal {
 struct SceneCollider;
 
 struct SceneMotion {
-  std::string name;                              // of the mannequin's own: walk, twist, dance ...; empty: from a file
+  std::string name;                              // of the mannequin: walk, twist, dance ...; empty: from a file
   std::string path;                              // resolved: .pc2, or a folder of OBJ files
   double fps = SampleOptions{}.rate_hz;          // of the file
   double lead_in_s = SampleOptions{}.lead_in_s;  // from the body's own pose into the motion
@@ -38,7 +38,7 @@ void describe_choice(V& v, SceneMannequin& mannequin, bool) {
 struct SceneMesh {
   static constexpr std::string_view key = "mesh";
   std::string path;                         // resolved
-  LengthUnit unit = LengthUnit::automatic;  // of what is not worn: metres
+  LengthUnit unit = LengthUnit::automatic;  // of a solid: metres
   std::string measurements;                 // path, resolved; empty: the mesh's name with .yaml, if there is one
 };
 template <class V>
@@ -58,10 +58,10 @@ void describe_beside(V& v, SceneMesh& mesh, bool worn) {
            mesh.measurements);
 }
 
-// Given in memory: a scene file has no word for it.  One frame, or one after the other.
+// Only given in memory: a scene file has no key for it.  One frame or more.
 struct SceneArrays {
   struct Frames {
-    std::vector<Vec3> x;       // m; of equal length, the first is how it stands
+    std::vector<Vec3> x;       // m; frame after frame, the first is the start
     std::size_t vertices = 0;  // of a frame
     std::vector<Triangle> triangles;
     double fps = 30;
@@ -69,9 +69,9 @@ struct SceneArrays {
   std::shared_ptr<const Frames> frames;
 };
 
-// The body of a mesh file with this text, checked; `beside` sees other files that it is made of.  Throws InputError, IoError.
+// The body of a mesh file with this text, checked; `beside` receives the other files that it is made of.  Throws InputError, IoError.
 CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, const BytesSeen& beside = {});
-// The file that measurements are read from: the one that is named, or one beside the mesh; empty: there is none.
+// The file of the measurements: the named one, or one beside the mesh; empty: none.
 std::string measurements_path(const SceneMesh& mesh);
 
 // Every sample of a motion is checked here, before anything runs.
@@ -82,7 +82,7 @@ Collider load(const SceneArrays& arrays, const SceneCollider& whole);
 ColliderCost cost(const SceneMannequin& mannequin, const SceneCollider& whole);
 ColliderCost cost(const SceneMesh& mesh, const SceneCollider& whole);
 ColliderCost cost(const SceneArrays& arrays, const SceneCollider& whole);
-// Of reading a mesh, by the size of its file.
+// The cost of reading a mesh, by the size of its file.
 ColliderCost cost_of_file(const std::string& path);
 
 }  // namespace toile::internal

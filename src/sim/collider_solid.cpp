@@ -10,7 +10,7 @@
 namespace toile::internal {
 namespace {
 
-// Halved until no edge is too long: the longest are in the middle of the octahedron's faces.
+// Subdivided until no edge is too long: the longest are in the middle of the octahedron's faces.
 double ball_triangles(double radius_m, double edge_m) {
   double triangles = 8;
   Vec3 a(1, 0, 0), b(0, 1, 0), c(0, 0, 1);

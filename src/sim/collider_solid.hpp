@@ -58,7 +58,7 @@ void describe_choice(V& v, SceneRevolved& shape, bool) {
 struct SceneCylinder {  // an upright solid whose rims are rounded
   static constexpr std::string_view key = "cylinder";
   double radius_m = 0.2, height_m = 0.5;
-  Vec3 top_m{0, 0, 0};  // middle of the top
+  Vec3 top_m{0, 0, 0};  // centre of the top
 };
 template <class V>
 void describe(V& v, SceneCylinder& cylinder) {
@@ -81,9 +81,9 @@ ColliderCost cost(const SceneBox& box, const SceneCollider& whole);
 ColliderCost cost(const SceneRevolved& shape, const SceneCollider& whole);
 ColliderCost cost(const SceneCylinder& cylinder, const SceneCollider& whole);
 
-// Of a surface that is checked here: closed, without triangles on a line.  Throws InputError("", ...).
+// A collider of this surface, which must be closed, without triangles on a line.  Throws InputError("", ...).
 Collider standing(SolidMesh surface);
-// Of what `revolved` makes of an outline, about.
+// The approximate cost of the surface that `revolved` makes of an outline.
 double revolved_triangles(std::span<const Vec2> profile_m, double edge_m);
 
 }  // namespace toile::internal

@@ -10,7 +10,7 @@
 namespace toile::internal {
 namespace {
 
-// Put where it stands, and led from there; with what moves by itself.
+// Places it and adds its moves to its own motion.
 void place(const SceneCollider& from, std::string_view path, Collider& collider) {
   SolidMesh& surface = collider.surface;
   if (from.inside_out) turn_inside_out(surface);

@@ -28,14 +28,14 @@ const MeshWriter& writer_of(const ExportOptions& options) {
                 options.to.empty() ? "export: expected a format, " + mesh_writers_in_words() +
                                          ", or a file whose name ends as one of them"
                                    : "export: expected " + mesh_writers_in_words() + ", got " + printable(options.to));
-  // Programs go by the ending: a .glb that is called .gltf opens in few of them.
+  // Programs go by the extension: a .glb that is called .gltf opens in few of them.
   if (!options.all && !options.out.empty() && !options.out.ends_with(writer->ending))
     throw Error(ErrorKind::usage, "export: expected a file that ends in " + std::string(writer->ending) + ", got " +
                                       printable(options.out));
   return *writer;
 }
 
-// What panels are made of, by garment and panel, where the report tells.
+// The fabrics by garment and panel, where the report lists them.
 std::map<std::pair<std::string, std::string>, std::string> fabrics_of(const fs::path& directory) {
   std::map<std::pair<std::string, std::string>, std::string> fabrics;
   const std::string path = (directory / "report.json").string();
@@ -49,7 +49,7 @@ std::map<std::pair<std::string, std::string>, std::string> fabrics_of(const fs::
   return fabrics;
 }
 
-// A group for each panel of each garment, with its fabric: panels of two garments may have one name, which is one group in the file.
+// A group for each panel of each garment, with its fabric: panels of the same name in two garments are one group in the file.
 void settle_groups(SurfaceMesh& mesh, const fs::path& directory) {
   if (mesh.group.empty() || mesh.object.empty()) return;
   const auto fabrics = fabrics_of(directory);
@@ -74,7 +74,7 @@ std::string numbered(const std::string& of, int frame, int frames, std::string_v
   return of + '_' + fmt::sprintf("%0*d", width, frame) + std::string(ending);
 }
 
-// A folder of frames has these frames and no others: who reads it takes all.
+// A folder of frames has these frames and no others: programs read all of them.
 void refuse_others(const std::string& folder, const std::string& of, const std::set<std::string>& ours,
                    std::string_view ending) {
   std::error_code error;

@@ -1,6 +1,6 @@
 // sim/export_run.hpp: frames of a run as files of other formats.                                                 docs/howto/export.md
 //
-// Everything comes from the files of the run: cloth.obj and cloth.pc2 (or body.*), and of report.json the fabrics.
+// Reads the files of the run: cloth.obj and cloth.pc2 (or body.*), and the fabrics from report.json.
 #pragma once
 #include <functional>
 #include <optional>
@@ -11,22 +11,22 @@
 namespace toile::internal {
 
 struct ExportOptions {
-  std::string to;  // a writer's name (io/mesh_writer.hpp); empty: by the ending of `out`
+  std::string to;  // a writer's name (io/mesh_writer.hpp); empty: by the extension of `out`
   std::string
-      out;  // a file with the format's ending, or a folder for all frames; empty: out/NAME.<ending>, out/NAME_<format>
+      out;  // a file with the format's extension, or a folder for all frames; empty: out/NAME.EXT, out/NAME_<format>
   std::string of = "cloth";  // or "body"
   std::optional<int> frame;  // none: the last
-  bool all = false;          // every frame, in files cloth_0000.<ending> ...
+  bool all = false;          // every frame, in files cloth_0000.<extension> ...
 };
 
 struct Exported {
   std::vector<std::string> files;
   std::size_t vertices = 0, triangles = 0;  // of the run; a format may split vertices
-  int frames = 0;                           // that the run has
+  int frames = 0;                           // of the run
 };
 
-// `goes_on` is asked before each file.  Throws Error(usage) for options that do not fit together, InputError for a frame or a body that there is not and
-// for numbers that are not finite, IoError for a file of the run that would be written over, and for other frames in the folder.
+// `goes_on` is polled before each file.  Throws Error(usage) for options that do not fit together, InputError for a missing frame or body and
+// for numbers that are not finite, IoError instead of overwriting a file of the run, and for other frames in the folder.
 Exported export_run(const std::string& directory, const ExportOptions& options,
                     const std::function<bool()>& goes_on = {});
 

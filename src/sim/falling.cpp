@@ -103,7 +103,7 @@ std::optional<LostGarment> FallWatch::find(std::span<const OutfitPart> parts, co
     flights.push_back(flight_of(std::span(state.x).subspan(first, count), std::span(state.v).subspan(first, count)));
     caught.push_back(reaches_solids(flights.back(), x) ? 1 : 0);
   });
-  for (bool more = true; more;) {  // what reaches a garment that is caught may be caught by it
+  for (bool more = true; more;) {  // a garment in reach of one that is caught may be caught by it
     more = false;
     for (std::size_t p = 0; p < parts.size(); ++p)
       for (std::size_t q = 0; q < parts.size() && caught[p] == 0; ++q)

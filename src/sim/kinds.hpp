@@ -1,4 +1,4 @@
-// sim/kinds.hpp: what follows from a list of kinds, a std::variant of structs, of which an object of a scene chooses one by its key.
+// sim/kinds.hpp: functions of a list of kinds: a std::variant of structs, of which an object of a scene chooses one by its key.
 #pragma once
 #include <string_view>
 #include <type_traits>
@@ -7,7 +7,7 @@
 
 namespace toile::internal {
 
-// Calls f with a fresh one of every kind that a scene file can choose, in the order of the list.
+// Calls f with a default object of every kind that a scene file can choose, in the order of the list.
 template <class Kinds, class F>
 void for_each_kind(const F& f) {
   const auto one = [&]<class Kind>(std::type_identity<Kind>) {

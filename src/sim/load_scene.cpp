@@ -1,4 +1,4 @@
-// sim/load_scene.cpp: all that a scene names, from its files.
+// sim/load_scene.cpp: reads all files that a scene names.
 #include "core/stopwatch.hpp"
 #include "sim/setup.hpp"
 #include "sim/start_run.hpp"

@@ -1,4 +1,4 @@
-// sim/phase_report.hpp: what frames and their steps add up to in a report.
+// sim/phase_report.hpp: the sums over frames and their steps in a report.
 #pragma once
 #include "sim/report.hpp"
 #include "step/adaptive_step.hpp"
@@ -7,7 +7,7 @@ namespace toile::internal {
 
 void add_frame(PhaseReport& phase, const FrameReport& frame);
 void add_seconds(PhaseReport& phase, const PhaseSeconds& seconds);
-// Of what happened since `before`.
+// The sums since `before`.
 void set_seconds(PhaseReport& phase, const PhaseSeconds& seconds, const PhaseSeconds& before = {});
 
 }  // namespace toile::internal

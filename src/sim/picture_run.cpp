@@ -66,7 +66,7 @@ void grow(std::array<Vec3, 2>& box, const Vec3s& x) {
   }
 }
 
-// Front, side and back of what is around some points, and a little more.
+// Front, side and back views of the surroundings of some points.
 Image three_views(const PreviewScene& scene, const Vec3s& points, double least_margin_m, const RenderOptions& options) {
   std::array<Vec3, 2> box{Vec3::Constant(1e30), Vec3::Constant(-1e30)};
   grow(box, points);
@@ -95,7 +95,7 @@ std::vector<std::array<Vec3, 2>> crossing_edges(const Take& cloth, const Vec3s& 
   return edges;
 }
 
-// Between what belongs together and was left open (report.json); none in a run without a report.
+// The gaps of open seams (report.json); none in a run without a report.
 std::vector<std::array<Vec3, 2>> open_seams(const std::filesystem::path& folder, const Vec3s& x) {
   std::vector<std::array<Vec3, 2>> lines;
   const std::string path = (folder / "report.json").string();
@@ -115,14 +115,14 @@ std::vector<std::array<Vec3, 2>> open_seams(const std::filesystem::path& folder,
   return lines;
 }
 
-// `count` frames of first ... last, evenly.
+// `count` evenly spaced frames of first ... last.
 void add_shots(const Take& take, int first, int last, int count, std::vector<Shot>& shots) {
   for (int k = 0; k < count; ++k)
     shots.push_back(
         {&take, count > 1 ? first + static_cast<int>(std::lround(double(k) * (last - first) / (count - 1))) : last});
 }
 
-// Of the take at those positions.
+// The surfaces of the take at those positions.
 std::vector<PreviewCloth> cloths_of(const Take& take, const Vec3s& x) {
   std::vector<PreviewCloth> cloths;
   for (std::size_t k = 0; k < take.pieces.size(); ++k)
@@ -130,7 +130,7 @@ std::vector<PreviewCloth> cloths_of(const Take& take, const Vec3s& x) {
   return cloths;
 }
 
-// The first frame in which the body is about to move, from report.json; -1: it never does.
+// The last frame before the body moves, from report.json; -1: it never does.
 struct Timing {
   int motion_first = -1;
   double fps = 30;
@@ -166,7 +166,7 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   Vec3s x, body_x = dressed ? body.obj.positions : Vec3s{};
   scene.body_triangles = body.obj.triangles;
   scene.body_positions = body_x;
-  // Around whom the garment was sewn: the first vertices of the body, where the person was not as she stands.
+  // The thin person around whom the garment was sewn replaces the first vertices of the body.
   const std::filesystem::path thin = folder / "sewing_body.obj";
   Vec3s sewn_around = body_x;
   if (dressed && std::filesystem::exists(thin)) {
@@ -249,7 +249,7 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   film.samples = options.film_samples;
   Renderer renderer(film);
   const double aspect = static_cast<double>(film.width) / film.height;
-  // The garment fills the picture: of a body only as much is shown as the cloth reaches, and a little more.
+  // The garment fills the picture: a body is shown only as far as the cloth reaches, and a little farther.
   const Vec3 margin = Vec3::Constant(0.05);
   const Camera camera = frame_subject(box[0] - margin, box[1] + margin, 25, 8, aspect);
   const auto picture = [&](int k) {

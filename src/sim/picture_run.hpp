@@ -25,7 +25,7 @@ struct PictureOptions {
 void picture_run(const std::string& directory, const PictureOptions& options,
                  const std::function<void(double)>& progress, const std::function<bool()>& stop);
 
-// The crossings of one frame in red, from three sides, as near as shows all of them.  Throws as picture_run.
+// The crossings of one frame in red, from three sides, as close as all of them fit.  Throws as picture_run.
 void picture_crossings(const std::string& directory, int frame, const std::string& png);
 
 }  // namespace toile::internal

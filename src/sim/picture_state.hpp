@@ -27,11 +27,11 @@ struct StillOptions {
   double azimuth_deg = 25, elevation_deg = 10;  // preview/preview.hpp: frame_subject
 };
 
-// The bytes of a PNG, the cloth filling it.  Throws Error (usage) where Toile is built without pictures, and what Renderer throws.
+// The bytes of a PNG, the cloth filling it.  Throws Error (usage) where Toile is built without pictures, and as Renderer does.
 std::string picture_state(const PicturedState& state, const StillOptions& options);
 // The same of the last frame in a run's folder, finished or not.  Throws IoError or InputError for files that are missing or wrong.
 std::string picture_last_frame(const std::string& directory, const StillOptions& options);
-// Of cloths and body, on the ground.
+// A picture of cloths and body, on the ground.
 std::string still_of(PreviewScene scene, const StillOptions& options);
 
 }  // namespace toile::internal

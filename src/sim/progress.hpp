@@ -1,4 +1,4 @@
-// sim/progress.hpp: how far a simulation has come, and the ends that only it knows of.               docs/reason-codes.md
+// sim/progress.hpp: the progress of a simulation, and the reason codes of its own.                   docs/reason-codes.md
 #pragma once
 #include <string_view>
 

@@ -242,7 +242,7 @@ void add_inputs(JsonText& text, const Report& report) {
   text.end_array();
 }
 
-// Pictures are Toile's, too, and may be made at any time: they are listed, without a checksum.
+// Pictures belong to the run, too, and may be made at any time: they are listed without a checksum.
 void add_files(JsonText& text, const Report& report) {
   text.key("files");
   text.begin_object();

@@ -1,4 +1,4 @@
-// sim/report.hpp: what a run has to say about itself: report.json.                                   docs/reports.md
+// sim/report.hpp: the report of a run: report.json.                                                  docs/reports.md
 //
 // Keys are stable: add, never rename.  Times and memory differ between two runs of one command; everything else is the
 // same to the bit.
@@ -23,10 +23,9 @@ struct PhaseReport {  // of the sewing, or of everything after it
   long steps = 0, steps_rejected = 0, passes = 0, cg_iterations = 0;
   int cg_max = 0;
   long met = 0,
-       refused =
-           0;  // steps in which the safe filter met impacts; steps that were rejected for what it could not prevent
+       refused = 0;  // steps in which the safe filter met impacts; steps rejected for impacts it could not prevent
   long corrected = 0,
-       truncated = 0;  // particles that the safe filter moved, summed over steps; of them in zones cut short
+       truncated = 0;  // particles that the safe filter moved, summed over steps; those with clipped motion
   long pierced = 0;    // impacts of cloth with the body that it could not prevent, summed over steps
   int pinched = 0;     // particles held between parts of the body, most of all steps
   long touching = 0, contact_rows = 0;  // in the last step of each frame, summed over frames
@@ -44,16 +43,16 @@ struct StartupReport {  // wall time before the first step, s
   double total = 0;
   double scene = 0;      // from the program's start until the scene is read
   double cloth = 0;      // reading patterns and meshing
-  double body = 0;       // its mesh, its motion and its tree
+  double body = 0;       // its mesh, motion and tree
   double placement = 0;  // of the panels, and which seams lie behind the body
-  double crossings = 0;  // whether the cloth passes through itself or the body, and untangling it
+  double crossings = 0;  // finding and untangling them
   template <class Archive>
   void remember(Archive& archive) {
     archive(total, scene, cloth, body, placement, crossings);
   }
 };
 
-struct StartReport {  // of cloth that passed through itself or the body before the first frame; edges
+struct StartReport {  // cloth that passed through itself or the body before the first frame; edges
   int cloth_cloth = 0, cloth_body = 0;
   int cloth_cloth_left = 0, cloth_body_left = 0;
   int trials = 0;
@@ -69,7 +68,7 @@ struct OpenSeam {
   std::string name;
   double gap_m = 0;                            // the widest, when sewing ended,
   Vec3 where{0, 0, 0};                         // and where
-  std::vector<std::array<Index, 2>> vertices;  // of cloth.obj, that belong together
+  std::vector<std::array<Index, 2>> vertices;  // of cloth.obj: pairs to be joined
   template <class Archive>
   void remember(Archive& archive) {
     archive(name, gap_m, where, vertices);
@@ -81,7 +80,7 @@ struct InputFile {
   std::string path, checksum;
 };
 
-// A file of the run as it was written (core/hash.hpp): of an OBJ the checksum of all, of a cache that of its header and of each frame.
+// A file of the run as written (core/hash.hpp): an OBJ has one checksum, a cache one for its header and for each frame.
 struct WrittenFile {
   std::string name, checksum;
   std::vector<std::string> frames;  // of a cache
@@ -99,10 +98,10 @@ struct Report {
   double seconds_total = 0;
   StartupReport startup;
   PhaseReport sewing, drape;    // drape: everything after the weld, the motion too
-  PhaseReport motion;           // of it, from the first frame in which the body moves
-  int motion_first_frame = -1;  // sample of cloth.pc2 at which the body still stands; -1: no motion
+  PhaseReport motion;           // from the first frame in which the body moves
+  int motion_first_frame = -1;  // the last sample of cloth.pc2 before the body moves; -1: no motion
   std::string motion_name;
-  Vec3 shift_m{0, 0, 0};  // by which the flat panels were moved before sewing
+  Vec3 shift_m{0, 0, 0};  // of the flat panels before sewing
   StartReport start;
   std::vector<OpenSeam> open_seams;
   std::vector<std::string> warnings;
@@ -118,7 +117,7 @@ struct Report {
   std::vector<InputFile> inputs;
   std::vector<WrittenFile> files;
 
-  // Of a run that is taken up again, what was known when it was left; the rest follows from the scene.
+  // The values of a resumed run when it was left that do not follow from the scene.
   template <class Archive>
   void remember(Archive& archive) {
     archive(seconds_total, startup, sewing, drape, motion, motion_first_frame, shift_m, start, open_seams, warnings);
@@ -126,10 +125,10 @@ struct Report {
 };
 
 std::string to_json(const Report& report, int indent = 2);
-// Members of it that readers of a run that is not finished have to know: fps, body_vertices, rest_stretch ...
+// Its members that a reader of an unfinished run needs: fps, body_vertices, rest_stretch ...
 void add_facts(JsonText& json, const Report& report);
 
-// What report.json and `toile verify --json` say alike: verdict, reasons, qualifications and their details, as members of an object.
+// The part common to report.json and `toile verify --json`: verdict, reasons, qualifications and their details, as members of an object.
 void add_judgement(JsonText& text, const Verdict& verdict);
 // The key "slip", likewise; and as a line of text, empty where no body moved.
 void add_slip(JsonText& text, const SlipStatistics& slip);

@@ -11,7 +11,7 @@ constexpr double rest_s = 0.5;
 
 }  // namespace
 
-// By way of memory: of x.cast<float>().cast<double>() GCC 12 at -O3 leaves the last entry of an odd number as it was.
+// Through memory: in x.cast<float>().cast<double>() GCC 12 at -O3 leaves the last of an odd number of entries unrounded.
 Vec3s as_written(std::span<const Vec3> x) {
   std::vector<float> single(3 * x.size());
   for (std::size_t i = 0; i < single.size(); ++i)

@@ -1,4 +1,4 @@
-// sim/rest_watch.hpp: has cloth come to rest?  By the frames as files hold them, which is what the verdict is about.
+// sim/rest_watch.hpp: has cloth come to rest?  By the frames as the files hold them, as in the verdict.
 #pragma once
 #include "core/types.hpp"
 #include "sim/report.hpp"
@@ -8,14 +8,14 @@
 
 namespace toile::internal {
 
-// What a reader of the files will see: float32.
+// The positions as in the files: float32.
 Vec3s as_written(std::span<const Vec3> x);
 
 // p99 of the particles' speeds, mm/s.
 struct RestLimits {
   double half_a_second, a_second;  // at most, over the last
 };
-// When a drape may stop; over a second it is what the verdict asks.
+// When a drape may stop; the limit over a second is the verdict's.
 inline constexpr RestLimits still{2, Limits{}.still_mm_per_s};
 
 class RestWatch {
@@ -24,7 +24,7 @@ class RestWatch {
   void frame(std::span<const Vec3> x);
   bool at_rest() const;
 
-  // The frame itself is the owner's: begin() with it, then read this.
+  // The state of the frame is the owner's: call begin() with it, then read this.
   template <class Archive>
   void remember(Archive& archive) {
     archive(speeds_);

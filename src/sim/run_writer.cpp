@@ -12,7 +12,7 @@
 namespace toile::internal {
 namespace {
 
-// Equal vt of one panel are one vt: a seam has one per panel, everything else one per particle.
+// Equal vt of one panel are merged: a particle on a seam has one per panel, any other particle one.
 SurfaceMesh cloth_obj(const ClothMesh& mesh, std::span<const Index> garment_of_panel,
                       std::span<const std::string> garments, std::span<const Vec3> x) {
   SurfaceMesh obj;
@@ -61,9 +61,9 @@ RunWriter::RunWriter(RunFolder& folder) : folder_(&folder) { folder_->begin(); }
 RunWriter::RunWriter(RunFolder& folder, const WrittenFrames& frames, Index sewing_points, Index cloth_points,
                      Index body_points)
     : folder_(&folder) {
-  remove_file(path("report.json"));  // of the run when it was stopped
+  remove_file(path("report.json"));  // the report of the stopped run
   if (frames.sewing > 0) sewing_ = Pc2Writer::resume(path("sewing.pc2"), sewing_points, frames.sewing);
-  if (frames.cloth == 0) {  // what came after the state that is taken up comes again
+  if (frames.cloth == 0) {  // frames after the saved state are simulated again
     for (const char* name : {"cloth.obj", "cloth.pc2", "body.obj", "body.pc2"}) remove_file(path(name));
     return;
   }
@@ -93,7 +93,7 @@ void RunWriter::sewing_frame(std::span<const Vec3> x) { sewing_->append(x); }
 void RunWriter::begin_cloth(const ClothMesh& mesh, std::span<const Index> garment_of_panel,
                             std::span<const std::string> garments, std::span<const Vec3> x,
                             std::span<const Triangle> body, std::span<const Vec3> body_x) {
-  if (!body.empty()) {  // before the cloth: where there is a cloth.pc2, the body is there
+  if (!body.empty()) {  // before the cloth: a cloth.pc2 implies a complete body
     write_obj(path("body.obj"), body_obj(body, body_x));
     body_ = std::make_unique<Pc2Writer>(path("body.pc2"), static_cast<Index>(body_x.size()), 0, 1);
   }

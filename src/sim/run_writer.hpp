@@ -3,11 +3,11 @@
 //   sewing.obj, sewing.pc2   panels unwelded, while they are sewn
 //   cloth.obj, cloth.pc2     the welded garment, frame 0 first
 //   body.obj, body.pc2       one sample per frame of cloth.pc2
-//   offenders.obj            what a run ended over (sim/offenders.hpp); only of one whose step collapsed
+//   offenders.obj            the offenders of a collapsed step (sim/offenders.hpp)
 //   report.json              last: a directory without it is not a finished run.  It lists the files, with a checksum of every frame
 //
-// Easily missed: what an earlier run left under these names is removed when the run begins, its report first, so that a run that
-// dies leaves nothing behind that looks finished (io/run_folder.hpp).
+// Easily missed: files of an earlier run with these names are removed when the run begins, its report first, so that a run that
+// dies leaves no folder that looks finished (io/run_folder.hpp).
 //
 // vt are the panel's own drawing coordinates: vt = (-v, u), because u = y of the drawing is the warp and v = -x the weft
 // (garment/garment_mesh.hpp).  A reader that calls the first vt axis "u" sees the weft there.
@@ -25,7 +25,7 @@
 
 namespace toile::internal {
 
-// How far the caches have come: where a run that is taken up again goes on.
+// The frames in the caches: where a resumed run goes on.
 struct WrittenFrames {
   int sewing = 0, cloth = 0;
   bool has_body = false;
@@ -40,26 +40,25 @@ class RunWriter {
   // Clears the folder of an earlier run.  The folder must outlive the writer.
   explicit RunWriter(RunFolder& folder);
 
-  // `body` is the person around whom it is sewn, where she is not as in begin_cloth; empty: she is.
+  // `body`: the person around whom it is sewn; empty: as in begin_cloth.
   void begin_sewing(const ClothMesh& mesh, std::string_view garment, std::span<const Vec3> x,
                     std::span<const Triangle> body, std::span<const Vec3> body_x);
   void sewing_frame(std::span<const Vec3> x);
-  // `x` and `body_x` are frame 0, and written as such.  Without a body its spans are empty and it gets no files.
-  // `garment_of_panel` says to which of `garments` a panel belongs; each becomes an object of cloth.obj.
+  // Writes `x` and `body_x` as frame 0.  Without a body its spans are empty and it gets no files.
+  // `garment_of_panel`: [panel] an index of `garments`; each becomes an object of cloth.obj.
   void begin_cloth(const ClothMesh& mesh, std::span<const Index> garment_of_panel,
                    std::span<const std::string> garments, std::span<const Vec3> x, std::span<const Triangle> body,
                    std::span<const Vec3> body_x);
   void cloth_frame(std::span<const Vec3> x, std::span<const Vec3> body_x);
   void offenders(const SurfaceMesh& mesh);
 
-  // Goes on behind the frames that a run wrote before; those that came after them are written anew.  Throws IoError, InputError when the caches
-  // have fewer.
+  // Appends to the caches of an earlier run; frames after these are written anew.  Throws IoError, InputError when the caches have fewer.
   RunWriter(RunFolder& folder, const WrittenFrames& frames, Index sewing_points, Index cloth_points, Index body_points);
   WrittenFrames frames() const;
   // The frames are on the disk afterwards.  May be called while another thread appends.
   void synchronize() const;
 
-  // "files" of the report, then the report.  `goes_on`: the run was stopped, and can be taken up again.
+  // "files" of the report, then the report.  `goes_on`: the run was stopped, and can be resumed.
   void finish(const std::function<std::string(const std::vector<WrittenFile>&)>& report_json, bool goes_on);
 
   int cloth_frames() const { return cloth_ ? cloth_->samples() : 0; }
@@ -71,7 +70,7 @@ class RunWriter {
   std::unique_ptr<Pc2Writer> sewing_, cloth_, body_;
 };
 
-// The cloth as it stands in cloth.obj: vt in place of (u, v).  What is audited, too.
+// The cloth as in cloth.obj, which the audit also reads: vt in place of (u, v).
 ClothMesh drawn_mesh(const ClothMesh& mesh);
 
 }  // namespace toile::internal

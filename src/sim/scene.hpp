@@ -1,13 +1,13 @@
-// sim/scene.hpp: everything that one simulation is told, and the JSON file that says it.          docs/scenes.md
+// sim/scene.hpp: the complete input of a simulation, and its JSON file.                           docs/scenes.md
 //
 // Every key has a default, so that {"cloth": [{"pattern": "p.json"}], "body": {"mesh": "b.obj"}} is a complete scene.
 // The command `dress` fills the same struct from its options.
 //
-// The members' own values are the defaults of the keys, and those of what runs the defaults of the members; each key is described
+// The members' initial values are the defaults of the keys, and are themselves those of the options they fill; each key is described
 // in one place, sim/settings_scene.hpp.
 //
-// What is easily got wrong: a key that is understood but not available yet is an error here, never ignored; a scene
-// that runs has been obeyed in every word.
+// Easily got wrong: a key that is known but not available yet is an error, never ignored; a scene that runs is obeyed
+// in every key.
 #pragma once
 #include "assembly/air.hpp"
 #include "io/json_places.hpp"
@@ -35,16 +35,16 @@ struct Scene {
   std::vector<SceneCollider> solids;
   Vec3 gravity_m_per_s2 = ModelOptions{}.gravity_m_per_s2;
   AirOptions air;
-  // In time, ascending and straight in between; they take the place of the constants above.
+  // Over time, ascending, linear in between; they replace the constants above.
   std::vector<VectorKey> gravity_path, wind_path;
 
-  // Of a garment that is dressed without a scene: most are still after three or four, a long skirt at 2.1 cm after 11.
+  // For a garment that is dressed without a scene: most are still after three or four, a long skirt at 2.1 cm after 11.
   static constexpr double longest_dress_s = 20;
   double fps = 30, seconds = 5;      // of the motion, where the body moves; otherwise of the drape
   bool seconds_given = false;        // false: a motion that ends runs to its end
-  double drape_seconds = 10;         // before the motion, and of garments that others go over: a limit
+  double drape_seconds = 10;         // before the motion, and of inner garments: a limit
   std::optional<double> step_max_s;  // absent: 1/60 s for patterns, a frame for grids
-  bool until_still = false;          // stop when at rest; then `seconds` is a limit, and moving at the end a failure
+  bool until_still = false;          // stop when at rest; `seconds` is then a limit, and motion at the end a failure
 
   std::optional<Preconditioner> preconditioner;  // absent: the best for the size
   std::optional<double> tolerance;               // absent: usual_tolerance of the two beside it
@@ -70,7 +70,7 @@ struct Scene {
 
 struct SceneFile {
   Scene scene;
-  JsonPlaces places;  // of its objects and of /output/dir, for what is found wrong with them when they are loaded
+  JsonPlaces places;  // of its objects and of /output/dir, for errors found when they are loaded
 };
 // Throws InputError naming file, line, JSON pointer, expected and got.  Relative paths resolve against the folder of
 // `file`, but for output.dir, which resolves against the folder where the program runs.

@@ -1,4 +1,4 @@
-// sim/scene_body.cpp: what the keys of a body and of solids ask of each other.
+// sim/scene_body.cpp: checks the keys of a body and of solids against each other.
 #include "body/motion.hpp"
 #include "sim/scene_settle.hpp"
 

@@ -1,4 +1,4 @@
-// sim/scene_cloth.cpp: what the keys of a cloth ask of each other.
+// sim/scene_cloth.cpp: checks the keys of a cloth against each other.
 #include "sim/scene_settle.hpp"
 #include "sim/settings_cloth.hpp"
 
@@ -20,7 +20,7 @@ void check_speed_along(const Json& path, const std::vector<VectorKey>& keys) {
   }
 }
 
-// The key that only one way of holding has: given with another one it would do nothing.
+// The value of a key of one `hold`, if given; an error beside another `hold`, where it would have no effect.
 const Json* of_hold(const Json& pin, std::string_view key, std::string_view hold, bool chosen) {
   const Json* value = pin.find(key);
   if (value != nullptr && !chosen)
@@ -28,7 +28,7 @@ const Json* of_hold(const Json& pin, std::string_view key, std::string_view hold
   return value;
 }
 
-// Throws for more triangles of this edge length than anyone means.
+// Throws for too many triangles of this edge length.
 void check_count(const Json& shape, double area_m2, double edge_m) {
   const double triangles = 4 * area_m2 / (edge_m * edge_m * std::sqrt(3.0));
   if (triangles > 2e6) shape.fail("at most 2 million triangles", std::to_string(triangles) + " from this edge_m");

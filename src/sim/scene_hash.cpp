@@ -1,7 +1,7 @@
 // sim/scene_hash.cpp: every setting of a scene that changes the result, in the order of its description (sim/settings.hpp).
 //
-// A setting is its key, whether it is given where that may be left open, how many there are where there may be more, and its value.
-// So no two scenes are told by one row of bytes.  Of a file only that there is one; what it holds is in the hash of what was made of it.
+// A setting is hashed as its key, its presence if it is optional, its count if it is a list, and its value.  So no two scenes have the
+// same bytes.  A file only counts as present; its contents are in the hash of the object made of it.
 #include "core/hash.hpp"
 #include "sim/settings_scene.hpp"
 #include "sim/setup.hpp"
@@ -122,7 +122,7 @@ class SettingsHash {
   void at_most_one(const std::vector<std::string_view>&) {}
 
  private:
-  // Whether it counts at all.
+  // Whether it is hashed at all.
   bool key(const Setting& s) {
     if (s.in_result) hash_->add_text(s.key);
     return s.in_result;
@@ -144,7 +144,7 @@ class SettingsHash {
 }  // namespace
 
 std::uint64_t settings_hash(const Scene& scene) {
-  Scene asked = scene;  // a description may write, too
+  Scene asked = scene;  // describe() takes a mutable object
   Hash hash;
   SettingsHash settings(hash);
   describe(settings, asked);

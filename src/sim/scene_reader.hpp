@@ -1,7 +1,7 @@
 // sim/scene_reader.hpp: fills a scene's objects from JSON, by their descriptions (sim/settings.hpp).
 //
-// Every refusal names file, line and JSON pointer.  Of an object first its keys are looked at, so that a misspelt one is told as
-// such and not as a missing one; then the values in the order of the description; at last what one asks of another (`settle`).
+// Every refusal names file, line and JSON pointer.  An object's keys are checked first, so that a misspelt one is reported as
+// such and not as a missing one; then the values in the order of the description; then values against each other (`settle`).
 #pragma once
 #include "sim/scene_reading.hpp"
 #include "sim/scene_settle.hpp"
@@ -138,8 +138,8 @@ class RowReader {
 class SceneReader {
  public:
   struct Source {
-    const std::string& file;  // the scene's: relative paths start at its folder
-    JsonPlaces& places;       // where its objects stand
+    const std::string& file;  // the scene's: paths are relative to its folder
+    JsonPlaces& places;       // of its objects
   };
   SceneReader(const Json& value, const Source& source) : value_(&value), source_(source) {}
 
@@ -279,7 +279,7 @@ class SceneReader {
   static constexpr bool goes_on_from_the_last = std::is_same_v<T, RigidKey>;
 
   bool has(std::string_view key) const { return only_key_.empty() ? value_->find(key) != nullptr : key == only_key_; }
-  // What is given for a key; nullptr where its default holds.  Throws for one that is needed.
+  // The value given for a key; nullptr where its default holds.  Throws for a missing key without default.
   const Json* find(const Setting& s) const {
     if (!only_key_.empty()) return s.key == only_key_ ? value_ : nullptr;
     const Json* value = s.needed ? &value_->at(s.key) : value_->find(s.key);

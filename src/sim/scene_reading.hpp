@@ -10,17 +10,17 @@
 
 namespace toile::internal::scene_reading {
 
-// As it stands in the file: units are the caller's.
+// As in the file: the caller converts units.
 double number_in(const Json& value, const Range& range);
 int whole_in(const Json& value, const Range& range);
 
 // [x, y, z]
 Vec3 vector_of(const Json& value, const Range& each);
 
-// The place of `name` among `names`; an error that names the nearest otherwise.
+// The index of `name` in `names`; otherwise throws an error that names the nearest.
 std::size_t one_of(const Json& value, std::span<const std::string_view> names);
 
-// A path that starts at the folder of the scene.
+// A path relative to the folder of the scene.
 std::string resolve(const std::string& scene_file, const Json& value);
 
 // Throws for an array of fewer elements.

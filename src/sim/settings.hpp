@@ -1,17 +1,17 @@
-// sim/settings.hpp: what is said of every key of a scene, once.                              docs/scenes.md#settings
+// sim/settings.hpp: the description of every key of a scene, once.                           docs/scenes.md#settings
 //
-// `describe(v, object)` lists the keys of an object, each with the member that holds it and what may stand there.  Who asks
-// is a visitor, and what follows from the list is all that there is about a key:
+// `describe(v, object)` lists the keys of an object, each with its member and its allowed values, to a visitor.  Everything
+// about a key follows from this list:
 //
 //   SceneReader      JSON -> members, and every refusal      sim/scene_reader.hpp
 //   SettingsHash     members -> input_hash                   sim/scene_hash.cpp
 //   Catalogue        -> a tree of plain data                 sim/settings_catalogue.hpp: JSON schema, documentation
 //
 // A key has the unit in its name, `width_m`, and a member is in SI: `Range::unit` is the SI value of one unit of the key.
-// The default is what the member of a fresh object holds; `Setting::otherwise` says it in words where it is no value.
+// The default is the member's in a default object; `Setting::otherwise` says it in words where it is no value.
 //
-// What is easily got wrong: what one key asks of another one (an end after a beginning) is no part of a description; it is
-// checked by the `settle` of the object (sim/scene_settle.hpp), once all keys are read.
+// Easily got wrong: a condition between two keys (an end after a beginning) is no part of a description; the object's
+// `settle` checks it (sim/scene_settle.hpp), once all keys are read.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -27,10 +27,10 @@ namespace toile::internal {
 struct Setting {
   std::string_view key;
   std::string_view meaning;         // one line, Markdown
-  std::string_view otherwise = {};  // what holds when the key is not given; empty: the member's own value
+  std::string_view otherwise = {};  // the default in words; empty: the member's own value
   bool needed = false;
   bool may_be_null = false;  // null is the same as not given
-  bool in_result = true;     // false: two scenes that differ in it alone have one result, and one hash
+  bool in_result = true;     // false: it changes neither the result nor the hash
 
   constexpr Setting needs() const {
     Setting s = *this;
@@ -49,7 +49,7 @@ struct Setting {
   }
 };
 
-// Of a number as it stands in the file.
+// The range of a number as in the file.
 struct Range {
   double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
   double unit = 1;     // SI per unit of the key
@@ -62,7 +62,7 @@ inline constexpr double farthest_m = 1e4;  // from the origin
 inline constexpr Range anywhere{-farthest_m, farthest_m}, within_a_run{0, most_seconds};
 inline constexpr Range any_angle{-1e6, 1e6};  // degrees: turns are counted, 720 are two
 
-// How many rows an array has whose elements are arrays themselves.
+// The number of rows of an array of arrays.
 struct Rows {
   std::size_t least = 1;
   bool ascending = false;  // by the first column
@@ -74,7 +74,7 @@ using Names = std::span<const std::pair<std::string_view, E>>;
 // The key that a string stands for where an object is expected: "silk" for {"base": "silk"}.  Empty: a string is an error.
 using Shorthand = std::function<std::string_view(const std::string& text)>;
 
-// An object that stands in several places of a scene has a name, and one description: "fabric".
+// An object that occurs in several places of a scene has a name, and one description: "fabric".
 template <class T>
 inline constexpr std::string_view shared_name = {};
 

@@ -8,7 +8,7 @@
 
 namespace toile::internal {
 
-// A string is a motion by name, unless it looks like a file; of a mesh, unless it is no motion's name.
+// A string is a motion's name, unless it looks like a file; for a mesh, any other string is a file.
 inline Shorthand motion_by_name(bool mannequin) {
   return [mannequin](const std::string& text) -> std::string_view {
     const auto names = motion_names();
@@ -31,7 +31,7 @@ void describe(V& v, SceneMotion& motion) {
   v.number({"lead_in_s", "from the pose in which the body stands into the motion"}, {0, 10}, motion.lead_in_s);
 }
 
-// Which shape it is: the keys of all kinds exclude each other.
+// The shape: the keys of all kinds exclude each other.
 template <class V>
 void describe_shape(V& v, SceneCollider& collider) {
   const std::vector<std::string_view> keys = keys_of_kinds<ColliderShape>();

@@ -21,7 +21,7 @@ std::string json_of(const T& x) {
 }
 std::string json_of(const std::string& x) { return json_of(std::string_view(x)); }
 
-// Visits the members of fresh objects, whose values are the defaults.
+// Visits the members of default objects, whose values are the defaults.
 class Catalogue {
  public:
   explicit Catalogue(SettingNode& object) : object_(&object) {}

@@ -1,4 +1,4 @@
-// sim/settings_catalogue.hpp: the descriptions of all settings (sim/settings.hpp) as a tree of plain data, and what is made of it.
+// sim/settings_catalogue.hpp: the descriptions of all settings (sim/settings.hpp) as a tree of plain data; JSON schema and documentation.
 #pragma once
 #include "sim/settings.hpp"
 
@@ -17,7 +17,7 @@ struct SettingNode {
     text,
     path,
     name,     // one of `names`
-    fabric,   // likewise; they are those of the presets
+    fabric,   // one of the presets' names
     vector,   // three numbers in `range`
     box,      // two corners
     wholes,   // an array of whole numbers
@@ -32,10 +32,10 @@ struct SettingNode {
   Range range;
   std::vector<std::string> names;
   std::string value;           // the default, as JSON; empty: see Setting::otherwise
-  std::size_t least = 0;       // elements of an array
-  std::string_view shared;     // the name of an object that stands in several places
+  std::size_t least = 0;       // least number of elements of an array
+  std::string_view shared;     // the name of an object that occurs in several places
   bool is_column = false;      // of rows: it has a name and no key
-  std::string_view shorthand;  // the key that a string in the place of the object is the value of; empty: none
+  std::string_view shorthand;  // the key whose value may replace the object as a string; empty: none
   std::vector<SettingNode> inside;
   struct Group {
     std::vector<std::string_view> keys;
@@ -64,12 +64,12 @@ void for_each_setting(const SettingNode& node, const std::string& path, const Vi
   }
 }
 
-// Keys that hold a value; those of an object that stands in several places count once.
+// The number of keys that hold a value; those of a shared object count once.
 std::size_t count_settings(const SettingNode& scene);
 
 // docs/scene.schema.json
 std::string scene_schema(const SettingNode& scene);
-// What docs/scenes.md has between these two lines.
+// The part of docs/scenes.md between these two lines.
 inline constexpr std::string_view settings_begin = "<!-- settings: made by `make settings` -->",
                                   settings_end = "<!-- settings: end -->";
 std::string settings_table(const SettingNode& scene);

@@ -22,7 +22,7 @@ void describe_times_and_place(V& row, double& t_s, Vec3& x_m) {
 }
 inline constexpr auto path_row = [](auto& row, VectorKey& key) { describe_times_and_place(row, key.t_s, key.x); };
 
-struct Placement {  // the two members of whatever is placed
+struct Placement {  // of a cloth or a solid
   Vec3 &translation_m, &rotation_deg;
 };
 template <>
@@ -142,7 +142,7 @@ void describe(V& v, SceneDrag& drag) {
   v.number({"to_s", "when it lets go", "the path's last time"}, within_a_run, drag.to_s);
 }
 
-// Which kind it is: the keys of all kinds exclude each other.
+// The kind: the keys of all kinds exclude each other.
 template <class V>
 void describe_kind(V& v, SceneCloth& cloth) {
   v.exactly_one(keys_of_kinds<ClothKind>());
@@ -161,7 +161,7 @@ void describe_kind(V& v, SceneCloth& cloth) {
   });
 }
 
-// "sheet", "tube", "ribbon": of those that have one whatever they are made of.
+// "sheet", "tube", "ribbon": the usual names that do not depend on a file.
 inline std::string usual_names() {
   std::string names;
   for_each_kind<ClothKind>([&](const auto& kind) {

@@ -32,7 +32,7 @@ std::string columns(const SettingNode& rows) {
   return "[[" + joined(names, "") + "], ...]";
 }
 
-// Columns of one range after another are said once: "t_s 0 to 3600; x, y, z up to ±10000".
+// Consecutive columns of the same range are named together: "t_s 0 to 3600; x, y, z up to ±10000".
 std::string ranges(const SettingNode& rows) {
   std::string text, last;
   for (const SettingNode& column : rows.inside) {

@@ -11,7 +11,7 @@ void describe(V& v, PairFriction& pair) {  // a row
   v.column("friction", Range{0, 100}, pair.friction);
 }
 
-// Rows [t_s, x, y, z] of a vector that changes.
+// Rows [t_s, x, y, z] of a vector over time.
 inline auto in_time(double most) {
   return [most](auto& row, VectorKey& key) {
     row.column("t_s", within_a_run, key.t_s);

@@ -11,7 +11,7 @@ namespace {
 
 using Kind = SettingNode::Kind;
 
-// Links as their words: an editor shows plain text.
+// Replaces links by their text: an editor shows plain text.
 std::string plain(std::string_view markdown) {
   std::string text;
   for (std::size_t at = 0; at < markdown.size(); ++at) {
@@ -124,7 +124,7 @@ class Schema {
       keys("required", {key});
       json_.end_object();
     }
-    if (!group.one_needed) {  // or none of them
+    if (!group.one_needed) {  // none of them is allowed, too
       json_.begin_object();
       json_.key("not");
       json_.begin_object();

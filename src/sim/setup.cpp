@@ -1,4 +1,4 @@
-// sim/setup.cpp: the cloth of a scene, and what happens to it.
+// sim/setup.cpp: the cloth of a scene, and its changes over time.
 #include "sim/setup.hpp"
 
 #include "core/error.hpp"

@@ -24,7 +24,7 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-// A scene from its files to the files of its run.  A state that is kept: which frames are written, then that of the simulation.
+// Runs a scene from its files to the files of its run.  A saved state: the numbers of written frames, then the simulation's state.
 class Run : public SimulationObserver {
  public:
   Run(const Scene& scene, const RunOptions& options) : scene_(scene), options_(options) {}
@@ -61,9 +61,9 @@ class Run : public SimulationObserver {
   std::optional<RunWriter> writer_;
   std::optional<Recorder> recorder_;
   std::optional<Checkpoints> checkpoints_;
-  std::string state_;                  // that was read,
-  std::optional<StateReader> reader_;  // which the simulation may still read from
-  WrittenFrames written_;              // when it was kept
+  std::string state_;                  // the saved state,
+  std::optional<StateReader> reader_;  // from which the simulation may still read
+  WrittenFrames written_;              // when the state was saved
 };
 
 Report Run::operator()() {
@@ -111,7 +111,7 @@ void Run::load() {
   report.threads = available_threads();
 }
 
-// Where the run was left; from its beginning, when it had not come to a state that could be kept.
+// Resumes at the saved state; from the beginning, if there is none.
 void Run::take_up() {
   const std::string path = folder_->path("checkpoint.bin");
   std::optional<std::string> state = read_checkpoint(path, input_hash_);
@@ -169,7 +169,7 @@ Report Run::finish() {
   Limits limits;
   const bool fell = report.ended == reason::never_touched || report.ended == reason::fell_off;
   limits.must_be_still = scene_.until_still && !simulation_->body_moves() && !fell &&
-                         !simulation_->stopped_short();  // of what falls rest is not asked
+                         !simulation_->stopped_short();  // falling cloth need not rest
   report.verdict.limits = limits;
   if (recorder_) {
     report.audit = recorder_->report();

@@ -12,7 +12,7 @@
 namespace toile::internal {
 namespace {
 
-// Each code once.
+// Without duplicate codes.
 void add_reason(std::vector<Reason>& reasons, std::string_view code, const std::string& detail) {
   for (Reason& known : reasons) {
     if (known.code != code) continue;
@@ -84,7 +84,7 @@ void Simulation::judge_worn() {
   if (failure_.empty()) slid_down(1);
 }
 
-// Where it was left.
+// Resumes from the saved state.
 void Simulation::take_up(StateReader& archive) {
   remember(archive);
   earlier_s_ = report_.seconds_total;
@@ -104,8 +104,7 @@ std::string Simulation::state() {
   return archive.take();
 }
 
-// A phase ends before its end.  False: the user wants it so, and it can be taken up again.  True: the time that it was given is over, and what
-// there is is shown.
+// A phase ends early.  False: the user stopped it, and it can be resumed.  True: its time limit is over, and the present state is shown.
 bool Simulation::cut_off(const std::string& when) {
   stopped_short_ = !user_stopped_;
   if (stopped_short_)
@@ -124,12 +123,12 @@ void Simulation::end(std::string_view how, const std::string& detail) {
   add_reason(failure_, how, detail);
 }
 
-// The verdict, if it is a pass, is one with this reservation.
+// A pass gets this reservation.
 void Simulation::qualify(std::string_view code, const std::string& detail) {
   add_reason(qualifications_, code, detail);
 }
 
-// The step could not be made however short: says over what, and leaves it in a file.
+// The step failed at every step size: reports the offenders, also to the observer.
 void Simulation::collapse(const std::string& when, const FrameReport& frame, const ClothMesh& mesh,
                           std::span<const Vec3> x) {
   std::string words = when + ": " + frame.diagnosis;
@@ -144,12 +143,12 @@ void Simulation::collapse(const std::string& when, const FrameReport& frame, con
   end(reason::step_collapsed, words);
 }
 
-// Called before every first step of something; the first of them counts.
+// Called before the first step of every phase; only the first call counts.
 void Simulation::end_startup() {
   if (report_.startup.total == 0) report_.startup.total = options_.seconds_before + options_.watch.seconds();
 }
 
-// Where the time of one of its parts goes: after the first step, nowhere.
+// The counter for the time of a part of the startup; after the first step a dummy.
 double& Simulation::startup(double StartupReport::*part) {
   return report_.startup.total == 0 ? report_.startup.*part : after_startup_;
 }

@@ -1,13 +1,14 @@
 // sim/simulation.hpp: a scene in memory, from flat panels to cloth that follows a body.  Reads and writes no file.
 //
-//   simulation.cpp           what it owns, how it ends, how it is taken up again
-//   simulation_phases.cpp    its phases as data, and the loop over the frames of any of them but sewing
-//   simulation_placing.cpp   where the panels go, around whom
-//   simulation_put_on.cpp    sewing, growth, the drape of what is worn below
+//   simulation.cpp           construction, ends, saving and resuming
+//   simulation_phases.cpp    its phases as data, and the loop over the frames of all but sewing
+//   simulation_placing.cpp   placing the panels around a body
+//   simulation_put_on.cpp    sewing, growth, the drape of inner garments
 //   simulation_start.cpp     crossings before the first frame
-//   simulation_live.cpp      what is shown: the drape, then the motion
+//   simulation_live.cpp      the written frames: the drape, then the motion
 //
-// It can be left between any two frames and taken up again: `place_` says where it is, and each phase begins where place_.frame says.  Files, verdict and pictures are made by who observes it.
+// It can be left between any two frames and resumed: `place_` has the phase and the frame, and each phase begins at place_.frame.  Files, verdict
+// and pictures are made by its observer.
 #pragma once
 #include "core/state_archive.hpp"
 #include "core/stopwatch.hpp"
@@ -37,8 +38,8 @@ enum class RunPhase : std::uint8_t { sewing, growth, inner_drape, drape, motion 
 
 struct RunPlace {
   RunPhase phase = RunPhase::sewing;
-  std::uint64_t cloth = 0;  // while it is put on
-  std::int64_t frame = 0;   // of the phase: how many have been simulated
+  std::uint64_t cloth = 0;  // the one being put on
+  std::int64_t frame = 0;   // frames of the phase that are simulated
   template <class Archive>
   void remember(Archive& archive) {
     archive(phase, cloth, frame);
@@ -52,16 +53,16 @@ struct PhasePlan {
   std::string_view doing;            // for the progress
   std::string meanwhile;             // for a message: "while ..."
   std::int64_t frames = 0;           // at most
-  std::optional<RestLimits> awaits;  // it ends earlier, at rest
-  double rest_from_s = 0;            // not before
-  bool shown = false;                // its frames are the result
+  std::optional<RestLimits> awaits;  // it ends early at rest,
+  double rest_from_s = 0;            // but not before this time
+  bool shown = false;                // its frames are written
   std::array<PhaseReport*, 2> reports{nullptr, nullptr};
 };
 
 struct SimulationOptions {
   std::function<void(const Progress&)> progress;  // may be empty
   std::function<bool()> stop;                     // asked between frames; may be empty
-  double time_limit_s = 0;                        // wall time that dressing may take, up to the motion; 0: any
+  double time_limit_s = 0;                        // wall time for dressing, up to the motion; 0: no limit
   double seconds_before = 0;                      // wall time since the program began, for the report
   Stopwatch watch;                                // since the run began
 };
@@ -73,46 +74,46 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  // All that the scene asks for.  Throws Error(bad_start) with `strict_start`.
+  // Simulates the whole scene.  Throws Error(bad_start) with `strict_start`.
   void run();
 
-  // The same in parts.  Puts on what is to be worn; false: it was stopped, or ended before anything was on.
+  // The same in parts.  Puts the garments on; false: it was stopped, or failed before any was on.
   bool put_on();
-  // Once, after put_on(): the first frame of what hangs.  `prepare` is called before a state is read back that it was taken up from: what happens
-  // to the cloth, and how the body moves, has to be known by then.
+  // Call once, after put_on(): the first frame.  `prepare` is called before a saved state is read back: the changes of the cloth over time and
+  // the body's motion have to be known by then.
   void begin(const std::function<void(OutfitRun&)>& prepare = {});
   bool has_begun() const { return begun_; }
-  // Of dressing, from now on: how long the drape may be, in simulated and in wall time (0: any).
+  // Limits the drape from now on, in simulated and in wall time (0: no limit).
   void limit_dressing(double longest_s, double time_limit_s);
-  // Of a drape that is over: is it worn, as far as that can be told without measuring?
+  // After the drape: is it worn, as far as that can be told without measuring?
   void judge_worn();
-  // After a stop, or once dressing is over: what comes is stopped only if it is asked for again.
+  // After a stop, or once dressing is over: clears the stop and the time limit.
   void go_on() {
     user_stopped_ = false;
     options_.time_limit_s = 0;
   }
-  // Until it is at rest, where that is awaited, or its time is over.  False: it ended for a bad reason, which failure() has.
+  // Drapes until rest, where that is awaited, or until its time is over.  False: it failed, see failure().
   bool drape();
-  // From here on frames are the caller's.
+  // The run, whose frames the caller advances from here on.
   OutfitRun& live() { return *run_; }
   bool rests() const { return rest_.at_rest(); }
-  // What there is was put on as far as it went: that one frame is shown, and nothing moves.
+  // Dressing ended early: its last frame is the only one shown.
   bool stopped_short() const { return stopped_short_; }
   BodySurface* body() { return body_ ? &*body_ : nullptr; }
 
   const Scene& scene() const { return scene_; }
-  // Of a simulation that has begun, all but the mesh, which live().model() has.
+  // After begin(): all but the mesh, which live().model() has.
   const Outfit& outfit() const { return outfit_; }
   std::span<const Vec3> body_x() const { return body_x_; }
   std::span<const Triangle> body_triangles() const { return body_triangles_; }
-  // Of the body's vertices: the body's own, then those of every solid.
+  // Parts of the body's vertices: the body's own, then those of every solid.
   std::span<const JoinedColliders::Part> colliders() const { return colliders_; }
   Index particles_of_first_panels() const { return cloth_.front().garment.mesh.particle_count; }
   bool body_moves() const { return motion_.has_value(); }
   const std::optional<BodyMovement>& motion() const { return motion_; }
-  // On live()'s clock, of one whose body has begun to move.
+  // On live()'s clock; once the body has begun to move.
   double motion_from_s() const { return run_->motion_from_s(); }
-  // Of a simulation that has begun.
+  // After begin().
   std::string state();
   Report& report() { return report_; }
   const Report& report() const { return report_; }
@@ -120,7 +121,7 @@ class Simulation {
   const std::vector<Reason>& qualifications() const { return qualifications_; }
   double seconds() const { return earlier_s_ + options_.watch.seconds(); }
 
-  // Of a simulation that has not begun: where it was left.  The archive must outlive put_on() and run().
+  // Before begin(): resumes from a saved state.  The archive must outlive put_on() and run().
   void take_up(StateReader& archive);
 
  private:
@@ -150,7 +151,7 @@ class Simulation {
   void end_startup();
   double& startup(double StartupReport::*part);
 
-  // Taking up and keeping the state.
+  // Saving and restoring the state.
   template <class Archive>
   void remember(Archive& archive) {
     if constexpr (!Archive::reads) report_.seconds_total = seconds();
@@ -159,7 +160,7 @@ class Simulation {
   }
   // Until restore() has been called.
   bool resumes() const { return taken_up_ != nullptr; }
-  // The rest of the state, into the phase that it is about, once the outfit has its garments and its state.
+  // Restores the rest of the state, that of its phase, once the outfit has its garments and its state.
   template <class Phase>
   void restore(Phase& phase);
   // After a frame of the phase, or before its first.
@@ -219,45 +220,45 @@ class Simulation {
   Scene scene_;
   SimulationOptions options_;
   SimulationObserver* observer_;
-  double earlier_s_ = 0;  // of one that is taken up: what it had taken before
+  double earlier_s_ = 0;  // wall time before it was resumed
   Report report_;
   double after_startup_ = 0;
   std::vector<Reason> failure_, qualifications_;
-  std::vector<LoadedCloth> cloth_;  // until it begins
+  std::vector<LoadedCloth> cloth_;  // until begin()
   std::optional<Outfit> start_;     // likewise
   Outfit outfit_;
-  std::optional<NewGarment> new_garment_;  // of a weld
+  std::optional<NewGarment> new_garment_;  // of the last weld
   Vec3s body_x_;                           // at the last frame
-  Vec3s standing_x_;                       // how the body stands when it is dressed
+  Vec3s standing_x_;                       // the body when it is dressed
   std::vector<Triangle> body_triangles_;
   std::vector<JoinedColliders::Part> colliders_;
   std::optional<BodySurface> body_;
-  std::size_t person_vertices_ = 0, person_triangles_ = 0;  // of body_x_ and body_triangles_; solids come behind
+  std::size_t person_vertices_ = 0, person_triangles_ = 0;  // the first of body_x_ and body_triangles_; solids follow
   std::optional<BodyMeasurements> measurements_;
-  std::optional<BodyFigures> figures_;         // as it stands; figures() makes them
+  std::optional<BodyFigures> figures_;         // of standing_x_; figures() makes them
   std::optional<DressingBody> dressing_body_;  // until the first garment is on
   std::optional<BodyMovement> motion_;
   StepOptions step_;
   TouchMemory touches_;
   std::optional<FallWatch> fall_watch_;
-  std::optional<TrunkLevels> trunk_;  // of a person as she stands, once asked for
+  std::optional<TrunkLevels> trunk_;  // of standing_x_; made on first use
 
   DressingBody::Pose pose_;    // of dressing_body_, while the first garment is sewn
-  bool on_shoulders_ = false;  // it hangs from there, not from its waist
+  bool on_shoulders_ = false;  // it hangs from the shoulders, not from its waist
   std::vector<std::vector<Index>>
-      open_pairs_;                     // [garment that is on] what its weld left open: places in GarmentMesh::pairs
+      open_pairs_;                     // [garment that is on] pairs its weld left open: indices of GarmentMesh::pairs
   std::vector<Belonging> belongings_;  // [garment]
   bool stopped_short_ = false;
-  // [garment] what its pins hold, since everything is on.
+  // [garment] its pinned particles, once all garments are on.
   std::vector<std::vector<PinnedParticle>> pinned_;
 
-  mutable bool user_stopped_ = false;  // options_.stop has said so
+  mutable bool user_stopped_ = false;  // options_.stop has returned true
 
   RunPlace place_;
   int frames_shown_ = 0;
   PhaseSeconds seconds_before_motion_;
   RestWatch rest_;
-  StateReader* taken_up_ = nullptr;  // until the phase that it is about has taken it
+  StateReader* taken_up_ = nullptr;  // until its phase has restored it
   std::optional<OutfitRun> run_;     // from the weld of each garment on
   bool begun_ = false;
 };

@@ -11,8 +11,8 @@
 namespace toile::internal {
 namespace {
 
-// Of the height of the hips, or of a bodice's of the waist: what is wholly below has come past the widest place, and nothing that stands
-// still lifts it up again.  The run ends, instead of waiting for folds about the feet to rest.
+// Share of the height of the hips, or of the waist for a bodice: a garment wholly below has passed the widest place, and a static body
+// does not lift it again.  The run ends, instead of waiting for folds about the feet to rest.
 constexpr double beyond_return = 0.75;
 
 }  // namespace
@@ -27,14 +27,14 @@ void Simulation::begin(const std::function<void(OutfitRun&)>& prepare) {
   begun_ = true;
   show_first();
   watch_falling();
-  // What hangs now is the run's: a second and a third copy of a fine mesh are large.
+  // The run owns the cloth now: further copies of a fine mesh are large.
   for (const LoadedCloth& cloth : cloth_) belongings_.push_back(belonging_of(cloth.garment));
   cloth_.clear();
   outfit_.mesh = {};
   report_.ended = "time";
   end_startup();
   if (resumed) {
-    // In motion, run() restores once the body moves; who prepares has seen to that.
+    // In motion, run() restores once the body moves, as `prepare` has arranged.
     if (prepare || place_.phase == RunPhase::drape) restore(*run_);
     return;
   }
@@ -42,7 +42,7 @@ void Simulation::begin(const std::function<void(OutfitRun&)>& prepare) {
   between_frames(*run_, true);
 }
 
-// The pins of a garment hold what is at their places once everything is on.
+// Pins of a garment choose their particles once all garments are on.
 Events Simulation::events() {
   Events events = events_of(scene_, outfit_, cloth_);
   if (!sewn()) return events;
@@ -110,7 +110,7 @@ int Simulation::frames_in_motion() const {
   return frames_in(whole ? motion_->duration_s : scene_.seconds);
 }
 
-// Garments that fall to nowhere end the run, where that can be told: in still air, and if no hand holds the cloth.
+// Lost garments end the run, where that can be told: in still air, and if no hand drags the cloth.
 void Simulation::watch_falling() {
   if (!sewn() || !body_ || scene_.gravity_m_per_s2.isZero(0) || !scene_.gravity_path.empty()) return;
   for (const SceneCloth& cloth : scene_.cloth)
@@ -136,7 +136,7 @@ bool Simulation::goes_on() {
   return !lost() && !(place_.phase == RunPhase::drape && slid_down(beyond_return));
 }
 
-// Of a run whose time is over.
+// The reasons and qualifications of a run whose time is over.
 void Simulation::judge_end() {
   if (!run_->settled())
     failure_.push_back({std::string(reason::not_settled),
@@ -146,12 +146,12 @@ void Simulation::judge_end() {
     lost();
 }
 
-// A skirt that lies about the feet is not worn, nor is a dress that hangs at the hips.
+// A skirt about the feet is not worn, nor is a dress that hangs at the hips.
 bool Simulation::slid_down(double share) {
   if (!body_) return false;
   const std::span person = std::span<const Triangle>(body_triangles_).first(person_triangles_);
   if (!trunk_) {
-    const bool torso = !find_arms(std::span(standing_x_).first(person_vertices_), person);  // has no hips to be found
+    const bool torso = !find_arms(std::span(standing_x_).first(person_vertices_), person);  // has no hips
     trunk_ = torso ? TrunkLevels{} : trunk_levels(std::span(standing_x_).first(person_vertices_), person);
   }
   const std::optional<LostGarment> lost =

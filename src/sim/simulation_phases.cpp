@@ -1,4 +1,4 @@
-// sim/simulation_phases.cpp: phases as data, and how their frames are gone through.
+// sim/simulation_phases.cpp: phases as data, and the loop over their frames.
 #include "sim/simulation.hpp"
 
 #include <fmt/printf.h>
@@ -10,9 +10,8 @@
 namespace toile::internal {
 namespace {
 
-constexpr double rest_s = 0.5;  // after a garment has settled, before it may be said to be still
-constexpr RestLimits rests_below_others{10,
-                                        std::numeric_limits<double>::infinity()};  // of a garment that others go over
+constexpr double rest_s = 0.5;  // after a garment has settled, before it may count as still
+constexpr RestLimits rests_below_others{10, std::numeric_limits<double>::infinity()};  // of an inner garment
 
 PhasePlan plan_of(RunPhase which, const Phase& cloth, std::string_view doing) {
   PhasePlan plan;
@@ -24,7 +23,7 @@ PhasePlan plan_of(RunPhase which, const Phase& cloth, std::string_view doing) {
 
 }  // namespace
 
-// Of the outfit as it is now.
+// The outfit's run; started from the present outfit if there is none.
 OutfitRun& Simulation::outfit_run() {
   if (!run_) run_.emplace(run_options(scene_, step_, stop()), outfit_, body(), new_garment_.value_or(NewGarment{}));
   return *run_;
@@ -40,7 +39,7 @@ Phase Simulation::drape_phase() const {
   return after_weld(new_garment_->worn_before == 0, pace());
 }
 
-// The body becomes what it is, within the garment.
+// The thin body grows to its full size within the garment.
 PhasePlan Simulation::growth_plan() {
   PhasePlan plan = plan_of(RunPhase::growth, within_growing(pose_.falls_s == 0), "fitting");
   plan.meanwhile = "while the body grew into the garment";
@@ -48,7 +47,7 @@ PhasePlan Simulation::growth_plan() {
   return plan;
 }
 
-// A garment that another one goes over comes to rest first.
+// An inner garment comes to rest before the next is put on.
 PhasePlan Simulation::inner_drape_plan(std::size_t cloth) {
   PhasePlan plan = plan_of(RunPhase::inner_drape, drape_phase(), "draping");
   plan.meanwhile = "while " + printable(cloth_[cloth].garment.name) + " was draped";
@@ -70,7 +69,7 @@ PhasePlan Simulation::drape_plan() {
   return plan;
 }
 
-// The phase of the cloth is that of the drape.
+// The cloth keeps the phase of the drape.
 PhasePlan Simulation::motion_plan() {
   PhasePlan plan = plan_of(RunPhase::motion, {}, "moving");
   plan.meanwhile = "while moving";
@@ -80,7 +79,7 @@ PhasePlan Simulation::motion_plan() {
   return plan;
 }
 
-// From its beginning, or from where it was left.
+// From its beginning, or from the saved frame.
 void Simulation::enter(const PhasePlan& plan, std::size_t cloth, const BodyAt& moves) {
   outfit_run().begin(plan.cloth);
   if (moves) run_->start_motion(moves);
@@ -100,7 +99,7 @@ bool Simulation::at_rest(const PhasePlan& plan) const {
          rest_.at_rest();
 }
 
-// False: it ended for a bad reason, which failure() has, or was stopped.
+// False: it failed, see failure(), or was stopped.
 bool Simulation::go_through(const PhasePlan& plan) {
   if (plan.shown && place_.frame > 0 && !goes_on()) return false;
   const std::int64_t first = place_.frame;

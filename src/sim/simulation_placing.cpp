@@ -1,4 +1,4 @@
-// sim/simulation_placing.cpp: where the flat panels of a garment go, around whom, and what its pattern says of her.
+// sim/simulation_placing.cpp: places the flat panels of a garment around a body, and compares the body with the pattern's.
 #include "core/error.hpp"
 #include "garment/layering.hpp"
 #include "garment/placement.hpp"
@@ -19,7 +19,7 @@ constexpr std::array<double, 4> arm_lifts{0, 0.25, 0.5, 1};  // 1: level
 
 }  // namespace
 
-// Around whom the first garment is sewn, if it is a person.
+// Finds the person around whom the first garment is sewn, if there is one.
 void Simulation::find_person() {
   const Timed timed(startup(&StartupReport::placement));
   Arms arms =
@@ -48,13 +48,13 @@ void Simulation::make_thin() {
   stand();
 }
 
-// The body stands where body_x_ says: twice, as what it has been is a motion too.
+// Sets the body to body_x_: twice, so that its motion is zero.
 void Simulation::stand() {
   for (int k = 0; k < 2; ++k) body_->set_motion(body_x_, body_x_);
 }
 
-// With the arms lifted no farther than leaves the fewest seams behind the thin body.  A wide bodice is drawn flat across the arms: they
-// have to be out of the way of its sides.
+// Lifts the arms by the least that leaves the fewest seams behind the thin body.  A wide bodice is drawn flat across the arms, which
+// must not be in the way of its sides.
 Placement Simulation::place_around_arms(GarmentMesh& garment) {
   const GarmentMesh drawn = garment;
   Placement best;
@@ -70,7 +70,7 @@ Placement Simulation::place_around_arms(GarmentMesh& garment) {
     stand();
     Placement placement = place_garment(placed, *body_, person_vertices_);
     const std::array<double, 2> sleeves_m =
-        hang_sleeves(placed, arms, dressing_body_->height_m());  // the shift was the whole garment's
+        hang_sleeves(placed, arms, dressing_body_->height_m());  // the shift moved the whole garment
     const std::array<bool, 2> covered = covers_shoulders(placed, arms);
     const DressingBody::Pose pose = dressing_body_->pose_within(lift, covered, sleeves_m);
     dressing_body_->set_pose(pose);
@@ -89,7 +89,7 @@ Placement Simulation::place_around_arms(GarmentMesh& garment) {
   return best;
 }
 
-// `tell`: what is wrong with the place.
+// `tell`: report problems of the placement.
 void Simulation::place(GarmentMesh& garment, bool tell) {
   if (!body_) return;
   const Timed timed(startup(&StartupReport::placement));
@@ -115,7 +115,7 @@ std::vector<LabelHeight> Simulation::heights_of(std::size_t cloth, std::vector<s
   return label_heights_of(scene_.cloth[cloth], cloth_[cloth].garment, cloth == 0 && on_shoulders_, figures(), warnings);
 }
 
-// What the pattern says of the body that it was cut for, where this is another one.
+// Warns where the body differs from the one that the pattern was cut for.
 void Simulation::tell_misfits(std::size_t cloth) {
   if (!cloth_[cloth].pattern || person_vertices_ == 0) return;
   const std::string which = cloth_.size() > 1 ? printable(cloth_[cloth].garment.name) + ": " : "";

@@ -1,4 +1,4 @@
-// sim/simulation_put_on.cpp: from flat panels to a garment that is on; what was worn before comes first.
+// sim/simulation_put_on.cpp: from flat panels to a garment that is on, from the innermost outwards.
 #include "core/error.hpp"
 #include "sim/simulation.hpp"
 
@@ -13,7 +13,7 @@ constexpr double sewing_film_fps = 30;
 
 }  // namespace
 
-// Cloth that is not sewn, or that another run has draped.
+// Puts on cloth that is not sewn, or that another run has draped.
 void Simulation::hang_as_drawn() {
   outfit_ = start_ ? std::move(*start_) : outfit_of_shapes(cloth_);
   start_.reset();
@@ -38,7 +38,7 @@ bool Simulation::put_on() {
   return true;
 }
 
-// The garments that were on when it was left, but for where they were.
+// Restores the garments that were on when it was left, without their positions.
 void Simulation::wear_again() {
   if (start_ || !sewn()) {
     hang_as_drawn();
@@ -56,11 +56,11 @@ void Simulation::wear_again() {
   }
 }
 
-// Leaves the outfit welded, with the garment on.
+// Afterwards the outfit is welded, with the garment on.
 bool Simulation::sew(std::size_t k) {
   const bool resumed = resumes();
   if (!resumed) place_ = {RunPhase::sewing, k, 0};
-  run_.reset();  // the mesh of the outfit becomes another
+  run_.reset();  // the outfit's mesh changes
   LoadedCloth& cloth = cloth_[k];
   GarmentMesh& garment = cloth.garment;
   place(garment, !resumed);
@@ -80,7 +80,7 @@ bool Simulation::sew(std::size_t k) {
     pose_.falls_s = DressingBody::falling_s;
     dressing_body_->set_pose(pose_);
   }
-  const bool filmed = k == 0;  // the panels of the others come with what is worn: another mesh
+  const bool filmed = k == 0;  // later panels are sewn beside worn garments: another mesh
   if (resumed) {
     restore(dressing);
   } else {
@@ -97,7 +97,7 @@ bool Simulation::sew(std::size_t k) {
   phase.simulated_s += sewing.time_s();
   add_seconds(phase, sewing.seconds());
   const std::string which = cloth_.size() > 1 ? printable(garment.name) + ": " : "";
-  // What blocks it may still come apart: that it is blocked is not known before.
+  // When stopped it is not known to be blocked: the obstacle may still clear.
   const bool ended =
       sewing.status() != SewingStatus::sewing && !(sewing.status() == SewingStatus::blocked && stopped());
   if (!ended) {
@@ -117,7 +117,7 @@ bool Simulation::sew(std::size_t k) {
   return stopped_short_ || free_start(true);
 }
 
-// Until the seams are closed or will not close; returns what the last frame was.
+// Until the seams are closed or blocked; returns the report of the last frame.
 FrameReport Simulation::sew_frames(Dressing& dressing, bool filmed) {
   Sewing& sewing = dressing.sewing();
   const int every = std::max(1, static_cast<int>(std::lround(SewingOptions{}.fps / sewing_film_fps)));
@@ -147,8 +147,8 @@ FrameReport Simulation::sew_frames(Dressing& dressing, bool filmed) {
   return frame;
 }
 
-// What would not close stays open: the garment is welded as far as it goes, and written as it is then.  With weight, what hangs by nothing
-// would fall out of the picture.
+// Blocked seams stay open: the garment is welded where it can be, and written as it is then.  With weight, loose panels would fall out of
+// the picture.
 void Simulation::leave_open(std::size_t k, Dressing& dressing) {
   const GarmentMesh& panels = dressing.panels();
   const std::vector<SeamGap> gaps = dressing.sewing().gaps();
@@ -168,7 +168,7 @@ void Simulation::leave_open(std::size_t k, Dressing& dressing) {
   }
 }
 
-// Nothing of it is written.
+// Its frames are not written.
 bool Simulation::grow(std::size_t k) {
   if (!dressing_body_) return true;
   const PhasePlan plan = growth_plan();
@@ -182,7 +182,7 @@ bool Simulation::grow(std::size_t k) {
   return true;
 }
 
-// Likewise.
+// Its frames are not written, either.
 bool Simulation::drape_inner(std::size_t k) {
   const PhasePlan plan = inner_drape_plan(k);
   enter(plan, k);

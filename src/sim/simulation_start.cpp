@@ -1,4 +1,4 @@
-// sim/simulation_start.cpp: what is wrong with cloth before its first frame, and how it is taken apart.
+// sim/simulation_start.cpp: crossings of the cloth before its first frame, and their untangling.
 #include "core/error.hpp"
 #include "dress/start_state.hpp"
 #include "sim/simulation.hpp"
@@ -19,8 +19,8 @@ void Simulation::bad_start(const std::string& name, const std::string& what) {
   report_.warnings.push_back("bad start: " + what);
 }
 
-// Cloth that passes through itself or the body is taken apart before the first frame, as far as it can be (dress/start_state.hpp).
-// `sewn_now`: what sewing left, not what the user gave; --strict-start is about the latter.
+// Cloth that passes through itself or the body is untangled before the first frame, as far as possible (dress/start_state.hpp).
+// `sewn_now`: the crossings come from sewing, not from the user's input, to which alone --strict-start applies.
 bool Simulation::free_start(bool sewn_now) {
   const Timed timed(startup(&StartupReport::crossings));
   const StartCrossings found = start_crossings(outfit_, body_triangles_, body_x_);
@@ -34,10 +34,10 @@ bool Simulation::free_start(bool sewn_now) {
       outfit_, body_triangles_, body_x_, held_now(sewn_now), [&] { return stopped(); }, sewn_now ? sewn_in_vain : 0);
   if (!untangled.moved_far.empty()) qualify(reason::moved_by_untangling, untangled.moved_far);
   const int weightless = sewn_now ? come_apart() : 0;
-  // How far it came is by chance: it begins again when the run goes on.
+  // How far it came is not reproducible: a resumed run untangles from the beginning.
   if (stopped() && !cut_off("while untangling")) return false;
   const StartCrossings left = start_crossings(outfit_, body_triangles_, body_x_);
-  StartReport& start = report_.start;  // of the last garment when several are sewn; trials of all of them
+  StartReport& start = report_.start;  // of the last of several sewn garments; trials of all of them
   start = {found.cloth_cloth,
            found.cloth_body,
            left.cloth_cloth,
@@ -52,7 +52,7 @@ bool Simulation::free_start(bool sewn_now) {
   return true;
 }
 
-// What untangling must leave where it is: what was worn before, or what pins hold from the first moment.
+// Particles that untangling must not move: those of inner garments, or those pinned from the start.
 std::vector<Index> Simulation::held_now(bool sewn_now) const {
   if (!sewn_now) return held_from_the_start(events_of(scene_, outfit_, cloth_));
   std::vector<Index> worn(static_cast<std::size_t>(new_garment_->worn_before));
@@ -60,15 +60,15 @@ std::vector<Index> Simulation::held_now(bool sewn_now) const {
   return worn;
 }
 
-// What trials from rest leave of a weld may come apart as the garment moves, with threads that want to be as long as they were cut, before
-// it has weight.  Nothing of it is written.  Returns the number of frames.
+// Crossings that remain after trials from rest may come apart as the garment moves, its threads contracting to their rest length, before
+// it has weight.  These frames are not written.  Returns the number of frames.
 int Simulation::come_apart() {
   const int most = frames_in(most_waiting_s);
   int frames = 0;
   while (frames < most && start_crossings(outfit_, {}, {}).all() > 0) {
     if (frames == 0) outfit_run().begin(coming_apart(pace()));
     const FrameReport frame = run_->frame();
-    if (frame.interrupted || !frame.ok) break;  // as the drape will say
+    if (frame.interrupted || !frame.ok) break;  // the drape will report it
     ++frames;
   }
   if (frames > 0) outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());

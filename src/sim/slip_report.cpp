@@ -55,7 +55,7 @@ std::string slip_line(const SlipStatistics& slip) {
   std::string line;
   const auto add = [&](const std::string& what, const Slip& s) {
     if (s.vertices == 0) return;
-    const auto cm = [](double m) { return std::round(1000 * m) / 10 + 0.0; };  // no minus before a zero
+    const auto cm = [](double m) { return std::round(1000 * m) / 10 + 0.0; };  // no -0
     line += (line.empty() ? "  against the moving body: " : "; ") + what +
             fmt::sprintf(" %.1f cm (at worst %.1f)", cm(s.last_m), cm(s.worst_m));
   };

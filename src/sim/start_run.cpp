@@ -28,7 +28,7 @@ constexpr double farthest_body_m = 1e-3;
 
 Vec3 flat(const Vec2& p) { return {p.x(), p.y(), 0}; }
 
-// The triangles of one panel of the run, found by a point of the drawing.
+// Finds the triangle of a point of the drawing in one panel of the run.
 class PanelDrawing {
  public:
   PanelDrawing(const SurfaceMesh& run, Index group) : run_(&run) {
@@ -56,7 +56,7 @@ class PanelDrawing {
 
   struct Place {
     std::size_t triangle = 0;
-    Vec3 barycentric{1, 0, 0};  // beyond 0 ... 1 outside the panel's outline
+    Vec3 barycentric{1, 0, 0};  // outside 0 ... 1 beyond the panel's outline
     double distance_m = std::numeric_limits<double>::infinity();
   };
   Place find(const Vec2& p) const {
@@ -95,7 +95,7 @@ class PanelDrawing {
   std::vector<std::vector<std::size_t>> cells_;
 };
 
-// The frame of a run in which its cloth is draped: the last before the body moves, or the last of all.
+// The frame of a run in which its cloth is draped: the last before the body moves, or the last one.
 int draped_frame(const std::filesystem::path& run, int samples) {
   const std::string path = (run / "report.json").string();
   if (!std::filesystem::exists(path)) throw IoError(printable(path), "not there: no finished run to start from");

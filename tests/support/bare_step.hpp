@@ -1,5 +1,5 @@
-// tests/support/bare_step.hpp: the step as the paper has it, for tests that look at one thing alone.  What a scene gets when it says
-// nothing solves again where threads stretch too much and holds what the body pinches (StepOptions{}), and has air (AirOptions{}).
+// tests/support/bare_step.hpp: the paper's step without additions, for tests of a single feature.  The defaults of a scene solve
+// again where threads stretch too much and hold pinched particles (StepOptions{}), and have air (AirOptions{}).
 #pragma once
 #include "step/implicit_euler.hpp"
 

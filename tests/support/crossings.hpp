@@ -1,4 +1,4 @@
-// tests/support/crossings.hpp: does cloth pass through itself?  Asked plainly, with none of the library's code.
+// tests/support/crossings.hpp: does cloth pass through itself?  A reference without the library's code.
 #pragma once
 #include "core/types.hpp"
 
@@ -9,7 +9,7 @@
 
 namespace toile::internal::test {
 
-// Edges of the mesh that pass through one of its triangles, by trying all of them against all: the plain definition.
+// Edges of the mesh that pass through one of its triangles, by testing all pairs: the definition.
 inline int crossings_of(const Vec3s& x, const std::vector<Triangle>& triangles) {
   const auto at = [](Index i) { return static_cast<std::size_t>(i); };
   int count = 0;

@@ -1,4 +1,4 @@
-// tests/support/elastica.hpp: the heavy elastica: an inextensible strip, clamped level at one end, that its weight bends.
+// tests/support/elastica.hpp: the heavy elastica: an inextensible strip, clamped level at one end, bent by its weight.
 //
 //   theta'' + Gamma (1 - s) cos theta = 0,   theta(0) = 0,   theta'(1) = 0,        Gamma = rho g L^3 / D,  s in units of L
 //

@@ -1,6 +1,6 @@
-// support/every_target.hpp: the same work on each of the machine's instruction sets.
+// support/every_target.hpp: runs a test on each of the machine's instruction sets.
 //
-// TOILE_TEST_TARGETS names those that tests are to use, "SSSE3" or "SSSE3,AVX2"; unset: all that the machine has.
+// TOILE_TEST_TARGETS names those to test, "SSSE3" or "SSSE3,AVX2"; unset: all that the machine has.
 #pragma once
 #include <gtest/gtest.h>
 #include <hwy/detect_targets.h>
@@ -17,13 +17,13 @@ inline bool is_asked_for(const std::string& target) {
   return only == nullptr || (',' + std::string(only) + ',').find(',' + target + ',') != std::string::npos;
 }
 
-// Calls work(name of the set) on each in turn, the plainest last, and returns how many the machine has.
+// Calls work(name of the set) on each in turn, the most basic last, and returns the number that the machine has.
 template <class Work>
 int on_every_target(const Work& work) {
   int count = 0;
   bool any = false;
   std::string names;
-  const auto supported = static_cast<std::uint64_t>(hwy::SupportedTargets() & HWY_TARGETS);  // that there is code for
+  const auto supported = static_cast<std::uint64_t>(hwy::SupportedTargets() & HWY_TARGETS);  // with compiled code
   for (std::uint64_t left = supported; left != 0; left &= left - 1, ++count) {
     const auto target = static_cast<std::int64_t>(left & (~left + 1));
     names += std::string(" ") + hwy::TargetName(target);

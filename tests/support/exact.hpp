@@ -1,7 +1,7 @@
-// tests/support/exact.hpp: whole numbers of any size, and random bits: what the judges are judged by.
+// tests/support/exact.hpp: whole numbers of any size, and random bits, for exact tests of predicates and audits.
 //
-// Doubles are multiples of a power of two, so a set of them becomes whole numbers on one scale; signs of determinants
-// of those are the truth.  Schoolbook arithmetic, slow and obvious.
+// Doubles are multiples of a power of two, so a set of them becomes whole numbers on one scale, and signs of their
+// determinants are exact.  Schoolbook arithmetic, slow and obvious.
 #pragma once
 #include "core/types.hpp"
 
@@ -108,7 +108,7 @@ struct Split {
   int exponent = 0;
 };
 
-// The points times one power of two that makes all of them whole, the smallest that does.
+// The points times the smallest power of two that makes all of them whole.
 inline std::vector<Point> whole_points(std::span<const Vec3> points) {
   int lowest = 0;
   bool any = false;

@@ -1,4 +1,4 @@
-// tests/support/fabrics.hpp: fabrics for tests of what a closed form says.
+// tests/support/fabrics.hpp: fabrics for tests against closed forms.
 #pragma once
 #include "material/fabric.hpp"
 

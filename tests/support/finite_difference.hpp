@@ -3,7 +3,7 @@
 //   df/dx_j ~ (f(x + h e_j) - f(x - h e_j)) / (2 h)         error O(h^2) + O(rounding / h)
 //
 // The step is swept over decades and chosen where two neighbouring steps agree best.  The formula under test has
-// no part in the choice, so a wrong formula cannot pick the step that flatters it.
+// no part in the choice, so a wrong formula cannot influence it.
 //
 // A check against this must also assert that the derivative is not zero: two zeros agree perfectly.
 #pragma once

@@ -1,5 +1,5 @@
-// tests/support/json_schema.hpp: whether a JSON value is one that a schema allows; of the schemas of draft 2020-12 no more than ours
-// uses.  A word that it does not know fails the test.
+// tests/support/json_schema.hpp: whether a schema allows a JSON value; only the keywords of draft 2020-12 that our schema uses.
+// An unknown keyword fails the test.
 #pragma once
 #include "io/json.hpp"
 

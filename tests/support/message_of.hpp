@@ -1,4 +1,4 @@
-// tests/support/message_of.hpp: what an error says.
+// tests/support/message_of.hpp: the message of an error.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 namespace toile::test {
 
-// Of the E that `work` throws; a failure if it throws none.
+// The message of the E that `work` throws; a failure if it throws none.
 template <class E, class Work>
 std::string message_of(const Work& work) {
   try {

@@ -167,7 +167,7 @@ class UnitRoots {
     const int roots = signs_of(WholePolynomial({Whole(1)}), in);
     if (roots == 1) found_.push_back(in);
     if (roots <= 1) return;
-    // Of the seven points that cut the interval into eight, the first that is no root.
+    // Cut at the first of seven points, in eighths of the interval, that is no root.
     const Whole width = in.high.numerator - in.low.numerator;
     const Dyadic low{in.low.numerator.shifted(3), in.low.level + 3}, high{in.high.numerator.shifted(3), low.level};
     for (const std::int64_t eighths : {4, 3, 5, 2, 6, 1, 7}) {

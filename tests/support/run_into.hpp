@@ -1,4 +1,4 @@
-// tests/support/run_into.hpp: a scene into a folder.
+// tests/support/run_into.hpp: runs a scene into a folder.
 #pragma once
 #include "sim/simulate.hpp"
 

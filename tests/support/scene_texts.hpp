@@ -1,4 +1,4 @@
-// tests/support/scene_texts.hpp: scenes that between them use every setting, and JSON texts that differ from another in one place.
+// tests/support/scene_texts.hpp: scenes that together use every setting, and JSON texts with one value replaced.
 #pragma once
 #include "io/json.hpp"
 #include "io/json_text.hpp"
@@ -10,7 +10,7 @@
 
 namespace toile::internal::test {
 
-// None of the values is its key's default.
+// No value is its key's default.
 inline constexpr std::array<std::string_view, 9> scenes_with_every_setting = {
     R"({
   "name": "sheet",
@@ -85,7 +85,7 @@ inline constexpr std::array<std::string_view, 9> scenes_with_every_setting = {
   "body": null
 })"};
 
-// `json` as text, with `other` in the place of the value at `pointer`; nothing at all stands there if it is empty.
+// `json` as text, with the value at `pointer` replaced by `other`; if that is empty, the value is left out.
 inline void write_with(const Json& json, std::string_view pointer, std::string_view other, const std::string& here,
                        JsonText& text) {
   if (here == pointer) return text.raw(other);

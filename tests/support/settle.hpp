@@ -4,9 +4,9 @@
 
 namespace toile::internal::test {
 
-// Frames of `frame_s` until nothing is faster than `speed_m_per_s`; at least `least` of them.  Returns how many; fails the test where
-// `most` are not enough or a step collapses.  Long frames are deliberate: backward Euler takes energy out of what it does not resolve,
-// and where there is one rest state it does not depend on the way there.
+// Runs at least `least` frames of `frame_s` until no particle is faster than `speed_m_per_s`.  Returns their number; fails the test where
+// `most` are not enough or a step collapses.  Long frames are deliberate: backward Euler damps motion that it does not resolve,
+// and a unique rest state does not depend on the path to it.
 inline int settle(ClothRun& run, double frame_s, double speed_m_per_s, int least, int most) {
   run.adaptive.step_max_s = frame_s;
   if (run.stepper) run.stepper->options().step_max_s = frame_s;

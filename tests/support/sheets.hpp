@@ -16,7 +16,7 @@ struct Sheet {
   Vec3s x;  // flat in the plane y = 0, u along x, v along -z, so that the right side faces up
 };
 
-// The triangles whose middle, in the drawing, is_second says are a second panel of this name.
+// Makes a second panel of the triangles whose middle, in the drawing, passes is_second.
 template <class IsSecond>
 void add_panel(Sheet& sheet, const std::string& name, const IsSecond& is_second) {
   const auto second = static_cast<Index>(sheet.mesh.panel_names.size());
@@ -77,7 +77,7 @@ inline Sheet equilateral_sheet(double width_m, double height_m, double edge_m) {
   return sheet;
 }
 
-// Into one mesh, as its last panel.
+// Appends a sheet to a mesh, as its last panel.
 inline void add_sheet(Sheet& all, const Sheet& one, const Vec3& aside_m, const std::string& name) {
   const Index first = all.mesh.particle_count, panel = static_cast<Index>(all.mesh.panel_names.size());
   for (const Vec3& p : one.x) all.x.push_back(p + aside_m);
@@ -92,7 +92,7 @@ inline void add_sheet(Sheet& all, const Sheet& one, const Vec3& aside_m, const s
   all.mesh.panel_names.push_back(name);
 }
 
-// Square ones, each `gap_m` above the one below and aside by parts of an edge, so that no vertex lies above a vertex.
+// Square sheets, each `gap_m` above the one below and shifted by parts of an edge, so that no vertex lies above a vertex.
 inline Sheet stack(double size_m, double edge_m, double gap_m, int layers) {
   const Sheet one = equilateral_sheet(size_m, size_m, edge_m);
   Sheet all;

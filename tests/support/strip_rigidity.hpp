@@ -1,6 +1,6 @@
-// tests/support/strip_rigidity.hpp: how stiff a strip bends that is cut along the warp or the weft, by small deflections.
+// tests/support/strip_rigidity.hpp: the bending rigidity of a strip cut along the warp or the weft, by small deflections.
 //
-// Out of the plane a flat sheet's forces are linear: K = sum over hinges of kappa g g^T with g = dtheta/dz.  A strip held at
+// Out of the plane a flat sheet's forces are linear: K = sum over hinges of kappa g g^T with g = dtheta/dz.  A strip clamped at
 // one end sags by w under a load; so does the same mesh with the same rigidity D both ways, by w_iso.  Realised: D w_iso / w.
 #pragma once
 #include "assembly/cloth_model.hpp"
@@ -13,7 +13,7 @@ namespace toile::internal::test {
 
 enum class StripAlong { u, v };
 
-// Mean deflection of the free end under a load per area; the strip begins at coordinate 0 and is held for `held_m`.
+// Mean deflection of the free end under a load per area; the strip begins at coordinate 0 and is clamped over `held_m`.
 inline double end_deflection(const ClothModel& model, StripAlong along, double length_m, double held_m) {
   const auto n = static_cast<Eigen::Index>(model.particle_count());
   std::vector<Vec2> uv(static_cast<std::size_t>(n));

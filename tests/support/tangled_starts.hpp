@@ -127,7 +127,7 @@ inline TangledStart tangled_start(int kind, int seed) {
       start.name = "a folded sheet through itself";
       const double radius = random(0.02, 0.03), past = random(50, 70), skew = random(-8, 8);
       const Mat3 R = turn(skew, Vec3::UnitY());
-      add_sheet(start, 0.3, 0.5, [&](const Vec3& p) {  // half lies flat, the rest turns over and comes down through it
+      add_sheet(start, 0.3, 0.5, [&](const Vec3& p) {  // half lies flat, the rest folds over and passes down through it
         const double s = p.x() + 0.02 * p.z();
         const double bend = (180 + past) * 3.14159265358979324 / 180, length = radius * bend;
         if (s < 0) return p;
