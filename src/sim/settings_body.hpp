@@ -80,8 +80,10 @@ void describe(V& v, SceneCollider& collider) {
          });
   v.number(
       {"offset_mm", "how far above it cloth rests; edges cut corners of it, so longer ones need more",
-       collider.worn ? "between 1.5 and 2.5: of a person 1.5 for edges up to 2 cm, of a shape 0.2 of the edge length"
-                     : "the body's, if it has one; else as a shape's, of a mannequin as a person's"},
+       collider.worn
+           ? "between 1.5 and 2.5: of a mannequin or a mesh 1.5 for edges up to 2 cm, of a shape 0.2 of the edge length"
+           : "the body's, where the scene gives one; else of a mannequin as of a body, of all others 0.2 of the edge "
+             "length"},
       {0.1, 100, 1e-3}, collider.contact.offset_m);
 }
 
