@@ -104,8 +104,9 @@ std::string check_scene(const Scene& scene, const BudgetLimits& limits, JsonText
   std::vector<LoadedCloth> cloth;
   for (std::size_t k = 0; k < scene.cloth.size(); ++k) {
     cloth.push_back(load_cloth(scene, k, read_text_file));
-    vertices += cloth.back().garment.mesh.particle_count;
-    triangles += cloth.back().garment.mesh.triangle_count();
+    const GarmentMesh worn = as_worn(cloth.back());
+    vertices += worn.mesh.particle_count;
+    triangles += worn.mesh.triangle_count();
   }
   const LoadedColliders colliders = load_colliders(scene.body, scene.solids);
   const JoinedColliders& body = colliders.joined;

@@ -73,7 +73,7 @@ std::string load_as_dress_does(const CommandLine& line, const std::string& path,
   const std::string budget =
       fmt::sprintf("  as dressed for %g s: ", dressed.seconds) + describe_budget(dressed, line.limits, json);
   const LoadedCloth loaded = load_cloth(dressed, 0, [&](const std::string&) { return text; });
-  return describe(pattern, loaded.garment, resolution_m, json) + budget;
+  return describe(pattern, as_worn(loaded), resolution_m, json) + budget;
 }
 
 void write_whole(const std::string& path, std::string_view text) {

@@ -2,10 +2,12 @@
 
 #include "dress/start_state.hpp"
 #include "dress/tangles.hpp"
+#include "garment/refine.hpp"
 
 #include <fmt/printf.h>
 
 #include <numeric>
+#include <type_traits>
 
 namespace toile::internal {
 namespace {
@@ -43,6 +45,23 @@ LabelSprings wear(Outfit& outfit, const GarmentMesh& garment, std::span<const Fa
   outfit.state = {Vec3s(particles, Vec3::Zero()), Vec3s(particles, Vec3::Zero())};
   outfit.thickness_scale.assign(particles, 1);
   return LabelSprings(panels, heights).welded(welded.particle_of);
+}
+
+void carry_over(const Outfit& worn, const GarmentMesh& sewn, const Outfit& before, const GarmentMesh& refined,
+                std::span<const std::array<Index, 2>> ends, Outfit& fine) {
+  const std::vector<Index> from = weld(over(before, sewn)).particle_of, to = weld(over(before, refined)).particle_of;
+  std::vector<std::array<Index, 2>> middles;
+  for (const auto& [a, b] : ends) middles.push_back({a + before.mesh.particle_count, b + before.mesh.particle_count});
+  const auto carry = [&](const auto& values, auto& to_fine) {
+    std::decay_t<decltype(to_fine)> unwelded;
+    for (const Index i : from) unwelded.push_back(values[static_cast<std::size_t>(i)]);
+    interpolate(std::span<const std::array<Index, 2>>(middles), unwelded);
+    for (std::size_t i = 0; i < to.size(); ++i) to_fine[static_cast<std::size_t>(to[i])] = unwelded[i];
+  };
+  carry(worn.state.x, fine.state.x);
+  carry(worn.state.v, fine.state.v);
+  carry(worn.thickness_scale, fine.thickness_scale);
+  fine.rest_stretch = worn.rest_stretch;
 }
 
 Dressing::Dressing(const Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric> fabrics,

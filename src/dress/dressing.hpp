@@ -3,6 +3,7 @@
 #include "dress/outfit.hpp"
 #include "dress/sewing.hpp"
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -15,6 +16,11 @@ namespace toile::internal {
 // label springs of the new garment.
 LabelSprings wear(Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric> fabrics,
                   std::span<const Vec2> rest_stretch, std::span<const LabelHeight> heights);
+
+// Gives `fine`, the outfit as wear() makes it of `before` and `refined`, the state of `worn`, in which the same garment was `sewn`.
+// `ends`: of the particles that `refined` has beyond those of `sewn` (garment/refine.hpp).
+void carry_over(const Outfit& worn, const GarmentMesh& sewn, const Outfit& before, const GarmentMesh& refined,
+                std::span<const std::array<Index, 2>> ends, Outfit& fine);
 
 class Dressing {
  public:

@@ -1,5 +1,7 @@
 #include "dress/phase.hpp"
 
+#include <algorithm>
+
 namespace toile::internal {
 namespace {
 
@@ -13,6 +15,10 @@ constexpr Ramp growing{weightless_s, settling_s, 0, 1};
 constexpr Ramp from(double t_s) { return {t_s, t_s, 0, 1}; }
 
 }  // namespace
+
+double Phase::changes_until_s() const {
+  return std::max({gravity.to_s, elastic.to_s, friction.to_s, labels.to_s, held_until_s, settled_s});
+}
 
 Phase after_weld(bool first, const Pace& pace) {
   Phase phase;
@@ -29,6 +35,7 @@ Phase within_growing(bool weightless) {
   phase.gravity = weightless ? none : growing;
   phase.elastic = phase.friction = none;
   phase.held_until_s = phase.settled_s = never;
+  phase.moving = steps_of(1.0 / 30);  // the body moves
   return phase;
 }
 

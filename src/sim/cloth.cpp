@@ -1,6 +1,7 @@
 #include "sim/cloth.hpp"
 
 #include "core/error.hpp"
+#include "garment/refine.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,10 @@ namespace {
 double cell_m2(double edge_m) { return std::sqrt(3.0) / 2 * edge_m * edge_m; }  // area per particle
 
 }  // namespace
+
+GarmentMesh as_worn(const MeshedCloth& cloth) {
+  return is_cut_finer(cloth) ? refine(cloth.garment, cloth.edge_m).garment : cloth.garment;
+}
 
 ClothCost::Part part_of_area(std::string what, double area_m2, double outline_points, double edge_m) {
   const double inner = std::max(0.0, area_m2 / cell_m2(edge_m) - outline_points / 2);

@@ -25,9 +25,14 @@ struct MeshedCloth {
   GarmentMesh garment;
   std::optional<Pattern> pattern;  // as read; only of sewn cloth
   double edge_m = 0;               // the requested edge length of triangles
+  double sewn_edge_m = 0;  // that of `garment`, which is cut finer once it is on (garment/refine.hpp); 0: edge_m
   std::vector<std::string> warnings;
   std::uint64_t input_hash = 0;  // of its files or arrays; 0: it has none
 };
+
+inline bool is_cut_finer(const MeshedCloth& cloth) { return cloth.sewn_edge_m > cloth.edge_m; }
+// The garment with the requested edges.
+GarmentMesh as_worn(const MeshedCloth& cloth);
 
 // Panels too far apart to be sewn.
 struct FarPanel {

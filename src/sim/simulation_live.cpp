@@ -22,8 +22,7 @@ void Simulation::begin(const std::function<void(OutfitRun&)>& prepare) {
   outfit_run().begin(drape_phase());
   run_->set_events(events());
   if (prepare) prepare(*run_);
-  if (!resumed) rest_ = {};
-  rest_.begin(outfit_.state.x, scene_.fps);
+  begin_rest(still, resumed);
   begun_ = true;
   show_first();
   watch_falling();
@@ -73,6 +72,7 @@ void Simulation::show_first() {
       report_.fabrics.push_back({part.name, outfit_.mesh.panel_names[static_cast<std::size_t>(p)],
                                  outfit_.fabrics[static_cast<std::size_t>(p)].name});
   report_.vertices = outfit_.mesh.particle_count;
+  report_.triangles = outfit_.mesh.triangle_count();
   if (resumes()) say("reading", 0);
   observer_->begins(outfit_, rest_stretch, body_triangles_, body_x_);
   if (!resumes()) frames_shown_ = 1;

@@ -1,5 +1,6 @@
 // sim/simulation_put_on.cpp: from flat panels to a garment that is on, from the innermost outwards.
 #include "core/error.hpp"
+#include "garment/refine.hpp"
 #include "sim/simulation.hpp"
 
 #include <algorithm>
@@ -32,8 +33,10 @@ bool Simulation::put_on() {
     if (!is_sewn && !sew(k)) return false;
     if (k == 0 && !is_on && !stopped_short_ && !grow(k)) return false;
     stopped_short_ = stopped_short_ || (k < open_pairs_.size() && !open_pairs_[k].empty());
+    const bool is_inner = k + 1 < cloth_.size();
+    if (!stopped_short_ && is_inner && !drape_inner(k) && !stopped_short_) return false;
+    cut_finer(k);
     if (stopped_short_) return true;
-    if (k + 1 < cloth_.size() && !drape_inner(k)) return stopped_short_;
   }
   return true;
 }
@@ -46,14 +49,34 @@ void Simulation::wear_again() {
     return;
   }
   const std::size_t worn = static_cast<std::size_t>(place_.cloth) + (place_.phase == RunPhase::sewing ? 0 : 1);
-  std::vector<std::string> told_before;
   for (std::size_t j = 0; j < worn; ++j) {
-    LoadedCloth& cloth = cloth_[j];
-    const Index before = outfit_.mesh.particle_count;
     if (j < open_pairs_.size()) cloth_[j].garment.leave_open(open_pairs_[j]);
-    new_garment_ = {before,
-                    wear(outfit_, cloth.garment, cloth.fabrics, cloth.rest_stretch, heights_of(j, told_before))};
+    if (j < place_.cloth || place_.phase >= RunPhase::drape) cloth_[j].garment = as_worn(cloth_[j]);
+    wear_next(outfit_, j);
   }
+}
+
+// The outfit with the next garment on, without positions.
+void Simulation::wear_next(Outfit& outfit, std::size_t k) {
+  std::vector<std::string> told_before;
+  const LoadedCloth& cloth = cloth_[k];
+  const Index before = outfit.mesh.particle_count;
+  new_garment_ = {before, wear(outfit, cloth.garment, cloth.fabrics, cloth.rest_stretch, heights_of(k, told_before))};
+}
+
+// Where it is, to the edges that are asked for.
+void Simulation::cut_finer(std::size_t k) {
+  LoadedCloth& cloth = cloth_[k];
+  if (!is_cut_finer(cloth)) return;
+  Outfit fine;
+  for (std::size_t j = 0; j < k; ++j) wear_next(fine, j);
+  const Outfit before = fine;
+  RefinedGarment refined = refine(cloth.garment, cloth.edge_m);
+  std::swap(cloth.garment, refined.garment);
+  wear_next(fine, k);
+  carry_over(outfit_, refined.garment, before, cloth.garment, refined.ends, fine);
+  outfit_ = std::move(fine);
+  run_.reset();
 }
 
 // Afterwards the outfit is welded, with the garment on.

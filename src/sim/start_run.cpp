@@ -165,8 +165,8 @@ Outfit start_from(const std::string& directory, std::span<const LoadedCloth> clo
 
   Outfit outfit;
   for (const LoadedCloth& one : cloth) {
-    const WeldedMesh welded = weld(one.garment);
-    GarmentMesh garment = one.garment;
+    GarmentMesh garment = as_worn(one);
+    const WeldedMesh welded = weld(garment);
     garment.mesh = welded.mesh;
     garment.x.assign(at(welded.mesh.particle_count), Vec3::Zero());
     garment.merged.clear();

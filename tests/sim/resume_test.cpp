@@ -5,6 +5,7 @@
 #include "io/scratch.hpp"
 #include "sim/simulate.hpp"
 
+#include <fmt/printf.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -149,6 +150,32 @@ TEST(Resume, OfAPersonThatGrowsWithItsArmsLifted) {
       "time": {"seconds": 0.4, "until_still": false}})",
                       scratch / "s.json"),
           {90});
+}
+
+// Sewn with edges of 2 cm and cut finer after it: the inner one before it is draped, the outer one before the drape.
+TEST(Resume, OfAnOutfitThatIsCutFinerOnceItIsOn) {
+  const Scratch scratch;
+  const auto tube = [](int half_cm, int apart_cm) {
+    return fmt::sprintf(R"({"pattern": {"panels": {
+      "front": {"translation": [0, 0, %d], "rotation": [0, 0, 0], "vertices": [[-%d, -3], [%d, -3], [%d, 3], [-%d, 3]],
+        "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]},
+      "back": {"translation": [0, 0, -%d], "rotation": [0, 0, 0], "vertices": [[-%d, -3], [-%d, 3], [%d, 3], [%d, -3]],
+        "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]}},
+    "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
+    "properties": {"units_in_meter": 100}})",
+                        apart_cm, half_cm, half_cm, half_cm, half_cm, apart_cm, half_cm, half_cm, half_cm, half_cm);
+  };
+  scratch.put("inner.json", tube(10, 7));
+  scratch.put("outer.json", tube(12, 9));
+  const std::string text =
+      R"({"cloth": [{"pattern": "inner.json", "resolution_cm": 1}, {"pattern": "outer.json", "resolution_cm": 1}],
+      "body": {"cylinder": {"radius_m": 0.055, "height_m": 0.4, "top_m": [0, 0.2, 0]}}, "time": {"seconds": 0.3, "drape_seconds": 0.2, "until_still": false}})";
+  const Scene scene = parse_scene(text, scratch.put("s.json", text));
+  const Report report = simulate(scene, options_of(scratch / "again"));
+  EXPECT_GT(report.vertices, 2 * 250) << "edges of 1 cm, not of 2";
+  EXPECT_EQ(report.audit.cloth_cloth_edges.max, 0);
+  EXPECT_EQ(report.audit.cloth_body_edges.max, 0);
+  compare(scene, {9, 31});
 }
 
 // A strip between the sides of both seams of a tube blocks them, and is taken apart from them.  Left open they cross nothing: a run that took
