@@ -5,6 +5,7 @@
 #include "io/file.hpp"
 #include "sim/budget.hpp"
 #include "sim/recorder.hpp"
+#include "sim/rest_watch.hpp"
 #include "verify/verdict.hpp"
 
 #include <algorithm>

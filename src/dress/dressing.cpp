@@ -54,12 +54,11 @@ void carry_over(const Outfit& worn, const GarmentMesh& sewn, const Outfit& befor
   for (const auto& [a, b] : ends) middles.push_back({a + before.mesh.particle_count, b + before.mesh.particle_count});
   const auto carry = [&](const auto& values, auto& to_fine) {
     std::decay_t<decltype(to_fine)> unwelded;
-    for (const Index i : from) unwelded.push_back(values[static_cast<std::size_t>(i)]);
+    for (const Index i : from) unwelded.push_back(values[at(i)]);
     interpolate(std::span<const std::array<Index, 2>>(middles), unwelded);
-    for (std::size_t i = 0; i < to.size(); ++i) to_fine[static_cast<std::size_t>(to[i])] = unwelded[i];
+    for (std::size_t i = 0; i < to.size(); ++i) to_fine[at(to[i])] = unwelded[i];
   };
   carry(worn.state.x, fine.state.x);
-  carry(worn.state.v, fine.state.v);
   carry(worn.thickness_scale, fine.thickness_scale);
   fine.rest_stretch = worn.rest_stretch;
 }

@@ -17,7 +17,7 @@ namespace toile::internal {
 LabelSprings wear(Outfit& outfit, const GarmentMesh& garment, std::span<const Fabric> fabrics,
                   std::span<const Vec2> rest_stretch, std::span<const LabelHeight> heights);
 
-// Gives `fine`, the outfit as wear() makes it of `before` and `refined`, the state of `worn`, in which the same garment was `sewn`.
+// Gives `fine`, the outfit as wear() makes it of `before` and `refined`, the positions of `worn`, in which the same garment was `sewn`; it is at rest.
 // `ends`: of the particles that `refined` has beyond those of `sewn` (garment/refine.hpp).
 void carry_over(const Outfit& worn, const GarmentMesh& sewn, const Outfit& before, const GarmentMesh& refined,
                 std::span<const std::array<Index, 2>> ends, Outfit& fine);

@@ -1,7 +1,5 @@
 #include "dress/phase.hpp"
 
-#include <algorithm>
-
 namespace toile::internal {
 namespace {
 
@@ -15,10 +13,6 @@ constexpr Ramp growing{weightless_s, settling_s, 0, 1};
 constexpr Ramp from(double t_s) { return {t_s, t_s, 0, 1}; }
 
 }  // namespace
-
-double Phase::changes_until_s() const {
-  return std::max({gravity.to_s, elastic.to_s, friction.to_s, labels.to_s, held_until_s, settled_s});
-}
 
 Phase after_weld(bool first, const Pace& pace) {
   Phase phase;

@@ -42,9 +42,6 @@ struct Phase {
   double held_until_s = 0;          // the garments worn before stand still until then
   double settled_s = 0;             // from then on gravity and elastic are in full, and thinned layers grow back
   Pace pace, moving;                // before the body moves, and afterwards
-
-  // From then on every share stays what it is.
-  double changes_until_s() const;
 };
 
 inline constexpr double settling_s = 0.5;  // after a weld, until gravity and elastic are in full

@@ -11,8 +11,6 @@ namespace {
 
 using Ends = std::array<Index, 2>;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 Ends in_order(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
 // One halving of the long edges.

@@ -27,7 +27,7 @@ RefinedGarment refine(const GarmentMesh& garment, double edge_m);
 template <class T>
 void interpolate(std::span<const std::array<Index, 2>> ends, std::vector<T>& values) {
   for (const auto& [a, b] : ends) {
-    const T middle = 0.5 * (values[static_cast<std::size_t>(a)] + values[static_cast<std::size_t>(b)]);
+    const T middle = 0.5 * (values[at(a)] + values[at(b)]);
     values.push_back(middle);
   }
 }

@@ -1,5 +1,7 @@
 #include "sim/recorder.hpp"
 
+#include "sim/rest_watch.hpp"
+
 #include <algorithm>
 #include <optional>
 
@@ -19,17 +21,6 @@ RunDescription describe(const ClothMesh& mesh, std::span<const Vec2> rest_stretc
   run.body_particle_count = static_cast<Index>(body_vertices);
   run.fps = fps;
   return run;
-}
-
-// Through memory: in x.cast<float>().cast<double>() GCC 12 at -O3 leaves the last of an odd number of entries unrounded.
-Vec3s as_written(std::span<const Vec3> x) {
-  std::vector<float> single(3 * x.size());
-  for (std::size_t i = 0; i < single.size(); ++i)
-    single[i] = static_cast<float>(x[i / 3][static_cast<Eigen::Index>(i % 3)]);
-  Vec3s rounded;
-  rounded.reserve(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) rounded.emplace_back(single[3 * i], single[3 * i + 1], single[3 * i + 2]);
-  return rounded;
 }
 
 Recorder::Recorder(RunWriter& writer, const Outfit& outfit, std::span<const Vec2> rest_stretch, double fps,

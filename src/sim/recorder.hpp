@@ -13,9 +13,6 @@ namespace toile::internal {
 RunDescription describe(const ClothMesh& mesh, std::span<const Vec2> rest_stretch, double fps,
                         std::span<const Triangle> body, std::size_t body_vertices);
 
-// The positions as in the files: float32.
-Vec3s as_written(std::span<const Vec3> x);
-
 class Recorder {
  public:
   // Writes frame 0.  `rest_stretch` is the final one of each panel, by which the last frame is judged.  `body` may be empty.

@@ -20,7 +20,7 @@
 #include "sim/falling.hpp"
 #include "sim/phase_report.hpp"
 #include "sim/progress.hpp"
-#include "sim/report.hpp"
+#include "sim/rest_watch.hpp"
 #include "sim/setup.hpp"
 #include "sim/simulation_observer.hpp"
 
@@ -47,21 +47,15 @@ struct RunPlace {
 };
 
 // A phase that is a loop over frames of the outfit's run.
-// Of the way of a second (StillnessMeter), or of another time.
-struct RestLimit {
-  double mm_per_s, over_s;
-};
-inline constexpr RestLimit still{Limits{}.still_mm_per_s, 1};  // the verdict's
-
 struct PhasePlan {
   RunPhase which = RunPhase::drape;
   Phase cloth;
-  std::string_view doing;           // for the progress
-  std::string meanwhile;            // for a message: "while ..."
-  std::int64_t frames = 0;          // at most
-  std::optional<RestLimit> awaits;  // it ends early at rest,
-  double rest_from_s = 0;           // but not before this time
-  bool shown = false;               // its frames are written
+  std::string_view doing;            // for the progress
+  std::string meanwhile;             // for a message: "while ..."
+  std::int64_t frames = 0;           // at most
+  std::optional<RestLimits> awaits;  // it ends early at rest,
+  double rest_from_s = 0;            // but not before this time
+  bool shown = false;                // its frames are written
   std::array<PhaseReport*, 2> reports{nullptr, nullptr};
 };
 
@@ -102,9 +96,7 @@ class Simulation {
   bool drape();
   // The run, whose frames the caller advances from here on.
   OutfitRun& live() { return *run_; }
-  bool rests(const RestLimit& limit = still) const {
-    return rest_.full() && rest_.speed_p99_mm_per_s() <= limit.mm_per_s;
-  }
+  bool rests() const { return rest_.at_rest(); }
   // Dressing ended early: its last frame is the only one shown.
   bool stopped_short() const { return stopped_short_; }
   BodySurface* body() { return body_ ? &*body_ : nullptr; }
@@ -151,7 +143,6 @@ class Simulation {
   bool cut_off(const std::string& when);
   bool sewn() const { return scene_.cloth.front().is_sewn(); }
   bool awaits_rest() const { return scene_.until_still || motion_.has_value(); }
-  double drape_s() const { return motion_ ? scene_.drape_seconds : scene_.seconds; }
   double frame_s() const { return 1 / scene_.fps; }
   int frames_in(double seconds) const;
   void end(std::string_view how, const std::string& detail);
@@ -179,7 +170,6 @@ class Simulation {
   // simulation_phases.cpp
   OutfitRun& outfit_run();
   Pace pace() const;
-  void begin_rest(const RestLimit& limit, bool resumed);
   PhasePlan growth_plan();
   PhasePlan inner_drape_plan(std::size_t cloth);
   PhasePlan drape_plan();
@@ -269,7 +259,7 @@ class Simulation {
   RunPlace place_;
   int frames_shown_ = 0;
   PhaseSeconds seconds_before_motion_;
-  StillnessMeter rest_;
+  RestWatch rest_;
   StateReader* taken_up_ = nullptr;  // until its phase has restored it
   std::optional<OutfitRun> run_;     // from the weld of each garment on
   bool begun_ = false;

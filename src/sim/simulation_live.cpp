@@ -22,7 +22,8 @@ void Simulation::begin(const std::function<void(OutfitRun&)>& prepare) {
   outfit_run().begin(drape_phase());
   run_->set_events(events());
   if (prepare) prepare(*run_);
-  begin_rest(still, resumed);
+  if (!resumed) rest_ = {};
+  rest_.begin(outfit_.state.x, scene_.fps);
   begun_ = true;
   show_first();
   watch_falling();

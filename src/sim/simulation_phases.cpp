@@ -4,13 +4,14 @@
 #include <fmt/printf.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace toile::internal {
 namespace {
 
-constexpr double rest_s = 0.5;                    // after the last change of a phase, before cloth may count as still
-constexpr RestLimit rests_below_others{10, 0.5};  // an inner garment
+constexpr double rest_s = 0.5;  // after a garment has settled, before it may count as still
+constexpr RestLimits rests_below_others{10, std::numeric_limits<double>::infinity()};  // of an inner garment
 
 PhasePlan plan_of(RunPhase which, const Phase& cloth, std::string_view doing) {
   PhasePlan plan;
@@ -52,17 +53,17 @@ PhasePlan Simulation::inner_drape_plan(std::size_t cloth) {
   plan.meanwhile = "while " + printable(cloth_[cloth].garment.name) + " was draped";
   plan.frames = frames_in(scene_.drape_seconds) - 1;
   plan.awaits = rests_below_others;
-  plan.rest_from_s = plan.cloth.changes_until_s() + rest_s;
+  plan.rest_from_s = settling_s + rest_s;
   return plan;
 }
 
 PhasePlan Simulation::drape_plan() {
-  const bool moves_at_once = motion_ && !(drape_s() > 0);
+  const bool moves_at_once = motion_ && !(scene_.drape_seconds > 0);
   PhasePlan plan = plan_of(RunPhase::drape, drape_phase(), "draping");
   plan.meanwhile = "while draping";
-  plan.frames = (moves_at_once ? 1 : frames_in(drape_s())) - 1;
+  plan.frames = (moves_at_once ? 1 : frames_in(motion_ ? scene_.drape_seconds : scene_.seconds)) - 1;
   if (awaits_rest()) plan.awaits = still;
-  plan.rest_from_s = new_garment_ ? plan.cloth.changes_until_s() + rest_s : 0;
+  plan.rest_from_s = new_garment_ ? settling_s + rest_s : 0;
   plan.shown = true;
   plan.reports = {&report_.drape, nullptr};
   return plan;
@@ -78,19 +79,13 @@ PhasePlan Simulation::motion_plan() {
   return plan;
 }
 
-// From the present positions on, or from those that a resumed run has kept.
-void Simulation::begin_rest(const RestLimit& limit, bool resumed) {
-  if (!resumed) rest_.skip();
-  rest_.set_window(scene_.fps, limit.over_s);
-  if (rest_.empty()) rest_.add(outfit_.state.x);
-}
-
 // From its beginning, or from the saved frame.
 void Simulation::enter(const PhasePlan& plan, std::size_t cloth, const BodyAt& moves) {
   outfit_run().begin(plan.cloth);
   if (moves) run_->start_motion(moves);
   const bool resumed = resumes();
-  begin_rest(plan.awaits.value_or(still), resumed);
+  if (!resumed) rest_ = {};
+  rest_.begin(outfit_.state.x, scene_.fps, plan.awaits.value_or(still));
   if (resumed) {
     restore(*run_);
     return;
@@ -101,7 +96,7 @@ void Simulation::enter(const PhasePlan& plan, std::size_t cloth, const BodyAt& m
 
 bool Simulation::at_rest(const PhasePlan& plan) const {
   return plan.awaits && place_.frame > 0 && run_->settled() && run_->time_s() - frame_s() > plan.rest_from_s &&
-         rests(*plan.awaits);
+         rest_.at_rest();
 }
 
 // False: it failed, see failure(), or was stopped.
@@ -139,7 +134,7 @@ bool Simulation::frame(const PhasePlan& plan) {
     return false;
   }
   ++place_.frame;
-  if (plan.which != RunPhase::motion) rest_.add(outfit_.state.x);
+  rest_.frame(outfit_.state.x);
   if (plan.shown) {
     ++frames_shown_;
     observer_->frame(outfit_.state.x, body_x_);

@@ -95,4 +95,13 @@ StretchStatistics measure_stretch(const ClothMesh& mesh, std::span<const Vec3> x
   return result;
 }
 
+double speed_p99_mm_per_s(std::span<const Vec3> x_before, std::span<const Vec3> x, double fps) {
+  if (x_before.size() != x.size())
+    throw InputError("cloth", "vertices of the frame before", std::to_string(x.size()),
+                     std::to_string(x_before.size()));
+  std::vector<double> speed(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) speed[i] = 1000 * fps * (x[i] - x_before[i]).norm();
+  return nearest_rank(speed, 99);
+}
+
 }  // namespace toile::internal

@@ -59,4 +59,7 @@ constexpr double hover_reach_mm = 5;
 // find_body_crossings does.
 GapStatistics measure_gap(std::span<const Vec3> x, std::span<const Triangle> body, std::span<const Vec3> body_x);
 
+// The p99 over vertices of |x - x_before| fps, in mm/s.  Sizes must agree.
+double speed_p99_mm_per_s(std::span<const Vec3> x_before, std::span<const Vec3> x, double fps);
+
 }  // namespace toile::internal

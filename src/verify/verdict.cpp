@@ -118,8 +118,8 @@ Verdict judge(const VerifyReport& report, const Limits& limits) {
     if (limits.must_be_still && report.frames < 2)
       add(reason::static_equilibrium, "one frame does not show whether the cloth moves");
     else if (limits.must_be_still && !within(report.still_mm_per_s_p99, limits.still_mm_per_s))
-      add(reason::static_equilibrium, "99 % of the vertices moved by up to " + number(report.still_mm_per_s_p99) +
-                                          " mm in the last second, limit " + number(limits.still_mm_per_s) + " mm");
+      add(reason::static_equilibrium, "p99 speed " + number(report.still_mm_per_s_p99) +
+                                          " mm/s in the last second, limit " + number(limits.still_mm_per_s) + " mm/s");
   }
   verdict.pass = verdict.reasons.empty();
   return verdict;

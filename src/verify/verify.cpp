@@ -99,7 +99,6 @@ RunAudit::RunAudit(RunDescription run)
       slip_(run_.mesh, run_.body_triangles),
       crossings_(run_.mesh.triangles, run_.body_triangles) {
   if (!(run_.fps > 0) || !std::isfinite(run_.fps)) throw InputError("audit", "fps", "> 0", std::to_string(run_.fps));
-  stillness_.set_window(run_.fps, 1);
   // Positions come later; all other errors of the meshes are found now.
   const Vec3s no_cloth(static_cast<std::size_t>(run_.mesh.particle_count), Vec3::Zero());
   const Vec3s no_body(static_cast<std::size_t>(run_.body_particle_count), Vec3::Zero());
@@ -119,7 +118,6 @@ void RunAudit::add(std::span<const Vec3> x, std::span<const Vec3> body_x) {
   if (finite) {
     jitter_.add(x, body_x);
     slip_.add(x, body_x);
-    stillness_.add(x);
     CrossingSearch::Found found = crossings_.find(x, body_x);
     report_.last_cloth_crossings = std::move(found.of_cloth);
     report_.last_body_crossings = std::move(found.of_body);
@@ -137,10 +135,10 @@ void RunAudit::add(std::span<const Vec3> x, std::span<const Vec3> body_x) {
   } else {
     jitter_.skip();
     slip_.skip();
-    stillness_.skip();
     if (report_.finite) report_.first_bad_frame = frame;
     report_.finite = false;
   }
+  if (frame > 0) speed_p99_.push_back(finite && last_is_finite_ ? speed_p99_mm_per_s(last_x_, x, run_.fps) : 0);
   last_x_.assign(x.begin(), x.end());
   last_body_x_.assign(body_x.begin(), body_x.end());
   last_is_finite_ = finite;
@@ -155,7 +153,10 @@ VerifyReport RunAudit::report() const {
   if (result.has_body)
     result.stretch.body_girth_m = girth_within_m(result.stretch.ring, last_body_x_, run_.body_triangles);
   if (result.has_body) result.gap = measure_gap(last_x_, run_.body_triangles, last_body_x_);
-  result.still_mm_per_s_p99 = stillness_.speed_p99_mm_per_s();
+  const auto second = std::max<std::size_t>(1, static_cast<std::size_t>(std::min(std::round(run_.fps), 1e9)));
+  const std::size_t pairs = std::min(speed_p99_.size(), second);
+  for (std::size_t k = speed_p99_.size() - pairs; k < speed_p99_.size(); ++k)
+    result.still_mm_per_s_p99 = std::max(result.still_mm_per_s_p99, speed_p99_[k]);
   return result;
 }
 

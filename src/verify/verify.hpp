@@ -5,11 +5,10 @@
 // Theory: docs/theory/verify.md.
 //
 //   predicates.hpp   signs, exactly                      crossings.hpp    edges through triangles
-//   box_tree.hpp     candidates                          statistics.hpp   stretch, shear, gap
+//   box_tree.hpp     candidates                          statistics.hpp   stretch, shear, gap, speed
 //   interior.hpp     inside or outside                   pinch.hpp        where a body leaves no room
-//   stillness.hpp    rest                                jitter.hpp       trembling
-//   slip.hpp         sliding on the body                 verdict.hpp      pass or fail, and why
-//   verify.hpp       a run, frame by frame
+//   jitter.hpp       trembling                           slip.hpp         sliding on the body
+//   verdict.hpp      pass or fail, and why               verify.hpp       a run, frame by frame
 //
 // Easily got wrong: audit the positions that the files hold.  Rounding to float32 moves a particle by up to 6e-8 of its
 // coordinate, which can open or close a crossing; a caller that audits from memory rounds first.
@@ -21,7 +20,6 @@
 #include "verify/predicates.hpp"
 #include "verify/slip.hpp"
 #include "verify/statistics.hpp"
-#include "verify/stillness.hpp"
 
 #include <span>
 #include <string>
@@ -55,7 +53,7 @@ struct VerifyReport {
   Index first_body_crossing_frame = -1, first_cloth_crossing_frame = -1;
   StretchStatistics stretch;      // last frame
   GapStatistics gap;              // last frame; zero without a body
-  double still_mm_per_s_p99 = 0;  // way of the last second; zero with fewer than two frames
+  double still_mm_per_s_p99 = 0;  // largest per-frame p99 of the last second; zero with fewer than two frames
   JitterStatistics jitter;        // of the motion if the body moves, else of all frames
   SlipStatistics slip;            // of the motion
   std::vector<Crossing> last_body_crossings, last_cloth_crossings;
@@ -100,7 +98,7 @@ class RunAudit {
   CrossingSearch crossings_;
   Vec3s last_x_, last_body_x_;
   bool last_is_finite_ = false;
-  StillnessMeter stillness_;
+  std::vector<double> speed_p99_;  // one per pair of consecutive frames
 };
 
 // Reads the files of a run; every frame is judged, and compared with its checksum in the report.  All files of the body may be absent when

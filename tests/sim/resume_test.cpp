@@ -178,6 +178,22 @@ TEST(Resume, OfAnOutfitThatIsCutFinerOnceItIsOn) {
   compare(scene, {9, 31});
 }
 
+// It is sewn and grown into with edges of 2 cm; a stop in each phase, and in the drape.
+TEST(Resume, OfAPersonThatGrowsIntoWhatIsCutFiner) {
+  const Scratch scratch;
+  scratch.put("band.json", R"({"pattern": {"panels": {
+    "front": {"translation": [0, 96, 20], "rotation": [0, 0, 0], "vertices": [[-26,0],[26,0],[26,6],[-26,6]],
+      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]},
+    "back": {"translation": [0, 96, -20], "rotation": [0, 0, 0], "vertices": [[-26,0],[-26,6],[26,6],[26,0]],
+      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
+    "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
+    "properties": {"units_in_meter": 100}})");
+  compare(parse_scene(R"({"cloth": [{"pattern": "band.json", "resolution_cm": 1}], "body": {"mannequin": "woman"},
+      "time": {"seconds": 0.2, "until_still": false}})",
+                      scratch / "s.json"),
+          {45});
+}
+
 // A strip between the sides of both seams of a tube blocks them, and is taken apart from them.  Left open they cross nothing: a run that took
 // them for blocked would go on from there.
 TEST(Resume, OfASeamThatIsStoppedWhileItIsTakenApart) {

@@ -232,5 +232,12 @@ TEST(Gap, GivesTheMedianAndTheDeepestVertex) {
   EXPECT_THROW(measure_gap(x, std::vector<Triangle>{{0, 1, 8}}, body.x), InputError);
 }
 
+TEST(Speed, IsTheNinetyNinthPercentileOfTheVertices) {
+  Vec3s before(100, Vec3(1, 1, 1)), after = before;
+  for (std::size_t i = 0; i < 100; ++i) after[i].z() += 1e-4 * static_cast<double>(i + 1);
+  EXPECT_NEAR(speed_p99_mm_per_s(before, after, 30), 1000 * 30 * 99e-4, 1e-9);
+  EXPECT_THROW(speed_p99_mm_per_s(before, Vec3s(3), 30), InputError);
+}
+
 }  // namespace
 }  // namespace toile::internal

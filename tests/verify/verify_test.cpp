@@ -332,7 +332,7 @@ TEST(VerifyDirectory, ReadsWhatTheRunWasMeantToBe) {
   EXPECT_THROW(verify_directory(directory.path()), InputError);
 }
 
-TEST(RunAudit, MeasuresTheWayOfTheLastSecondOnly) {
+TEST(RunAudit, TakesTheLargestSpeedOfTheLastSecondOnly) {
   RunDescription description;
   description.mesh.particle_count = 3;
   description.mesh.triangles = {{0, 1, 2}};
@@ -341,12 +341,12 @@ TEST(RunAudit, MeasuresTheWayOfTheLastSecondOnly) {
   description.fps = 10;
   RunAudit audit(description);
   Vec3s x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  // Steps in mm per frame: the jump of 50 lies more than a second before the end, that of 2 and eight of 0.1 within it.
+  // Steps in mm per frame: the jump of 50 lies more than a second before the end, that of 2 within it.
   for (const double step : {0.0, 50.0, 0.1, 2.0, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}) {
     for (Vec3& p : x) p.z() += 1e-3 * step;
     audit.add(x, {});
   }
-  EXPECT_NEAR(audit.report().still_mm_per_s_p99, 2.9, 1e-3);
+  EXPECT_NEAR(audit.report().still_mm_per_s_p99, 20, 1e-9);
   EXPECT_THROW(audit.add(Vec3s(2), {}), InputError);
   EXPECT_THROW(audit.add(x, x), InputError);
 }
