@@ -2,14 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace toile::internal {
-namespace {
-
-constexpr double rest_s = 0.5;
-
-}  // namespace
 
 // Through memory: in x.cast<float>().cast<double>() GCC 12 at -O3 leaves the last of an odd number of entries unrounded.
 Vec3s as_written(std::span<const Vec3> x) {
@@ -24,22 +18,47 @@ Vec3s as_written(std::span<const Vec3> x) {
 
 void RestWatch::begin(std::span<const Vec3> x, double fps, const RestLimits& limits) {
   limits_ = limits;
-  before_ = as_written(x);
   fps_ = fps;
+  half_a_second_ = static_cast<std::size_t>(std::max(1.0, std::ceil(0.5 * fps)));
+  if (frames_.empty()) keep(x);
 }
 
 void RestWatch::frame(std::span<const Vec3> x) {
-  const Vec3s before = std::exchange(before_, as_written(x));
-  speeds_.push_back(speed_p99_mm_per_s(before, before_, fps_));
+  const Vec3s before = newest();
+  keep(x);
+  speeds_.push_back(speed_p99_mm_per_s(before, newest(), fps_));
   if (static_cast<double>(speeds_.size()) > std::max(1.0, std::round(fps_))) speeds_.erase(speeds_.begin());
 }
 
 bool RestWatch::at_rest() const {
-  const auto recent = static_cast<std::size_t>(std::max(1.0, std::ceil(rest_s * fps_)));
-  if (speeds_.size() < recent) return false;
-  const auto within = [](double limit) { return [limit](double v) { return v <= limit; }; };
-  return std::all_of(speeds_.begin(), speeds_.end(), within(limits_.a_second)) &&
-         std::all_of(speeds_.end() - static_cast<std::ptrdiff_t>(recent), speeds_.end(), within(limits_.half_a_second));
+  const auto slow = [this](double speed) { return speed <= limits_.speed_mm_per_s; };
+  return frames_kept() > half_a_second_ && std::all_of(speeds_.begin(), speeds_.end(), slow) &&
+         way_p99_mm() <= limits_.way_mm;
+}
+
+void RestWatch::keep(std::span<const Vec3> x) {
+  frame_size_ = 3 * x.size();
+  if (frames_kept() > half_a_second_)
+    frames_.erase(frames_.begin(), frames_.begin() + static_cast<std::ptrdiff_t>(frame_size_));
+  for (const Vec3& p : x)
+    for (const double c : p) frames_.push_back(static_cast<float>(c));
+}
+
+Vec3s RestWatch::newest() const {
+  Vec3s x;
+  for (std::size_t k = frames_.size() - frame_size_; k < frames_.size(); k += 3)
+    x.emplace_back(frames_[k], frames_[k + 1], frames_[k + 2]);
+  return x;
+}
+
+double RestWatch::way_p99_mm() const {
+  const Vec3s now = newest();
+  std::vector<double> way(now.size());
+  for (std::size_t k = 0; k < frames_.size(); k += 3) {
+    const std::size_t i = k % frame_size_ / 3;
+    way[i] = std::max(way[i], (now[i] - Vec3(frames_[k], frames_[k + 1], frames_[k + 2])).squaredNorm());
+  }
+  return 1000 * std::sqrt(nearest_rank(way, 99));
 }
 
 }  // namespace toile::internal

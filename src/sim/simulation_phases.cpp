@@ -11,7 +11,7 @@ namespace toile::internal {
 namespace {
 
 constexpr double rest_s = 0.5;  // after a garment has settled, before it may count as still
-constexpr RestLimits rests_below_others{10, std::numeric_limits<double>::infinity()};  // of an inner garment
+constexpr RestLimits rests_below_others{5, std::numeric_limits<double>::infinity()};  // of an inner garment
 
 PhasePlan plan_of(RunPhase which, const Phase& cloth, std::string_view doing) {
   PhasePlan plan;

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace toile::internal {
 namespace {
@@ -21,15 +23,40 @@ int rests_after(double mm_per_s, const RestLimits& limits) {
   return -1;
 }
 
-TEST(RestWatch, CallsADrapeStillBelowTwoMillimetresPerSecondForHalfASecond) {
+TEST(RestWatch, CallsADrapeStillThatComesAMillimetreFarInHalfASecond) {
   EXPECT_EQ(rests_after(1, still), 15);
   EXPECT_EQ(rests_after(3, still), -1);
 }
 
 TEST(RestWatch, HasLimitsOfItsOwnForWhatOthersGoOver) {
-  const RestLimits coarse{10, std::numeric_limits<double>::infinity()};
+  const RestLimits coarse{5, std::numeric_limits<double>::infinity()};
   EXPECT_EQ(rests_after(8, coarse), 15);
   EXPECT_EQ(rests_after(12, coarse), -1);
+}
+
+// To and fro by 0.1 mm from frame to frame is 3 mm/s, and goes nowhere.
+TEST(RestWatch, LooksAtTheWayNotAtATremble) {
+  const auto rests = [](double amplitude_mm) {
+    RestWatch watch;
+    const Vec3s here(100, Vec3::Zero()), there(100, Vec3(1e-3 * amplitude_mm, 0, 0));
+    watch.begin(here, 30);
+    for (int frame = 1; frame <= 60; ++frame) watch.frame(frame % 2 == 1 ? there : here);
+    return watch.at_rest();
+  };
+  EXPECT_TRUE(rests(0.1));
+  EXPECT_FALSE(rests(0.2)) << "6 mm/s, above the verdict's limit";
+}
+
+// Away and back again within the half second is a way too.
+TEST(RestWatch, SeesWhatCameBack) {
+  RestWatch watch;
+  Vec3s x(100, Vec3::Zero());
+  watch.begin(x, 30);
+  for (int frame = 1; frame <= 60; ++frame) {
+    x.assign(x.size(), Vec3(0.0015 * std::sin(2 * std::numbers::pi * frame / 60), 0, 0));
+    watch.frame(x);
+  }
+  EXPECT_FALSE(watch.at_rest());
 }
 
 // What was too fast within the last second is not still, however slow it is now.
