@@ -161,7 +161,7 @@ TEST(Scene, IsRefusedByFileAndLine) {
   const Body point = Body::capsule(0.1, {1, 0, 0}, {1, 0, 0});
   EXPECT_EQ(message_of<InputError>([&] { Simulation(sheet, point); }), refused);
 
-  scratch.put("tube.json", internal::test::tube_pattern_text);
+  scratch.put("tube.json", internal::test::tube_pattern_text());
   const std::string pinned =
       scratch.put("pinned.json", R"({"cloth": [{"pattern": "tube.json", "resolution_cm": 5, "pins": [
     {"in_box_m": [[5, 5, 5], [6, 6, 6]]}]}], "body": {"cylinder": {"radius_m": 0.1, "height_m": 1, "top_m": [0, 0.6, 0]}}})");

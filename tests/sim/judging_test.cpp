@@ -38,7 +38,7 @@ bool has(const std::vector<Reason>& reasons, std::string_view code) {
 
 // A tube of 1 m around, 20 cm high from y = 0 up, sewn about an upright cylinder.
 Scene tube_around(const Scratch& scratch, const std::string& body, const std::string& more = "") {
-  scratch.put("tube.json", test::tube_pattern_text);
+  scratch.put("tube.json", test::tube_pattern_text());
   return parse_scene(
       R"({"cloth": [{"name": "tube", "pattern": "tube.json", "resolution_cm": 5}], "body": {"cylinder": )" + body +
           "}" + more + R"(, "time": {"seconds": 10}})",

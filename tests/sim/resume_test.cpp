@@ -4,8 +4,8 @@
 #include "io/json.hpp"
 #include "io/scratch.hpp"
 #include "sim/simulate.hpp"
+#include "support/tube_pattern.hpp"
 
-#include <fmt/printf.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -115,6 +115,20 @@ TEST(Resume, OfAFlagThatSwingsFreely) {
       {9});
 }
 
+// It ends at rest: how far it came before it was left counts.
+TEST(Resume, OfASheetThatComesToRest) {
+  const Scene scene = parse_scene(
+      R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05}, "placement": {"rotation_deg": [-30, 0, 0]},
+      "pins": [{"in_box_m": [[-0.2, 0.08, -0.2], [0.2, 0.11, 0.2]]}]}],
+      "time": {"seconds": 10, "until_still": true}})",
+      "s.json");
+  const Scratch scratch;
+  const Report report = simulate(scene, options_of(scratch / "whole"));
+  EXPECT_EQ(report.ended, "still");
+  EXPECT_GT(report.frames, 20);
+  compare(scene, {13});
+}
+
 // Cloth that starts through itself: what pushes it apart goes on, too.
 TEST(Resume, OfCrossingCloth) {
   compare(parse_scene(R"({"cloth": [
@@ -139,13 +153,7 @@ TEST(Resume, OfAnOutfitThatMoves) {
 // A wide tube, drawn across the arms from the hips to the neck: arms are lifted, the body grows, and a seam may stay open.
 TEST(Resume, OfAPersonThatGrowsWithItsArmsLifted) {
   const Scratch scratch;
-  scratch.put("wide.json", R"({"pattern": {"panels": {
-    "front": {"translation": [0, 85, 25], "rotation": [0, 0, 0], "vertices": [[-30,0],[30,0],[30,60],[-30,60]],
-      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]},
-    "back": {"translation": [0, 85, -25], "rotation": [0, 0, 0], "vertices": [[-30,0],[-30,60],[30,60],[30,0]],
-      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
-    "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
-    "properties": {"units_in_meter": 100}})");
+  scratch.put("wide.json", test::tube_pattern_text(60, 60, 25, 85));
   compare(parse_scene(R"({"cloth": [{"pattern": "wide.json", "resolution_cm": 4}], "body": {"mannequin": "woman"},
       "time": {"seconds": 0.4, "until_still": false}})",
                       scratch / "s.json"),
@@ -155,18 +163,8 @@ TEST(Resume, OfAPersonThatGrowsWithItsArmsLifted) {
 // Sewn with edges of 2 cm and cut finer after it: the inner one before it is draped, the outer one before the drape.
 TEST(Resume, OfAnOutfitThatIsCutFinerOnceItIsOn) {
   const Scratch scratch;
-  const auto tube = [](int half_cm, int apart_cm) {
-    return fmt::sprintf(R"({"pattern": {"panels": {
-      "front": {"translation": [0, 0, %d], "rotation": [0, 0, 0], "vertices": [[-%d, -3], [%d, -3], [%d, 3], [-%d, 3]],
-        "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]},
-      "back": {"translation": [0, 0, -%d], "rotation": [0, 0, 0], "vertices": [[-%d, -3], [-%d, 3], [%d, 3], [%d, -3]],
-        "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]}},
-    "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
-    "properties": {"units_in_meter": 100}})",
-                        apart_cm, half_cm, half_cm, half_cm, half_cm, apart_cm, half_cm, half_cm, half_cm, half_cm);
-  };
-  scratch.put("inner.json", tube(10, 7));
-  scratch.put("outer.json", tube(12, 9));
+  scratch.put("inner.json", test::tube_pattern_text(20, 6, 7, -3));
+  scratch.put("outer.json", test::tube_pattern_text(24, 6, 9, -3));
   const std::string text =
       R"({"cloth": [{"pattern": "inner.json", "resolution_cm": 1}, {"pattern": "outer.json", "resolution_cm": 1}],
       "body": {"cylinder": {"radius_m": 0.055, "height_m": 0.4, "top_m": [0, 0.2, 0]}}, "time": {"seconds": 0.3, "drape_seconds": 0.2, "until_still": false}})";
@@ -181,13 +179,7 @@ TEST(Resume, OfAnOutfitThatIsCutFinerOnceItIsOn) {
 // It is sewn and grown into with edges of 2 cm; a stop in each phase, and in the drape.
 TEST(Resume, OfAPersonThatGrowsIntoWhatIsCutFiner) {
   const Scratch scratch;
-  scratch.put("band.json", R"({"pattern": {"panels": {
-    "front": {"translation": [0, 96, 20], "rotation": [0, 0, 0], "vertices": [[-26,0],[26,0],[26,6],[-26,6]],
-      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]},
-    "back": {"translation": [0, 96, -20], "rotation": [0, 0, 0], "vertices": [[-26,0],[-26,6],[26,6],[26,0]],
-      "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
-    "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
-    "properties": {"units_in_meter": 100}})");
+  scratch.put("band.json", test::tube_pattern_text(52, 6, 20, 96));
   compare(parse_scene(R"({"cloth": [{"pattern": "band.json", "resolution_cm": 1}], "body": {"mannequin": "woman"},
       "time": {"seconds": 0.2, "until_still": false}})",
                       scratch / "s.json"),

@@ -231,7 +231,7 @@ TEST(Run, APanelThatTheClothDoesNotHaveIsNamed) {
 
 // Two rectangles sewn at both sides around a cylinder, or around one that is too thick for them.
 Scene tube(const Scratch& scratch, double body_radius_m) {
-  scratch.put("tube.json", test::tube_pattern_text);
+  scratch.put("tube.json", test::tube_pattern_text());
   Scene scene = parse_scene(
       R"({"cloth": [{"pattern": "tube.json", "resolution_cm": 4}], "body": {"cylinder": {"height_m": 1, "top_m": [0, 0.6, 0]}}, "time": {"seconds": 0.8}})",
       scratch / "s.json");

@@ -67,7 +67,7 @@ TEST(ScenePlaces, OfPanelsPinsAndShapes) {
 
 TEST(ScenePlaces, OfLabelsOfAPattern) {
   const Scratch scratch;
-  scratch.put("tube.json", test::tube_pattern_text);
+  scratch.put("tube.json", test::tube_pattern_text());
   const Refusal label = refusal(
       "{\"cloth\": [\n  {\"pattern\": \"tube.json\", \"resolution_cm\": 4, \"label_heights_m\": {\"wrist\": 1}}]}",
       scratch / "s.json");
@@ -113,7 +113,7 @@ TEST(ScenePlaces, OfColliders) {
 
 TEST(ScenePlaces, OfAPatternAreThoseOfItsOwnFile) {
   const Scratch scratch;
-  std::string text = test::tube_pattern_text;
+  std::string text = test::tube_pattern_text();
   text.insert(text.rfind('}'),
               ",\n\"toile\": {\"panels\": {\"front\": {\"folds\": [\n"
               "  {\"endpoints\": [0, 2], \"angle_deg\": 90}, {\"endpoints\": [1, 3], \"angle_deg\": 90}]}}}");
