@@ -4,13 +4,12 @@
 //              last change of velocity and the body's motion, is below the rest offset r; the passes release and add
 //              the rest.  (Predicting with v + h g would ignore the support and start a step at rest with hundreds of
 //              contacts too many: h^2 g is 11 mm at 30 Hz.)
-//   slides     S = I - n n^T,  z = n.(v_body - v) n,  with regularised Coulomb friction: an implicit drag along the
-//              surface, coefficient mu lambda_n / max(|v_t|, v_0).  Above v_0 = 1 mm/s that is Coulomb's force, below
-//              it the part |v_t| / v_0 of it, so that friction stops a particle and never reverses it.
+//   slides     S = I - n n^T,  z = n.(v_body - v) n,  with dry friction along the surface by a bristle (step/bristle.hpp),
+//              k_t = 1000 m / h^2
 //   sticks     S = 0,          z = v_body - v                    while |lambda_t| <= mu_s lambda_n
-//              entered from a slide that ended slower than v_0, when friction needed less than its cone.  A particle
-//              that broke loose slides on for 0.1 s first, at most 0.1 mm: in cloth that creeps down a slope particles
-//              would otherwise stick and break loose in every step, one after the other, with a solve for every few.
+//              entered when the bristle holds.  A particle that breaks loose hands lambda_t to its bristle, and so goes on
+//              bearing what the cone allows: cloth whose particles are all near their cones does not creep.
+//   mu_s       1.02 mu, for a particle that did not slide in the last step, faster than 1 mm/s
 //   n          the contact's normal in the middle of the step.  With the normal of its start a round body that turns by
 //              theta under resting cloth would draw the cloth in by R theta^2/2, with that of its end push it out as
 //              much.
@@ -31,6 +30,7 @@
 #include "assembly/implicit_row.hpp"
 #include "constraint/particle_constraints.hpp"
 #include "contact/proximity.hpp"
+#include "step/bristle.hpp"
 #include "step/collider_contact.hpp"
 #include "step/step_formula.hpp"
 
@@ -54,7 +54,7 @@ class BodyConstraints {
   // The first active set of a step; `dv` is the guess of the change of velocity.  Reads the body's travel, since the
   // step may be shorter than in detect.
   void begin(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step);
-  // Adds S, z and y of the particles in contact, and appends the drag of sliding ones.  Particles that `constraints`
+  // Adds S, z and y of the particles in contact, and appends the bristles of sliding ones.  Particles that `constraints`
   // already constrains are skipped.  `landing`, m: the part of y that is the rest of a fall.  y and landing are zero
   // before.
   void apply(const ClothState& state, const StepFormula& step, ParticleConstraints& constraints, std::span<Vec3> y,
@@ -63,7 +63,7 @@ class BodyConstraints {
   // `first_passes`: releases are allowed.
   struct Change {
     int released = 0, added = 0, deep = 0;  // deep: added, and would end below half the offset
-    int slipped = 0, touching = 0;          // from stick to slip; in contact now
+    int slipped = 0, touching = 0;          // from stick to slip, or turned back by friction; in contact now
   };
   Change update(const ClothState& state, std::span<const Vec3> dv, std::span<const Vec3> e, const StepFormula& step,
                 bool first_passes);
@@ -95,7 +95,6 @@ class BodyConstraints {
     archive(memory_);
     archive.fixed(touch_);
     archive.fixed(lambda_n_);
-    archive.fixed(loose_s_);
   }
 
  private:
@@ -117,17 +116,21 @@ class BodyConstraints {
     Contact contact;
     Touch touch = Touch::none;
     bool slipped = false, pinned = false;
-    double slip_m_per_s = 0;     // |v_t| relative to the body
+    bool slid = true;            // in the last step; false: friction bears the static cone
     std::ptrdiff_t beside = -1;  // index into beside_; -1: no crease
+    Vec3 way_m{0, 0, 0};         // along the body, relative to it, in the step by the last pass
+    Bristle bristle{};
   };
   struct Memory {  // of a particle that touched in the last accepted step
     Index particle;
     int faces;
     std::array<Vec3, 2> normal;
     double lambda_beside_N;
+    bool slid;
+    Bristle bristle{};
     template <class Archive>
     void remember(Archive& archive) {
-      archive(particle, faces, normal, lambda_beside_N);
+      archive(particle, faces, normal, lambda_beside_N, slid, bristle);
     }
   };
   // The distance at the start of the step within which the body can meet a particle at x that moves by way_m.
@@ -150,7 +153,10 @@ class BodyConstraints {
     return other && !other->slit ? &other->contact : nullptr;
   }
   void find_far_moving(const ClothState& state, std::span<const Vec3> dv, const StepFormula& step);
-  void touch_down(Near& near, const Vec3& v, double h_s) const;
+  const Memory* memory_of(Index particle) const;
+  Vec3 along_body(Near& near, const Vec3& u);
+  Vec3 way_along_body(Near& near, const Vec3& v, const StepFormula& step);
+  void touch_down(Near& near, const Vec3& v, const StepFormula& step);
   double offset_m(const Contact& contact) const { return offset_m(contact.point); }
   double friction(const Contact& contact, Index particle) const;
   double cone_N(const Near& near);
@@ -170,7 +176,6 @@ class BodyConstraints {
   std::vector<Memory> memory_;    // ascending particles
   std::vector<Touch> touch_;      // [particle] at the end of the last accepted step
   std::vector<double> lambda_n_;  // [particle] N, likewise
-  std::vector<double> loose_s_;   // [particle] time for which it keeps sliding, however slowly
 };
 
 }  // namespace toile::internal

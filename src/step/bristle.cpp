@@ -35,6 +35,11 @@ bool Bristle::decide(const Vec3& u_m, double cone_N) {
   return turned_back;
 }
 
+void Bristle::take_over(const Vec3& friction_N, double cone_N) {
+  stretch_m_ = Vec3::Zero();
+  end(-friction_N / stiffness_N_per_m_, cone_N);
+}
+
 void Bristle::end(const Vec3& u_m, double cone_N) {
   stretch_m_ += u_m;
   const double longest = cone_N / stiffness_N_per_m_, length = stretch_m_.norm();

@@ -1,4 +1,4 @@
-// step/bristle.hpp: dry friction of one contact: an elastic bristle that sticks, and slips at the Coulomb cone.
+// step/bristle.hpp: dry friction of one contact, with cloth or a body: an elastic bristle that sticks, and slips at the Coulomb cone.
 //
 //   s     stretch of the bristle at the start of the step, in the tangent plane;  u the tangential motion in the step
 //   d = s + u,   f(u) = -min(k_t |d|, mu lambda) d/|d|
@@ -28,6 +28,8 @@ class Bristle {
   // was turned back: friction stopped it within the step, and the force of slipping would drive it the other way.  It
   // then sticks; after the second time until the step ends (the first may be due to a contact that is dropped again).
   bool decide(const Vec3& u_m, double cone_N);
+  // A contact that was constrained, under the force `friction_N` on the cloth, lets go: the bristle takes over what the cone allows.
+  void take_over(const Vec3& friction_N, double cone_N);
   // Call after the step.
   void end(const Vec3& u_m, double cone_N);
   // Springs in the tangent plane of `contact`, whose direction is the normal.  `travel_m`: motion of the body's point
@@ -37,6 +39,7 @@ class Bristle {
 
   bool begun() const { return stiffness_N_per_m_ > 0; }
   bool slips() const { return state_ == State::slips; }
+  bool sticks() const { return state_ == State::sticks; }
   const Vec3& stretch_m() const { return stretch_m_; }
 
   template <class Archive>

@@ -238,8 +238,8 @@ TEST(Golden, StateHashesOfThreeScenes) {
     return state_hash(run.state);
   };
   EXPECT_EQ(hanging(), "67f65cf488a47654");
-  EXPECT_EQ(folding(), "fead78d975496766");
-  EXPECT_EQ(drop(1), "e3d317603d238772");
+  EXPECT_EQ(folding(), "c47d82b70d81e3e6");
+  EXPECT_EQ(drop(1), "028f0c43b3d1e1c3");
 }
 
 }  // namespace

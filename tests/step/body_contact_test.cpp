@@ -206,10 +206,29 @@ TEST(Incline, ASheetThatStuckSlidesWhenTheSlopeGrows) {
   tilt(run, 25);
   run.run(15);
   const double angle = 25 * 3.14159265358979323846 / 180, slide = gravity * (std::sin(angle) - 0.3 * std::cos(angle));
-  EXPECT_NEAR(mean(run.state.v).x() / (-slide * 0.5), 1, 0.1);
+  EXPECT_NEAR(mean(run.state.v).x() / (-slide * 0.5), 1, 0.03);
 }
 
-TEST(Incline, WhatBrokeLooseSlidesOnForATenthOfASecondBeforeItSticksAgain) {
+// A skirt hangs from particles that are all near their cones.  One that breaks loose and drops its load overloads its neighbours; so the
+// whole would creep for ever, at whatever speed friction is regularised with.
+TEST(Incline, DoesNotCreepWhereFrictionIsUnevenAndHardlyEnough) {
+  BodySurface slab = test::tilted_slab(2, 0.2, 16);  // tan 16 degrees = 0.287
+  OnIncline run(16, 0.3, slab);
+  run.step.body.friction = {};
+  double mass = 0, borne = 0;
+  for (std::size_t i = 0; i < run.state.x.size(); ++i) {
+    run.model.friction[i] = static_cast<double>((i * 2654435761U >> 8U) % 1000U) / 1000;
+    mass += run.model.mass_kg[i];
+    borne += run.model.mass_kg[i] * run.model.friction[i];
+  }
+  for (double& mu : run.model.friction) mu *= 0.3 * mass / borne;
+  run.run(60);
+  const Vec3 settled = mean(run.state.x);
+  run.run(150);
+  EXPECT_LT((mean(run.state.x) - settled).norm(), 1e-6);
+}
+
+TEST(Incline, WhatBrokeLooseSticksAgainWhenTheSlopeLessens) {
   BodySurface slab = test::tilted_slab(3, 0.2, 0);
   OnIncline run(0, 0.3, slab);
   const auto sticking = [&] {
@@ -226,15 +245,8 @@ TEST(Incline, WhatBrokeLooseSlidesOnForATenthOfASecondBeforeItSticksAgain) {
   run.frame(1.0 / 60);
   EXPECT_EQ(sticking(), 0u);
   tilt(run, 10);
-  for (int f = 0; f < 4; ++f) {
-    run.frame(1.0 / 60);
-    EXPECT_EQ(sticking(), 0u) << f;
-  }
-  const Vec3 slow = mean(run.state.x);  // it creeps where it will stick
-  EXPECT_LT(run.fastest(), 1e-3);
-  run.run(6, 1.0 / 60);
+  run.run(10, 1.0 / 60);
   EXPECT_EQ(sticking(), run.state.x.size());
-  EXPECT_LT((mean(run.state.x) - slow).norm(), 1e-4);
   EXPECT_LT(run.fastest(), 1e-5);
 }
 

@@ -111,5 +111,16 @@ TEST(Bristle, WithoutALoadDoesNothing) {
   EXPECT_TRUE(springs.empty());
 }
 
+TEST(Bristle, TakesOverWhatTheConeAllows) {
+  Bristle bristle = begun();
+  bristle.take_over(Vec3(-0.5, 0, 0), 1);  // friction pulled towards -x
+  bristle.decide(Vec3::Zero(), 1);
+  EXPECT_NEAR((force(bristle, Vec3::Zero()) - Vec3(-0.5, 0, 0)).norm(), 0, 1e-12);
+  bristle.take_over(Vec3(-3, 0, 0), 1);
+  bristle.decide(Vec3(1e-3, 0, 0), 1);
+  EXPECT_TRUE(bristle.slips());
+  EXPECT_NEAR((force(bristle, Vec3(1e-3, 0, 0)) - Vec3(-1, 0, 0)).norm(), 0, 1e-12);
+}
+
 }  // namespace
 }  // namespace toile::internal
