@@ -190,7 +190,10 @@ StepReport ImplicitEuler::attempt(const ClothState& state, double t_s, double h_
   }
   report.touching = body_.touching();
   report.pinched = static_cast<int>(flypaper_.count());
-  judge(limits, candidate, report);
+  {
+    const Timed timed(seconds_.eval);
+    judge(limits, candidate, report);
+  }
   if (report && (options_.rows.cloth_cloth || (world_->body && options_.guard_body)))
     keep_apart(state, h_s, limits, candidate, report);
   h_last_s_ = report ? h_s : h_last_s_;
@@ -382,7 +385,6 @@ void ImplicitEuler::judge_speed(const ClothState& candidate, StepReport& report)
 void ImplicitEuler::judge(const StepLimits& limits, const ClothState& candidate, StepReport& report) {
   judge_speed(candidate, report);
   if (!report) return;
-  const Timed timed(seconds_.eval);
   const StretchChange largest = stretch_.largest(candidate.x);
   report.stretch_change = largest.change;
   report.worst_triangle = largest.triangle;
@@ -435,7 +437,7 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
   }
   pierced_ = report.filter.body_left > 0;
   if (report.filter.corrected == 0) return;
-  judge_strain(stretch_.largest(candidate.x), report);
+  judge(limits, candidate, report);
   if (!report) return;
   for (std::size_t i = 0; i < state.x.size(); ++i) {
     if (!filter_.moved()[i]) continue;

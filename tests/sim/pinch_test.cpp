@@ -17,7 +17,7 @@ namespace {
 TEST(Pinch, ASleeveComesOutOfAnElbowAsItWentIn) {
   const Scratch scratch;
   Scene scene = parse_scene(read_file(TOILE_SOURCE_DIR "/scenes/torture/18-elbow.json"), "18-elbow.json");
-  scene.cloth.front().set_edge_m(0.02);
+  scene.cloth.front().set_edge_m(0.018);
   RunOptions options;
   options.directory = scratch / "out";
   options.command = "test";
