@@ -5,7 +5,7 @@
 //              the rest.  (Predicting with v + h g would ignore the support and start a step at rest with hundreds of
 //              contacts too many: h^2 g is 11 mm at 30 Hz.)
 //   slides     S = I - n n^T,  z = n.(v_body - v) n,  with dry friction along the surface by a bristle (step/bristle.hpp),
-//              k_t = 1000 m / h^2
+//              k_t = 1e4 m / h^2
 //   sticks     S = 0,          z = v_body - v                    while |lambda_t| <= mu_s lambda_n
 //              entered when the bristle holds.  A particle that breaks loose hands lambda_t to its bristle, and so goes on
 //              bearing what the cone allows: cloth whose particles are all near their cones does not creep.
