@@ -28,7 +28,7 @@ test_name = re.compile(r"`([A-Z]\w+)\.([A-Z]\w+)`")
 constant = re.compile(r"`([a-z]\w+) = (-?[\d.]+(?:e-?\d+)?)`")
 link = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 docs_reference = re.compile(r"(?<![\w/.-])docs/[\w./-]*\w(?:#[\w-]+)?")
-document_name = re.compile(r"(?<![\w./-])((?:[\w-]+/)*[\w-]+\.md)(#[\w-]+)?")
+document_name = re.compile(r"(?<![\w./-])((?:[\w-]+/)*[\w-]+\.md(?![\w]))(#[\w-]+)?")
 
 
 def without_code_blocks(text):

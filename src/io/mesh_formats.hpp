@@ -7,8 +7,9 @@ namespace toile::internal {
 
 MeshReader obj_reader();   // obj_read.cpp
 MeshReader ply_reader();   // ply_read.cpp
+MeshReader stl_reader();   // stl_read.cpp
 MeshReader gltf_reader();  // gltf_read.cpp
-inline std::vector<MeshReader> all_mesh_readers() { return {obj_reader(), ply_reader(), gltf_reader()}; }
+inline std::vector<MeshReader> all_mesh_readers() { return {obj_reader(), ply_reader(), stl_reader(), gltf_reader()}; }
 
 MeshWriter obj_writer();   // obj_write.cpp
 MeshWriter ply_writer();   // ply_write.cpp

@@ -1,89 +1,22 @@
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "io/file.hpp"
 #include "io/mesh_formats.hpp"
 #include "io/obj.hpp"
+#include "io/obj_words.hpp"
 
 namespace toile::internal {
 namespace {
-
-// Words of a line, with the number of the line on which each one stands.
-class Words {
- public:
-  explicit Words(std::string_view text) : text_(text) {}
-
-  bool at_end() const { return at_ == text_.size(); }
-  int line() const { return line_; }
-
-  // The next word of this line, over "\" continuations; empty at the end of the line or at a comment.
-  std::string_view next() {
-    skip_blanks();
-    if (at_end() || is_newline(text_[at_]) || text_[at_] == '#') return {};
-    const std::size_t begin = at_;
-    while (!at_end() && !is_blank(text_[at_]) && !is_newline(text_[at_]) && continuation() == 0) ++at_;
-    return text_.substr(begin, at_ - begin);
-  }
-
-  // The rest of this line, trimmed: a name.
-  std::string_view rest() {
-    while (!at_end() && is_blank(text_[at_])) ++at_;
-    const std::size_t begin = at_;
-    while (!at_end() && !is_newline(text_[at_])) ++at_;
-    std::size_t end = at_;
-    while (end > begin && is_blank(text_[end - 1])) --end;
-    return text_.substr(begin, end - begin);
-  }
-
-  // Goes to the beginning of the next line.  A comment ends with its line: a path in it may well end in "\".
-  void next_line() {
-    while (!at_end() && !is_newline(text_[at_])) ++at_;
-    at_ += newline(at_);
-    if (!at_end()) ++line_;
-  }
-  // The same for a line whose words do not matter, but whose continuations belong to it.
-  void skip_line() {
-    while (!next().empty()) {
-    }
-    next_line();
-  }
-
- private:
-  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
-  static bool is_newline(char c) { return c == '\n' || c == '\r'; }
-
-  // Length of the line end at `position`: "\n", "\r\n", "\r"; 0 when there is none.
-  std::size_t newline(std::size_t position) const {
-    if (position >= text_.size() || !is_newline(text_[position])) return 0;
-    return text_.substr(position, 2) == "\r\n" ? 2 : 1;
-  }
-  // Length of "\" and the line end behind it.
-  std::size_t continuation() const {
-    if (text_[at_] != '\\') return 0;
-    const std::size_t length = newline(at_ + 1);
-    return length == 0 ? 0 : 1 + length;
-  }
-  void skip_blanks() {
-    while (!at_end()) {
-      if (is_blank(text_[at_])) {
-        ++at_;
-      } else if (const std::size_t length = continuation()) {
-        at_ += length;
-        ++line_;
-      } else {
-        return;
-      }
-    }
-  }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-  int line_ = 1;
-};
 
 // Too small for a double, as opposed to too large; `text` is known to be one of the two.
 bool underflows(std::string_view text) {
@@ -91,6 +24,39 @@ bool underflows(std::string_view text) {
   if (exponent != std::string_view::npos) return text.substr(exponent + 1, 1) == "-";
   return text.find_first_of("123456789") > text.find('.');
 }
+
+// Lines or words that have no part in the surface and say nothing that can be read: counted, and told in one sentence.
+class Skipped {
+ public:
+  enum Kind : std::size_t { statement, thin_face, texcoord, texcoord_index, kinds };
+
+  void add(Kind kind, int line, std::string_view example = {}) {
+    Place& place = places_[kind];
+    if (place.count++ == 0) place = {1, line, printable(example)};
+  }
+  // Empty when nothing was skipped.
+  std::string sentence(std::string_view file) const {
+    static constexpr std::array<std::string_view, kinds> what = {
+        "lines of statements that OBJ does not have", "faces of fewer than three corners",
+        "texture coordinates that are no numbers", "texture coordinates of corners that do not exist"};
+    std::string list;
+    for (std::size_t k = 0; k < kinds; ++k) {
+      const Place& place = places_[k];
+      if (place.count == 0) continue;
+      list += (list.empty() ? "" : ", ") + std::to_string(place.count) + ' ' + std::string(what[k]) + " (line " +
+              std::to_string(place.line) + (place.example.empty() ? ")" : ": " + place.example + ")");
+    }
+    return list.empty() ? list : printable(file) + ": skipped " + list;
+  }
+
+ private:
+  struct Place {
+    std::size_t count = 0;
+    int line = 0;  // of the first
+    std::string example;
+  };
+  std::array<Place, kinds> places_;
+};
 
 class ObjReader {
  public:
@@ -113,6 +79,7 @@ class ObjReader {
     if (mesh_.positions.empty()) fail(words_.line(), "mesh", "at least one vertex", "none");
     if (mesh_.triangles.empty()) fail(words_.line(), "mesh", "at least one face", "none");
     if (!any_texcoord_) mesh_.texcoord = {};
+    if (std::string note = skipped_.sentence(file_); !note.empty()) mesh_.notes.push_back(std::move(note));
     return std::move(mesh_);
   }
 
@@ -123,7 +90,6 @@ class ObjReader {
   // A corner that names a vertex before the file has defined it.  Rare, and allowed; checked at the end of the file.
   struct Forward {
     int line;
-    bool texcoord;
     Index index;  // from 0
   };
 
@@ -154,9 +120,17 @@ class ObjReader {
       words_.next_line();
     } else if (is_harmless(keyword)) {
       words_.skip_line();
-    } else {
+    } else if (!begun_ || is_free_form(keyword)) {  // another format, or a shape that would be lost
       fail(words_.line(), "keyword", "v, vt, vn, f, g, o or another keyword of a polygon mesh", quoted(keyword));
+    } else {
+      skipped_.add(Skipped::statement, words_.line(), keyword);
+      words_.skip_line();
     }
+    begun_ = begun_ || !keyword.empty();
+  }
+
+  static bool is_free_form(std::string_view keyword) {
+    return keyword == "curv" || keyword == "curv2" || keyword == "surf";
   }
 
   static bool is_harmless(std::string_view keyword) {
@@ -167,16 +141,21 @@ class ObjReader {
   }
 
   // "1", "-1.5e-3", "+2."; nothing else may stand in the word.  from_chars ignores the locale.
-  double parse_number(std::string_view word, std::string_view place) const {
+  static std::optional<double> number_in(std::string_view word) {
     std::string_view digits = word;
     if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
     double value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error == std::errc::result_out_of_range && end == digits.data() + digits.size() && underflows(digits)) return 0;
-    if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
-      fail(words_.line(), place, "a finite number", quoted(word));
-    }
+    if (end != digits.data() + digits.size()) return std::nullopt;
+    if (error == std::errc::result_out_of_range && underflows(digits)) return 0;
+    if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
     return value;
+  }
+  double parse_number(std::string_view word, std::string_view place) const {
+    if (const auto value = number_in(word)) return *value;
+    const bool comma = std::count(word.begin(), word.end(), ',') == 1 && word.find('.') == word.npos;
+    fail(words_.line(), place, comma ? "a finite number with a decimal point, not a comma" : "a finite number",
+         quoted(word));
   }
 
   // At least `required` numbers into `values`; up to `limit` numbers in all.
@@ -206,64 +185,62 @@ class ObjReader {
     if (mesh_.texcoords.size() == 3 * mesh_vertex_limit) {
       fail(words_.line(), "texture coordinate", "at most " + std::to_string(3 * mesh_vertex_limit), "more");
     }
-    // u [v [w]]: v is 0 when it is not there.
-    const std::string_view first = words_.next();
-    Vec2 uv(parse_number(first, "texture coordinate"), 0);
-    const std::string_view second = words_.next();
-    if (!second.empty()) {
-      uv.y() = parse_number(second, "texture coordinate");
-      double none = 0;
-      read_numbers("texture coordinate", &none, 0, 1);
-    } else {
-      words_.next_line();
-    }
-    mesh_.texcoords.push_back(uv);
+    // u [v [w]]: v is 0 when it is not there.  A corner with one that is no number has none.
+    const int line = words_.line();
+    const std::string_view first = words_.next(), second = words_.next();
+    const auto u = number_in(first), v = second.empty() ? std::optional(0.0) : number_in(second);
+    if (!u || !v) skipped_.add(Skipped::texcoord, line, u ? second : first);
+    mesh_.texcoords.push_back(u && v ? Vec2(*u, *v) : Vec2(0, 0));
+    is_number_.push_back(u && v ? 1 : 0);
+    words_.skip_line();
   }
 
-  // The index in `word`, from 0.  It may lie beyond `count`, the number defined so far, but not below 0.
-  Index parse_index(std::string_view word, std::size_t count, bool texcoord) {
-    const auto refuse = [&] {
-      const std::string range =
-          count == 0 ? "an index that exists (none does yet)" : "an index in 1.." + std::to_string(count);
-      fail(words_.line(), "face", texcoord ? range + " for the texture coordinate" : range,
-           word.empty() ? "nothing" : printable(word));
-    };
+  // The index in `word`, from 0, of `count` that are defined so far: it may lie beyond them.  Empty for what is none.
+  static std::optional<Index> index_in(std::string_view word, std::size_t count) {
     long long index = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
-    if (error != std::errc() || end != word.data() + word.size() || index == 0) refuse();
-    const auto defined = static_cast<long long>(count);
-    index = index > 0 ? index - 1 : defined + index;
-    if (index < 0 || index > std::numeric_limits<Index>::max()) refuse();
-    if (index >= defined) forward_.push_back({words_.line(), texcoord, static_cast<Index>(index)});
+    if (error != std::errc() || end != word.data() + word.size() || index == 0) return std::nullopt;
+    index = index > 0 ? index - 1 : static_cast<long long>(count) + index;
+    if (index < 0 || index > std::numeric_limits<Index>::max()) return std::nullopt;
     return static_cast<Index>(index);
   }
 
+  Index parse_position(std::string_view word) {
+    const std::size_t count = mesh_.positions.size();
+    const auto index = index_in(word, count);
+    if (!index)
+      fail(words_.line(), "face",
+           count == 0 ? "an index that exists (none does yet)" : "an index in 1.." + std::to_string(count),
+           word.empty() ? "nothing" : printable(word));
+    if (at(*index) >= count) forward_.push_back({words_.line(), *index});
+    return *index;
+  }
+
+  // v, v/vt, v//vn, v/vt/vn; what stands for the normal does not matter.
   Corner parse_corner(std::string_view word) {
     const std::size_t slash1 = word.find('/');
     const std::size_t slash2 = slash1 == word.npos ? word.npos : word.find('/', slash1 + 1);
-    Corner corner{parse_index(word.substr(0, slash1), mesh_.positions.size(), false), -1};
+    Corner corner{parse_position(word.substr(0, slash1)), -1};
     if (slash1 == word.npos) return corner;
     const std::string_view texcoord = word.substr(slash1 + 1, slash2 == word.npos ? word.npos : slash2 - slash1 - 1);
-    // Some programs write "3/" for a corner without one.
-    if (!texcoord.empty()) corner.texcoord = parse_index(texcoord, mesh_.texcoords.size(), true);
-    if (slash2 != word.npos && slash2 + 1 < word.size()) {  // the normal: some number
-      long long normal = 0;
-      const std::string_view digits = word.substr(slash2 + 1);
-      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), normal);
-      if (error != std::errc() || end != digits.data() + digits.size() || normal == 0) {
-        fail(words_.line(), "face", "an index for the normal", printable(digits));
-      }
-    }
+    if (texcoord.empty()) return corner;  // some programs write "3/" for a corner without one
+    if (const auto index = index_in(texcoord, mesh_.texcoords.size()))
+      corner.texcoord = *index;
+    else
+      skipped_.add(Skipped::texcoord_index, words_.line(), texcoord);
     return corner;
   }
 
   void read_face() {
     corners_.clear();
+    const int line = words_.line();
     for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
       corners_.push_back(parse_corner(word));
     }
-    if (corners_.size() < 3) {
-      fail(words_.line(), "face", "at least 3 corners", std::to_string(corners_.size()));
+    if (corners_.size() < 3) {  // no surface: a line or a point
+      skipped_.add(Skipped::thin_face, line);
+      words_.next_line();
+      return;
     }
     if (mesh_.triangles.size() + corners_.size() - 2 > mesh_triangle_limit) {
       fail(words_.line(), "face", "at most " + std::to_string(mesh_triangle_limit) + " triangles", "more");
@@ -276,7 +253,7 @@ class ObjReader {
       mesh_.texcoord.push_back({c0.texcoord, c1.texcoord, c2.texcoord});
       mesh_.group.push_back(current_group_);
       mesh_.object.push_back(current_object_);
-      any_texcoord_ = any_texcoord_ || c0.texcoord >= 0 || c1.texcoord >= 0 || c2.texcoord >= 0;
+      face_line_.push_back(line);
     }
     words_.next_line();
   }
@@ -288,26 +265,41 @@ class ObjReader {
     return at->second;
   }
 
-  void check_forward() const {
+  // Faces may stand before their vertices: only here is it known what exists.
+  void check_forward() {
     for (const Forward& corner : forward_) {
-      const std::size_t count = corner.texcoord ? mesh_.texcoords.size() : mesh_.positions.size();
-      if (static_cast<std::size_t>(corner.index) < count) continue;
-      const std::string_view what = corner.texcoord ? " for the texture coordinate" : "";
-      fail(corner.line, "face",
-           (count == 0 ? "an index that exists (none does)" : "an index in 1.." + std::to_string(count)).append(what),
-           std::to_string(static_cast<long long>(corner.index) + 1));
+      const std::size_t count = mesh_.positions.size();
+      if (at(corner.index) >= count)
+        fail(corner.line, "face",
+             count == 0 ? "an index that exists (none does)" : "an index in 1.." + std::to_string(count),
+             std::to_string(static_cast<long long>(corner.index) + 1));
     }
+    any_texcoord_ = false;
+    for (std::size_t t = 0; t < mesh_.texcoord.size(); ++t)
+      for (Index& index : mesh_.texcoord[t]) {
+        if (index >= 0 && at(index) >= mesh_.texcoords.size()) {
+          skipped_.add(Skipped::texcoord_index, face_line_[t], std::to_string(static_cast<long long>(index) + 1));
+          index = -1;
+        } else if (index >= 0 && is_number_[at(index)] == 0) {
+          index = -1;
+        }
+        any_texcoord_ = any_texcoord_ || index >= 0;
+      }
   }
 
   Words words_;
   std::string_view file_;
   SurfaceMesh mesh_;
+  bool begun_ = false;  // a statement of the format has been read
   bool any_texcoord_ = false;
   std::string_view group_, object_;                 // names in force, numbered at their first face
   Index current_group_ = -1, current_object_ = -1;  // their numbers; -1 until then
   std::map<std::string, Index, std::less<>> groups_, objects_;
   std::vector<Corner> corners_;
   std::vector<Forward> forward_;
+  std::vector<int> face_line_;   // [triangle]
+  std::vector<char> is_number_;  // [texture coordinate]
+  Skipped skipped_;
 };
 
 std::string_view without_byte_order_mark(std::string_view text) {

@@ -30,14 +30,15 @@ TEST(MeshFile, WhatIsNoneOfThemIsNamed) {
   const auto complaint = [](std::string_view bytes, const std::string& path) {
     return message_of<InputError>([&] { parse_mesh(bytes, path); });
   };
-  EXPECT_EQ(complaint("solid cube\n", "a.stl"), "a.stl: format: expected OBJ, PLY or glTF, got \"solid cube\"");
-  EXPECT_EQ(complaint("", "a.stl"), "a.stl: format: expected OBJ, PLY or glTF, got an empty line");
+  EXPECT_EQ(complaint("solid cube\n", "a.fbx"), "a.fbx: format: expected OBJ, PLY, STL or glTF, got \"solid cube\"");
+  EXPECT_EQ(complaint("", "a.fbx"), "a.fbx: format: expected OBJ, PLY, STL or glTF, got an empty line");
   EXPECT_EQ(complaint("solid cube\n", "a.obj").substr(0, 9), "a.obj:1: ") << "its reader says what is wrong";
   EXPECT_EQ(complaint("", "a.ply").substr(0, 6), "a.ply:");
 }
 
 TEST(MeshFile, EndingsOfAllFormatsAreKnown) {
-  for (const char* name : {"a.obj", "A.OBJ", "b.ply", "c.glb", "d.Gltf"}) EXPECT_TRUE(has_mesh_ending(name)) << name;
+  for (const char* name : {"a.obj", "A.OBJ", "b.ply", "c.glb", "d.Gltf", "e.stl"})
+    EXPECT_TRUE(has_mesh_ending(name)) << name;
   for (const char* name : {"a.json", "obj", "", "a.obj.txt"}) EXPECT_FALSE(has_mesh_ending(name)) << name;
 }
 
