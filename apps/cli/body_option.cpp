@@ -5,10 +5,15 @@
 namespace toile::internal {
 
 LengthUnit unit_option(const CommandLine& line) {
-  if (line.body_unit == "m") return LengthUnit::m;
-  if (line.body_unit == "dm") return LengthUnit::dm;
-  if (line.body_unit == "cm") return LengthUnit::cm;
+  for (const auto& [name, unit] : length_units)
+    if (name == line.body_unit) return unit;
   return LengthUnit::automatic;
+}
+
+UpAxis up_option(const CommandLine& line) {
+  for (const auto& [name, up] : up_axes)
+    if (name == line.body_up) return up;
+  return UpAxis::automatic;
 }
 
 SceneCollider body_option(const CommandLine& line) {
@@ -26,6 +31,7 @@ SceneCollider body_option(const CommandLine& line) {
   mesh.path = line.body;
   mesh.measurements = line.measurements;
   mesh.unit = unit_option(line);
+  mesh.up = up_option(line);
   body.shape = std::move(mesh);
   return body;
 }

@@ -9,6 +9,7 @@
 #include "io/json_text.hpp"
 #include "io/mesh_file.hpp"
 #include "mesh/check.hpp"
+#include "mesh/join_sides.hpp"
 #include "output_folder.hpp"
 #include "sim/setup.hpp"
 #include "sim/start_run.hpp"
@@ -36,10 +37,13 @@ std::string complaint(Work&& work) {
 }
 
 // A mesh may be meant as a cloth (`untangle CLOTH`) or as a body; one that neither command takes is refused.
-std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json) {
+std::string check_mesh(const std::string& path, LengthUnit unit, UpAxis up, JsonText& json) {
   const std::string file = printable(path), text = read_file(path);
   const SurfaceMesh mesh = parse_mesh(text, path);
-  const SolidMesh used = whole_of(mesh);  // `untangle` and `dress` leave the rest out, too
+  const SolidMesh used = whole_of(
+      mesh,
+      joined_triangles(mesh.triangles, join_sides(mesh.positions, mesh.triangles,
+                                                  mesh.object)));  // `untangle` and `dress` leave the rest out, too
   std::vector<char> in_triangle(mesh.positions.size(), 0);
   for (const Triangle& t : mesh.triangles)
     for (const Index i : t) in_triangle[at(i)] = 1;
@@ -51,7 +55,7 @@ std::string check_mesh(const std::string& path, LengthUnit unit, JsonText& json)
   });
   const std::string open = complaint([&] { check_closed(file, used.positions, used.triangles); });
   CollisionBody body;
-  const std::string no_body = complaint([&] { body = read_body(path, text, unit); });
+  const std::string no_body = complaint([&] { body = read_body(path, text, unit, up); });
   const std::vector<std::string>& notes = no_body.empty() ? body.notes : mesh.notes;
   if (!no_cloth.empty() && !no_body.empty()) throw Error(ErrorKind::bad_input, open.empty() ? no_body : no_cloth);
   Vec3 low = mesh.positions.front(), high = low;
@@ -125,7 +129,7 @@ Checked check_file(const CommandLine& line, const std::string& path, JsonText& j
   const std::string ending = std::filesystem::path(path).extension().string();
   if (has_mesh_ending(path)) {
     refuse_other_files(line, false, path);
-    return {check_mesh(path, unit_option(line), json)};
+    return {check_mesh(path, unit_option(line), up_option(line), json)};
   }
   if (ending != ".json" && ending != ".JSON") {
     read_file(path);  // throws for a missing file

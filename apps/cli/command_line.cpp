@@ -1,7 +1,7 @@
 #include "command_line.hpp"
 
 #include "core/error.hpp"
-#include "io/mesh_writer.hpp"
+#include "sim/export_run.hpp"
 #include "sim/report.hpp"
 
 #include <CLI/CLI.hpp>
@@ -42,11 +42,21 @@ void add_limits(CLI::App& command, CommandLine& line) {
       ->capture_default_str();
 }
 
+void add_unit_option(CLI::App& command, CommandLine& line, const std::string& what) {
+  command.add_option("--body-unit", line.body_unit, what)->check(CLI::IsMember({"m", "dm", "cm", "mm", "in"}));
+}
+
+void add_up_option(CLI::App& command, CommandLine& line) {
+  command
+      .add_option("--body-up", line.body_up, "Axis of the body's file that points up (default: as it is seen to stand)")
+      ->check(CLI::IsMember({"y", "z"}));
+}
+
 void add_untangle_options(CLI::App& command, CommandLine& line) {
-  command.add_option("CLOTH", line.inputs, "Cloth mesh (OBJ, PLY, glTF)")->required()->expected(1);
+  command.add_option("CLOTH", line.inputs, "Cloth mesh (OBJ, PLY, STL, glTF)")->required()->expected(1);
   command.add_option("--body", line.body,
-                     "Body mesh (OBJ, PLY, glTF), or a mannequin: woman (also: mannequin), dancer, man");
-  command.add_option("--body-unit", line.body_unit, "Unit of both files")->check(CLI::IsMember({"m", "dm", "cm"}));
+                     "Body mesh (OBJ, PLY, STL, glTF), or a mannequin: woman (also: mannequin), dancer, man");
+  add_unit_option(command, line, "Unit of both files");
   command.add_option("--out", line.out, "Where the cloth goes (default: out/NAME_untangled.obj)");
   command.add_option("--threads", line.threads, "Threads; 0: one per core. The result does not depend on it")
       ->check(CLI::Range(0, 1024));
@@ -56,11 +66,12 @@ void add_untangle_options(CLI::App& command, CommandLine& line) {
 
 void add_export_options(CLI::App& command, CommandLine& line) {
   command.add_option("DIR", line.inputs, "Directory of the run")->required()->expected(1);
-  command.add_option("--to", line.to, "Format: " + mesh_writers_in_words() + " (default: by the ending of --out)");
+  command.add_option("--to", line.to, "Format: " + export_formats_in_words() + " (default: by the ending of --out)");
   CLI::Option* const frame = command.add_option("--frame", line.export_frame, "Frame of the cloth (default: the last)")
                                  ->check(CLI::Range(0, 1000000000));
-  command.add_flag("--all", line.all, "Every frame, in numbered files of a folder")->excludes(frame);
-  command.add_option("--of", line.of, "cloth or body (default: cloth)")->check(CLI::IsMember({"cloth", "body"}));
+  command.add_flag("--all", line.all, "Every frame, in numbered files of a folder, or in one .glb")->excludes(frame);
+  command.add_option("--of", line.of, "cloth, body, or both of usda (default: cloth)")
+      ->check(CLI::IsMember({"cloth", "body", "both"}));
   command.add_option("--out", line.out, "A file; with --all a folder (default: out/NAME.ENDING, out/NAME_FORMAT)");
   command.add_option("--threads", line.threads, "Threads; 0: one per core. The result does not depend on it")
       ->check(CLI::Range(0, 1024));
@@ -141,14 +152,16 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
   dress->add_option("PATTERN", line.inputs, "Pattern files, GarmentCode JSON, from the inside out")->required();
   dress
       ->add_option("--body", line.body,
-                   "Body mesh (OBJ, PLY, glTF), or a mannequin: woman (also: mannequin), dancer, man")
+                   "Body mesh (OBJ, PLY, STL, glTF), or a mannequin: woman (also: mannequin), dancer, man")
       ->required();
-  dress->add_option("--body-unit", line.body_unit, "Unit of the body's file")->check(CLI::IsMember({"m", "dm", "cm"}));
+  add_unit_option(*dress, line, "Unit of the body's file");
+  add_up_option(*dress, line);
   dress->add_option("--measurements", line.measurements,
                     "Measurements of the body's mesh, YAML (default: the file of its name beside it)");
-  dress->add_option("--motion", line.motion,
-                    "Motion: stand, sway, walk, twist, crouch, dance; for a mesh stand, sway, twist, a .pc2 file or a "
-                    "folder of OBJ files");
+  dress->add_option(
+      "--motion", line.motion,
+      "Motion: stand, sway, walk, twist, crouch, dance; for a mesh stand, sway, twist, a .pc2 or .mdd file, or "
+      "a folder of numbered mesh files");
   dress->add_flag("--strict-start", line.strict_start, "End with exit code 4 when the start already intersects");
   add_garment_options(*dress, line);
 
@@ -165,8 +178,8 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
                     "Measurements of the body's mesh, YAML (default: the file of its name beside it)");
   check->add_option("--svg", line.svg, "Of one pattern: draw its panels here, with the places that were found");
   check->add_option("--repair", line.repair, "Of one pattern: write a copy here with what can be mended");
-  check->add_option("--body-unit", line.body_unit, "Unit of meshes that are bodies")
-      ->check(CLI::IsMember({"m", "dm", "cm"}));
+  add_unit_option(*check, line, "Unit of meshes that are bodies");
+  add_up_option(*check, line);
 
   CLI::App* verify = app.add_subcommand("verify", "Audit a finished run");
   verify->add_option("DIR", line.inputs, "Directory of the run")->required()->expected(1);

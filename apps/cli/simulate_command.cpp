@@ -91,7 +91,7 @@ std::string name_of_pattern(const std::string& path) {
 
 // A text that cannot be a file's name is a misspelt motion; a missing mesh file is reported when it is read.
 bool looks_like_a_file(const std::string& text) {
-  return text.ends_with(".pc2") || text.find_first_of("/%") != std::string::npos || std::filesystem::exists(text);
+  return is_point_cache(text) || text.find_first_of("/%") != std::string::npos || std::filesystem::exists(text);
 }
 
 SceneCollider dress_body(const CommandLine& line) {

@@ -64,14 +64,14 @@ ClothFile load_cloth_file(const std::string& path) {
   return cloth;
 }
 
-// In the unit of the cloth's file.
+// In the unit and axes of the cloth's file.
 SolidMesh load_solid(const CommandLine& line) {
   if (line.body.empty()) return {};
-  double units_per_m = 1;
-  if (line.body_unit == "dm") units_per_m = 10;
-  if (line.body_unit == "cm") units_per_m = 100;
-  SolidMesh solid = load_collider(body_option(line)).surface;
-  for (Vec3& p : solid.positions) p *= units_per_m;
+  SceneCollider body = body_option(line);
+  if (SceneMesh* const mesh = std::get_if<SceneMesh>(&body.shape))
+    mesh->up = UpAxis::y;  // the cloth lies as the body does
+  SolidMesh solid = load_collider(body).surface;
+  for (Vec3& p : solid.positions) p /= metres_in(unit_option(line));
   return solid;
 }
 

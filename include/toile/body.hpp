@@ -18,9 +18,10 @@ namespace toile {
 struct BodyFileOptions {
   LengthUnit unit = LengthUnit::automatic;
   std::string motion =
-      {};  // a .pc2, a folder of OBJ or PLY files, or the name of a motion for upright meshes; empty: it stands
+      {};  // a .pc2, a .mdd, a folder of numbered mesh files, or the name of a motion for upright meshes; empty: it stands
   double fps = 30;                // of the files of the motion
   std::string measurements = {};  // a YAML file; empty: the one beside the mesh, if there is one
+  UpAxis up = UpAxis::automatic;  // of the mesh; of a solid, automatic is y
 };
 struct CylinderOptions {  // upright, with rounded rims
   double radius_m = 0.2, height_m = 0.5;
@@ -42,7 +43,7 @@ class TOILE_EXPORT Body {
   // "woman", "man" or "dancer"; `motion` is one of motion_names(), or a file as above; empty: it stands.
   static Body mannequin(std::string_view who, const std::string& motion = {});
   static std::vector<std::string> motion_names();
-  // A closed mesh (OBJ, PLY, glTF).  For the worn body only the person in the file is used, for a solid everything.
+  // A closed mesh (OBJ, PLY, STL, glTF).  For the worn body only the person in the file is used, for a solid everything.
   static Body from_file(const std::string& path, const BodyFileOptions& options = {});
   // A closed mesh in metres, counter-clockwise from outside.  It stands, or goes where Simulation::set_collider says.  Copies.
   static Body from_arrays(std::span<const Point> vertices_m, std::span<const Face> faces);

@@ -42,7 +42,7 @@ class TOILE_EXPORT Cloth {
  public:
   // The panels of a sewing pattern (GarmentCode's JSON), which Simulation::dress sews around the body.
   static Cloth from_pattern(const std::string& path, const PatternOptions& options = {});
-  // A garment that is a mesh already (OBJ, PLY, glTF): worn where it lies, not sewn.  Its groups are its panels; vertices that the file had to
+  // A garment that is a mesh already (OBJ, PLY, STL, glTF): worn where it lies, not sewn.  Its groups are its panels; vertices that the file had to
   // split along a texture seam are one particle.  Repairs of the
   // file are in Simulation::warnings.
   static Cloth from_file(const std::string& path, const MeshFileOptions& options = {});

@@ -12,6 +12,14 @@ using Uv = std::array<double, 2>;          // of the pattern, m: u along the war
 using Face = std::array<std::int32_t, 3>;  // counter-clockwise, seen from outside, or from the right side of cloth
 using CornerUvs = std::array<Uv, 3>;       // of the corners of a face: the two sides of a seam differ
 
-enum class LengthUnit { automatic, m, dm, cm };  // automatic: metres, or an error that says which unit would fit
+enum class LengthUnit {
+  automatic,
+  m,
+  dm,
+  cm,
+  mm,
+  inch
+};                                      // automatic: metres, or an error that says which unit would fit
+enum class UpAxis { automatic, y, z };  // of a file; automatic: as a person is seen to stand in it
 
 }  // namespace toile

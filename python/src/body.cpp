@@ -24,9 +24,12 @@ using namespace nb::literals;
 namespace {
 
 Body from_file(const std::string& path, std::string_view unit, const std::string& motion, double fps,
-               const std::string& measurements) {
-  return Body::from_file(
-      path, {.unit = named("unit", unit, length_units), .motion = motion, .fps = fps, .measurements = measurements});
+               const std::string& measurements, std::string_view up) {
+  return Body::from_file(path, {.unit = named("unit", unit, length_units),
+                                .motion = motion,
+                                .fps = fps,
+                                .measurements = measurements,
+                                .up = named("up", up, up_axes)});
 }
 
 Body from_frames(const FramesIn& frames_m, const FacesIn& body_faces, double fps) {
@@ -45,7 +48,7 @@ void bind_body(nb::module_& module) {
       .def_static("mannequin", &Body::mannequin, nb::call_guard<nb::gil_scoped_release>(), "who"_a, "motion"_a)
       .def_static("motion_names", &Body::motion_names)
       .def_static("from_file", &from_file, nb::call_guard<nb::gil_scoped_release>(), "path"_a, "unit"_a, "motion"_a,
-                  "fps"_a, "measurements"_a)
+                  "fps"_a, "measurements"_a, "up"_a)
       .def_static(
           "from_arrays",
           [](const PointsIn& vertices_m, const FacesIn& body_faces) {

@@ -13,8 +13,13 @@ namespace toile::python {
 template <class E, std::size_t N>
 using Names = std::array<std::pair<std::string_view, E>, N>;
 
-inline constexpr Names<LengthUnit, 4> length_units{
-    {{"automatic", LengthUnit::automatic}, {"m", LengthUnit::m}, {"dm", LengthUnit::dm}, {"cm", LengthUnit::cm}}};
+inline constexpr Names<LengthUnit, 6> length_units{{{"automatic", LengthUnit::automatic},
+                                                    {"m", LengthUnit::m},
+                                                    {"dm", LengthUnit::dm},
+                                                    {"cm", LengthUnit::cm},
+                                                    {"mm", LengthUnit::mm},
+                                                    {"in", LengthUnit::inch}}};
+inline constexpr Names<UpAxis, 3> up_axes{{{"automatic", UpAxis::automatic}, {"y", UpAxis::y}, {"z", UpAxis::z}}};
 
 template <class E, std::size_t N>
 E named(std::string_view argument, std::string_view name, const Names<E, N>& names) {

@@ -43,7 +43,7 @@ class Body(Made):
     def mannequin(cls, who: str, *, motion: str | os.PathLike[str] = "") -> Body:
         """One of the program's own: "woman", "man" or "dancer" (docs/mannequin.md).
 
-        motion: one of motion_names(), a .pc2 file or a folder of OBJ or PLY files; empty: it stands.
+        motion: one of motion_names(), a .pc2 or .mdd file or a folder of numbered mesh files; empty: it stands.
         """
         return cls._make("mannequin", who=who, motion=_motion(motion))
 
@@ -61,13 +61,15 @@ class Body(Made):
         motion: str | os.PathLike[str] = "",
         fps: float = 30,
         measurements: str | os.PathLike[str] = "",
+        up: str = "automatic",
     ) -> Body:
-        """A closed mesh (OBJ, PLY, glTF).  It is read by the constructor of a simulation, which raises IoError and InputError.
+        """A closed mesh (OBJ, PLY, STL, glTF).  It is read by the constructor of a simulation, which raises IoError and InputError.
 
-        unit          "automatic" (metres, or an error that says which unit would fit), "m", "dm" or "cm"
-        motion        a .pc2 file, a folder of OBJ or PLY files, or the name of a motion for upright meshes; empty: it stands
+        unit          "automatic" (metres, or an error that says which unit would fit), "m", "dm", "cm", "mm" or "in"
+        motion        a .pc2 or .mdd file, a folder of numbered mesh files, or the name of a motion for upright meshes; empty: it stands
         fps           frames a second of the motion's files
         measurements  a YAML file (docs/howto/measurements.md); empty: the one beside the mesh, if there is one
+        up            the axis of the file that points up: "y", "z", or "automatic", as a person is seen to stand in it; of a solid y
         """
         return cls._make(
             "from_file",
@@ -76,6 +78,7 @@ class Body(Made):
             motion=_motion(motion),
             fps=fps,
             measurements=file_path(measurements) if os.fspath(measurements) else "",
+            up=up,
         )
 
     @classmethod

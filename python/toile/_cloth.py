@@ -93,7 +93,7 @@ class Cloth(Made):
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str], *, unit: str = "m", rest_shape: str = "automatic") -> Cloth:
-        """A garment that is a mesh already (OBJ, PLY, glTF): worn where it lies, not sewn.
+        """A garment that is a mesh already (OBJ, PLY, STL, glTF): worn where it lies, not sewn.
 
         Its groups are its panels; vertices that the file had to split along a texture seam are one particle.  Repairs of the file
         are in Simulation.warnings.

@@ -56,8 +56,8 @@ Body Body::mannequin(std::string_view who, const std::string& motion) {
 Body Body::from_file(const std::string& path, const BodyFileOptions& options) {
   return translated([&] {
     auto parts = std::make_unique<Parts>();
-    parts->body.shape =
-        internal::SceneMesh{path, static_cast<internal::LengthUnit>(options.unit), options.measurements};
+    parts->body.shape = internal::SceneMesh{path, static_cast<internal::LengthUnit>(options.unit), options.measurements,
+                                            static_cast<internal::UpAxis>(options.up)};
     require_above_zero("fps", options.fps);
     if (!options.motion.empty()) parts->body.motion = motion_of(options.motion, options.fps);
     return Body(std::move(parts));

@@ -4,6 +4,7 @@
 #include "body/body_samples.hpp"
 #include "body/middle_line.hpp"
 #include "core/error.hpp"
+#include "io/mdd.hpp"
 #include "io/mesh_file.hpp"
 #include "io/pc2.hpp"
 
@@ -13,8 +14,6 @@
 namespace toile::internal {
 
 namespace {
-
-std::size_t z(Index i) { return static_cast<std::size_t>(i); }
 
 // Moves by a named motion.
 class ByName : public BodyMotion::Source {
@@ -59,29 +58,25 @@ class MovingPerson : public ByName {
   MiddleLine line_;
 };
 
-// The triangles of the body must match those of its file.
+// A frame has the triangles of the body's file.
 void check_triangles(std::string_view file, std::size_t frame, const SurfaceMesh& mesh, const CollisionBody& body) {
   const std::string place = "frame " + std::to_string(frame);
-  const bool known = !body.source_triangle.empty();
-  const std::size_t count = known ? body.source_triangle_count : body.triangles.size();
-  if (mesh.triangles.size() != count)
-    throw InputError(file, place, std::to_string(count) + " triangles as in the body's file",
+  const auto& expected = body.source_triangles.empty() ? body.triangles : body.source_triangles;
+  if (mesh.triangles.size() != expected.size())
+    throw InputError(file, place, std::to_string(expected.size()) + " triangles as in the body's file",
                      std::to_string(mesh.triangles.size()));
   const auto text = [](const Triangle& t) {
     return std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]);
   };
-  for (std::size_t i = 0; i < body.triangles.size(); ++i) {
-    const std::size_t at = known ? z(body.source_triangle[i]) : i;
-    Triangle expected = body.triangles[i];
-    if (known)
-      for (Index& v : expected) v = body.source_vertex[z(v)];
-    if (mesh.triangles[at] != expected)
-      throw InputError(file, place + ", triangle " + std::to_string(at),
-                       "vertices " + text(expected) + " as in the body's file", text(mesh.triangles[at]));
-  }
+  for (std::size_t t = 0; t < expected.size(); ++t)
+    if (mesh.triangles[t] != expected[t])
+      throw InputError(file, place + ", triangle " + std::to_string(t),
+                       "vertices " + text(expected[t]) + " as in the body's file", text(mesh.triangles[t]));
 }
 
 }  // namespace
+
+bool is_point_cache(std::string_view path) { return path.ends_with(".pc2") || path.ends_with(".mdd"); }
 
 BodyMotion BodyMotion::of_mannequin(const Mannequin& mannequin, const Motion& motion) {
   const bool fits =
@@ -104,6 +99,19 @@ BodyMotion BodyMotion::from_pc2(const std::string& path, const CollisionBody& bo
   const std::string file = printable(path);
   auto samples = std::make_shared<BodySamples>(file, body, options);
   Pc2Reader reader(path);
+  std::vector<Vec3> positions;
+  for (int frame = 0; frame < reader.samples(); ++frame) {
+    reader.read(frame, positions);
+    samples->append(file, positions);
+  }
+  samples->finish(file);
+  return {body.triangles, samples};
+}
+
+BodyMotion BodyMotion::from_mdd(const std::string& path, const CollisionBody& body, const SampleOptions& options) {
+  const std::string file = printable(path);
+  auto samples = std::make_shared<BodySamples>(file, body, options);
+  const MddReader reader(path);
   std::vector<Vec3> positions;
   for (int frame = 0; frame < reader.samples(); ++frame) {
     reader.read(frame, positions);
@@ -138,7 +146,9 @@ BodyMotion BodyMotion::from_frames(std::string_view name, std::span<const Vec3> 
 }
 
 BodyMotion BodyMotion::from_files(const std::string& path, const CollisionBody& body, const SampleOptions& options) {
-  return path.ends_with(".pc2") ? from_pc2(path, body, options) : from_obj_sequence(path, body, options);
+  if (path.ends_with(".pc2")) return from_pc2(path, body, options);
+  if (path.ends_with(".mdd")) return from_mdd(path, body, options);
+  return from_obj_sequence(path, body, options);
 }
 
 void BodyMotion::positions(double t_s, std::span<Vec3> x) const {

@@ -28,8 +28,12 @@ struct SampleOptions {
   double rate_hz = 30;  // samples per second
   LengthUnit unit = LengthUnit::automatic;
   double lead_in_s = 1;
-  double fastest_m_s = 20;  // a vertex that moves farther between two samples is an error of the file
+  double fastest_m_s =
+      20;  // a vertex that moves farther between two samples, beside all together, is an error of the file
 };
+
+// A file of samples, by the ending of its name: .pc2 or .mdd.
+bool is_point_cache(std::string_view path);
 
 class BodyMotion {
  public:
@@ -43,6 +47,9 @@ class BodyMotion {
   // A point cache of all vertices of the file that `body` was read from, or of the kept ones only.
   static BodyMotion from_pc2(const std::string& path, const CollisionBody& body, const SampleOptions& options);
 
+  // The same as MDD; its times are not used either.
+  static BodyMotion from_mdd(const std::string& path, const CollisionBody& body, const SampleOptions& options);
+
   // `path` is a folder, of which every .obj is a frame, ordered by the last number in its name, or a pattern with one
   // "%d" or "%04d".  Every frame has the vertices and triangles of the file that `body` was read from.
   static BodyMotion from_obj_sequence(const std::string& path, const CollisionBody& body, const SampleOptions& options);
@@ -51,13 +58,13 @@ class BodyMotion {
   static BodyMotion from_frames(std::string_view name, std::span<const Vec3> frames, const CollisionBody& body,
                                 const SampleOptions& options);
 
-  // PC2 for a name that ends in .pc2, otherwise OBJ files.
+  // By the ending of the name: .pc2, .mdd, otherwise numbered mesh files.
   static BodyMotion from_files(const std::string& path, const CollisionBody& body, const SampleOptions& options);
 
   // The readers throw IoError, and InputError naming file, frame, vertex, expected and got, for
   //   options out of range; no frames; a number missing or twice; another count of vertices or list of triangles; a
   //   coordinate that is not finite; a vertex faster than `fastest_m_s`; a first sample more than 4 times as tall or as
-  //   short as the body (the unit); more than 2^30 coordinates.
+  //   short as the body (the unit), or with an edge much longer than the body's (another body, another order); more than 2^30 coordinates.
 
   std::size_t vertex_count() const { return source_->vertex_count(); }
   std::span<const Triangle> triangles() const { return triangles_; }
@@ -70,6 +77,9 @@ class BodyMotion {
   // Length of the lead-in; 0 when the first sample is the drape pose.
   double lead_in_s() const { return source_->lead_in_s(); }
 
+  // Sentences: what was done to samples so that they fit.
+  std::vector<std::string> notes() const { return source_->notes(); }
+
   // Everything that decides the positions.
   void add_to(Hash& hash) const;
 
@@ -79,6 +89,7 @@ class BodyMotion {
     virtual void positions(double t_s, std::span<Vec3> x) const = 0;
     virtual double duration_s() const = 0;
     virtual double lead_in_s() const = 0;
+    virtual std::vector<std::string> notes() const { return {}; }
     virtual void add_to(Hash& hash) const = 0;
   };
 

@@ -6,6 +6,7 @@
 #include "core/parallel.hpp"
 
 #include <fmt/printf.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,10 @@ constexpr std::size_t coordinate_limit = std::size_t{1} << 30;
 constexpr double same_pose_m = 1e-5;
 constexpr double rounding_s = 0.15;   // half the time over which the samples' clock starts
 constexpr double height_ratio = 4.0;  // first sample to body
+// No skin is stretched so in a pose that a body may stand in, but most edges are if vertices come in another order.
+constexpr double longer_ratio = 3.0, longer_share = 0.05;  // an edge to the body's, and beyond it of the height
+constexpr double fits_better = 0.5;                        // distance from the body's pose with other axes
+constexpr double fastest_whole_m_s = 100;                  // of the body as a whole: in or on whatever carries it
 
 std::size_t z(Index i) { return static_cast<std::size_t>(i); }
 
@@ -39,6 +44,8 @@ double rounded_ramp(double t, double start, double e) {
 
 BodySamples::BodySamples(std::string_view file, const CollisionBody& body, const SampleOptions& options)
     : drape_(body.positions),
+      triangles_(body.triangles),
+      rotation_(body.rotation),
       source_vertex_(body.source_vertex),
       source_count_(body.source_vertex_count),
       options_(options) {
@@ -62,7 +69,9 @@ void BodySamples::append(std::string_view file, std::span<const Vec3> positions)
   }
   if (3 * (samples_.size() + drape_.size()) > coordinate_limit)
     throw InputError(file, frame, "at most 2^30 coordinates in all frames", "more");
-  const double unit = metres_in(options_.unit), farthest = options_.fastest_m_s / options_.rate_hz;
+  const double unit = metres_in(options_.unit);
+  Vec3s x;
+  x.reserve(drape_.size());
   for (std::size_t i = 0; i < drape_.size(); ++i) {
     const std::size_t from = whole ? z(source_vertex_[i]) : i;
     const Vec3 p = unit * positions[from];
@@ -70,36 +79,111 @@ void BodySamples::append(std::string_view file, std::span<const Vec3> positions)
     if (!p.allFinite()) throw InputError(file, place(), "finite coordinates", "infinity or not a number");
     if (p.cwiseAbs().maxCoeff() > 1e6)
       throw InputError(file, place(), "coordinates within 1000 km", fmt::sprintf("%g m", p.cwiseAbs().maxCoeff()));
-    if (frames_ > 0) {
-      const double moved = (p - sample(frames_ - 1, i)).norm();
-      if (moved > farthest)
-        throw InputError(file, place(),
-                         "at most " + fmt::sprintf("%.3g m", farthest) + " from the frame before (" +
-                             fmt::sprintf("%g m/s", options_.fastest_m_s) + ")",
-                         fmt::sprintf("%.3g m", moved));
-    }
-    samples_.push_back(p.cast<float>());
+    x.push_back(p);
   }
+  if (frames_ == 0) turn_to_fit(file, x);
+  if (!rotation_.isIdentity(0))
+    for (Vec3& p : x) p = rotation_ * p;
+  if (frames_ == 0) {
+    check_height(file, x);
+    check_edges(file, x);
+  } else {
+    check_speed(file, x);
+  }
+  for (const Vec3& p : x) samples_.push_back(p.cast<float>());
   ++frames_;
-  if (frames_ == 1) check_height(file);
 }
 
-void BodySamples::check_height(std::string_view file) const {
-  const auto height = [&](const auto& at) {
-    double low = at(0), high = at(0);
-    for (std::size_t i = 1; i < drape_.size(); ++i) {
-      low = std::min(low, at(i));
-      high = std::max(high, at(i));
+// Of the body's axes, Toile's and those with z up, the ones in which the frame is nearest to the body as it stands.
+void BodySamples::turn_to_fit(std::string_view file, Vec3s& frame) {
+  const auto middle = [](const Vec3s& x) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& p : x) sum += p;
+    return Vec3(sum / static_cast<double>(x.size()));
+  };
+  const Vec3 there = middle(drape_), here = middle(frame);
+  const auto distance = [&](const Mat3& rotation) {
+    double sum = 0;
+    for (std::size_t i = 0; i < frame.size(); ++i)
+      sum += (rotation * (frame[i] - here) - (drape_[i] - there)).squaredNorm();
+    return std::sqrt(sum);
+  };
+  const Mat3 as_in_file = rotation_;
+  double least = fits_better * distance(as_in_file);
+  for (const Mat3& other : {Mat3(Mat3::Identity()), z_up_to_y_up()}) {
+    const double d = distance(other);
+    if (!(d < least)) continue;
+    least = d;
+    rotation_ = other;
+  }
+  if (rotation_ == as_in_file) return;
+  notes_.push_back(std::string(file) + (rotation_.isIdentity(0)
+                                            ? ": is upright as it is, unlike the body's file: not turned as that"
+                                            : ": z is up in it, unlike the body's file: turned to (x, z, -y)"));
+}
+
+void BodySamples::check_height(std::string_view file, const Vec3s& frame) const {
+  const auto height = [](const Vec3s& x) {
+    double low = x[0].y(), high = x[0].y();
+    for (const Vec3& p : x) {
+      low = std::min(low, p.y());
+      high = std::max(high, p.y());
     }
     return high - low;
   };
-  const double body = height([&](std::size_t i) { return drape_[i].y(); });
-  const double first = height([&](std::size_t i) { return sample(0, i).y(); });
+  const double body = height(drape_), first = height(frame);
   if (first <= height_ratio * body && body <= height_ratio * first) return;
   throw InputError(
       file, "frame 0",
       "a height near the body's " + fmt::sprintf("%.3g m", body) + " (is the unit of the samples another one?)",
       fmt::sprintf("%.3g m", first));
+}
+
+void BodySamples::check_edges(std::string_view file, const Vec3s& frame) const {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : drape_) box.extend(p);
+  const double beyond = longer_share * box.sizes().maxCoeff();
+  for (const Triangle& t : triangles_)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t a = z(t[k]), b = z(t[(k + 1) % 3]);
+      const double body = (drape_[a] - drape_[b]).norm(), first = (frame[a] - frame[b]).norm();
+      if (first <= longer_ratio * body + beyond) continue;
+      throw InputError(file,
+                       "frame 0, edge " + std::to_string(source_vertex_[a]) + "-" + std::to_string(source_vertex_[b]),
+                       fmt::sprintf("a length near the body's %.3g m (are these samples of another body, or its "
+                                    "vertices in another order?)",
+                                    body),
+                       fmt::sprintf("%.3g m", first));
+    }
+}
+
+void BodySamples::check_speed(std::string_view file, const Vec3s& frame) const {
+  const std::string place = "frame " + std::to_string(frames_);
+  // What most of the body does is what carries it; single vertices do not change a median.
+  Vec3 whole;
+  std::vector<double> moves(frame.size());
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < frame.size(); ++i) moves[i] = frame[i][k] - sample(frames_ - 1, i)[k];
+    const auto middle = moves.begin() + static_cast<std::ptrdiff_t>(moves.size() / 2);
+    std::nth_element(moves.begin(), middle, moves.end());
+    whole[k] = *middle;
+  }
+  const double farthest_whole = fastest_whole_m_s / options_.rate_hz,
+               farthest = options_.fastest_m_s / options_.rate_hz;
+  if (whole.norm() > farthest_whole)
+    throw InputError(
+        file, place,
+        fmt::sprintf("a body at most %.3g m from the frame before (%g m/s)", farthest_whole, fastest_whole_m_s),
+        fmt::sprintf("%.3g m", whole.norm()));
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    const double moved = (frame[i] - sample(frames_ - 1, i) - whole).norm();
+    if (moved <= farthest) continue;
+    const std::size_t from = source_count_ == drape_.size() ? i : z(source_vertex_[i]);
+    throw InputError(file, place + ", vertex " + std::to_string(from),
+                     "at most " + fmt::sprintf("%.3g m", farthest) + " from the frame before (" +
+                         fmt::sprintf("%g m/s", options_.fastest_m_s) + ") beside what the whole body moves",
+                     fmt::sprintf("%.3g m", moved));
+  }
 }
 
 void BodySamples::finish(std::string_view file) {

@@ -24,7 +24,8 @@ class BodySamples : public BodyMotion::Source {
   // Throws InputError for options out of range.
   BodySamples(std::string_view file, const CollisionBody& body, const SampleOptions& options);
 
-  // `positions` are those of a file with all source vertices, or of the kept vertices only; as in the file.
+  // `positions` are those of a file with all source vertices, or of the kept vertices only; as in the file.  The first frame must fit the body: its
+  // height, the lengths of its edges.  If it fits better with other axes, as z up, all are turned, and that is noted.
   void append(std::string_view file, std::span<const Vec3> positions);
   // Call after the last frame; throws InputError when there was none.
   void finish(std::string_view file);
@@ -33,6 +34,7 @@ class BodySamples : public BodyMotion::Source {
   void positions(double t_s, std::span<Vec3> x) const override;
   double duration_s() const override;
   double lead_in_s() const override { return lead_in_s_; }
+  std::vector<std::string> notes() const override { return notes_; }
   void add_to(Hash& hash) const override;
 
  private:
@@ -40,14 +42,20 @@ class BodySamples : public BodyMotion::Source {
   Vec3 sample(std::size_t frame, std::size_t vertex) const {
     return samples_[frame * drape_.size() + vertex].cast<double>();
   }
-  void check_height(std::string_view file) const;
+  void turn_to_fit(std::string_view file, Vec3s& frame);
+  void check_height(std::string_view file, const Vec3s& frame) const;
+  void check_edges(std::string_view file, const Vec3s& frame) const;
+  void check_speed(std::string_view file, const Vec3s& frame) const;
 
   std::vector<Vec3> drape_;
+  std::vector<Triangle> triangles_;
+  Mat3 rotation_;  // from the samples' axes
   std::vector<Index> source_vertex_;
   std::size_t source_count_ = 0, frames_ = 0;
   SampleOptions options_;
   double lead_in_s_ = 0;
   std::vector<Vec3f> samples_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace toile::internal

@@ -3,7 +3,6 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
-#include "mesh/join_sides.hpp"
 
 #include <fmt/printf.h>
 #include <Eigen/Geometry>
@@ -195,9 +194,7 @@ SolidMesh revolved(std::span<const Vec2> profile_m, double edge_m) {
   return solid;
 }
 
-SolidMesh whole_of(const SurfaceMesh& mesh) {
-  const std::vector<Triangle> triangles =
-      joined_triangles(mesh.triangles, join_sides(mesh.positions, mesh.triangles, mesh.object));
+SolidMesh whole_of(const SurfaceMesh& mesh, std::span<const Triangle> triangles) {
   std::vector<Index> place(mesh.positions.size(), -1);
   for (const Triangle& t : triangles)
     for (const Index v : t) place[at(v)] = 0;

@@ -35,9 +35,8 @@ SolidMesh block(const Vec3& size_m);
 // that touches the axis between its ends, or has one end on it.
 SolidMesh revolved(std::span<const Vec2> profile_m, double edge_m);
 
-// All parts of the file; unused vertices are dropped, and vertices that were split are joined (mesh/join_sides.hpp).
-// The caller checks the surface.
-SolidMesh whole_of(const SurfaceMesh& mesh);
+// These triangles of the file's vertices; unused vertices are dropped.  The caller checks the surface.
+SolidMesh whole_of(const SurfaceMesh& mesh, std::span<const Triangle> triangles);
 
 // A room: the same surface seen from inside.
 void turn_inside_out(SolidMesh& solid);

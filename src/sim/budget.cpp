@@ -7,6 +7,7 @@
 #include "dress/dressing_body.hpp"
 #include "dress/outfit_run.hpp"
 #include "dress/sewing.hpp"
+#include "io/mdd.hpp"
 #include "io/pc2.hpp"
 
 #include <fmt/printf.h>
@@ -43,9 +44,9 @@ std::string quoted(const std::string& name) { return '"' + printable(name) + '"'
 bool by_name(const SceneCollider& collider) { return collider.motion && !collider.motion->name.empty(); }
 
 double samples_of_motion(const std::string& path) {
-  if (std::filesystem::path(path).extension() == ".pc2") {
+  if (is_point_cache(path)) {
     try {
-      return Pc2Reader(path).samples();
+      return path.ends_with(".mdd") ? MddReader(path).samples() : Pc2Reader(path).samples();
     } catch (const Error&) {  // reported when it is read
       return 0;
     }
@@ -57,7 +58,7 @@ double samples_of_motion(const std::string& path) {
       std::filesystem::is_directory(path, error) ? path : std::filesystem::path(path).parent_path().string();
   for (std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
        entry.increment(error))
-    if (entry->path().extension() == ".obj") samples += 1;
+    if (has_mesh_ending(entry->path().string())) samples += 1;
   return samples;
 }
 

@@ -35,9 +35,7 @@ void describe_choice(V& v, std::optional<SceneClothMesh>& mesh) {
                 mesh);
   SceneClothMesh none;
   SceneClothMesh& given = mesh ? *mesh : none;
-  static constexpr std::array<std::pair<std::string_view, LengthUnit>, 3> units = {
-      {{"m", LengthUnit::m}, {"dm", LengthUnit::dm}, {"cm", LengthUnit::cm}}};
-  v.name({"mesh_unit", "of the mesh's coordinates"}, units, given.unit);
+  v.name({"mesh_unit", "of the mesh's coordinates"}, length_units, given.unit);
   static constexpr std::array<std::pair<std::string_view, RestShape>, 3> rest_shapes = {
       {{"automatic", RestShape::automatic}, {"drawing", RestShape::drawing}, {"start", RestShape::start}}};
   v.name({"rest_shape",

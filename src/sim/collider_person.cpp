@@ -1,5 +1,6 @@
 #include "sim/collider_person.hpp"
 
+#include "body/body_parts.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "io/file.hpp"
@@ -29,6 +30,7 @@ constexpr double mannequin_s = 1.5;
 void add_input(std::uint64_t hash, Collider& loaded) { loaded.input_hash = combined({loaded.input_hash, hash}); }
 
 void set_movement(BodyMotion motion, std::string name, Collider& loaded) {
+  for (std::string& note : motion.notes()) loaded.warnings.push_back(std::move(note));
   Hash hash;
   motion.add_to(hash);
   add_input(hash.value(), loaded);
@@ -73,9 +75,10 @@ void load_measurements(const SceneMesh& mesh, std::span<const Vec3> x, Collider&
 
 }  // namespace
 
-CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, const BytesSeen& beside) {
+CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, UpAxis up,
+                        const BytesSeen& beside) {
   const std::string file = printable(path);
-  CollisionBody body = make_collision_body(parse_mesh(text, path, beside), file, unit);
+  CollisionBody body = make_collision_body(parse_mesh(text, path, beside), file, unit, up);
   check_areas(file, body.positions, body.triangles);
   return body;
 }
@@ -105,13 +108,18 @@ Collider load(const SceneMannequin& mannequin, const SceneCollider& whole) {
 namespace {
 
 // A solid takes the whole file, closed parts of any number.
-CollisionBody read_whole(const std::string& path, LengthUnit unit, const BytesSeen& seen) {
-  const std::string file = printable(path);
-  SolidMesh read = whole_of(load_mesh(path, seen));
-  for (Vec3& x : read.positions) x *= metres_in(unit);
+CollisionBody read_whole(const SceneMesh& file_of, UpAxis up, const BytesSeen& seen) {
+  const std::string file = printable(file_of.path);
+  const SurfaceMesh mesh = load_mesh(file_of.path, seen);
+  const BodyParts parts = solid_parts(mesh, file, metres_in(file_of.unit));
+  SolidMesh read = whole_of(mesh, parts.triangles);
+  const Mat3 turn = up == UpAxis::z ? z_up_to_y_up() : Mat3(Mat3::Identity());
+  for (Vec3& x : read.positions) x = metres_in(file_of.unit) * (turn * x);
   check_closed(file, read.positions, read.triangles);
   check_areas(file, read.positions, read.triangles);
   CollisionBody whole;
+  whole.notes = mesh.notes;
+  whole.notes.insert(whole.notes.end(), parts.notes.begin(), parts.notes.end());
   whole.positions = std::move(read.positions);
   whole.triangles = std::move(read.triangles);
   return whole;
@@ -123,13 +131,14 @@ Collider load(const SceneMesh& mesh, const SceneCollider& whole) {
   Collider collider;
   Hash bytes;
   const BytesSeen seen = [&](std::string_view file) { bytes.add_text(file); };
+  const UpAxis up = !whole.worn && mesh.up == UpAxis::automatic ? UpAxis::y : mesh.up;
   const auto read_person = [&] {
     const std::string text = read_file(mesh.path);
     seen(text);
-    return read_body(mesh.path, text, mesh.unit, seen);
+    return read_body(mesh.path, text, mesh.unit, up, seen);
   };
   const bool is_person = whole.worn || whole.motion;
-  CollisionBody read = is_person ? read_person() : read_whole(mesh.path, mesh.unit, seen);
+  CollisionBody read = is_person ? read_person() : read_whole(mesh, up, seen);
   collider.input_hash = bytes.value();
   collider.warnings = std::move(read.notes);
   if (whole.worn) load_measurements(mesh, read.positions, collider);

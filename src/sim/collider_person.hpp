@@ -16,7 +16,7 @@ struct SceneCollider;
 
 struct SceneMotion {
   std::string name;                              // of the mannequin: walk, twist, dance ...; empty: from a file
-  std::string path;                              // resolved: .pc2, or a folder of OBJ files
+  std::string path;                              // resolved: .pc2, .mdd, or a folder of mesh files
   double fps = SampleOptions{}.rate_hz;          // of the file
   double lead_in_s = SampleOptions{}.lead_in_s;  // from the body's own pose into the motion
 };
@@ -40,6 +40,7 @@ struct SceneMesh {
   std::string path;                         // resolved
   LengthUnit unit = LengthUnit::automatic;  // of a solid: metres
   std::string measurements;                 // path, resolved; empty: the mesh's name with .yaml, if there is one
+  UpAxis up = UpAxis::automatic;            // of a solid, and beside cloth that is modelled on it: y
 };
 template <class V>
 void describe_choice(V& v, SceneMesh& mesh, bool worn) {
@@ -49,9 +50,8 @@ void describe_choice(V& v, SceneMesh& mesh, bool worn) {
 }
 template <class V>
 void describe_beside(V& v, SceneMesh& mesh, bool worn) {
-  static constexpr std::array<std::pair<std::string_view, LengthUnit>, 3> units = {
-      {{"m", LengthUnit::m}, {"dm", LengthUnit::dm}, {"cm", LengthUnit::cm}}};
-  v.name({"unit", "of the mesh", worn ? "metres, or an error that asks" : "metres"}, units, mesh.unit);
+  v.name({"unit", "of the mesh", worn ? "metres, or an error that asks" : "metres"}, length_units, mesh.unit);
+  v.name({"up", "axis of the mesh that points up", worn ? "what is seen: [axes](#axes)" : "y"}, up_axes, mesh.up);
   if (worn)
     v.path({"measurements", "of the mesh, a YAML file: [howto/measurements.md](howto/measurements.md)",
             "the file of the mesh's name that ends in .yaml, if there is one"},
@@ -70,7 +70,8 @@ struct SceneArrays {
 };
 
 // The body of a mesh file with this text, checked; `beside` receives the other files that it is made of.  Throws InputError, IoError.
-CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, const BytesSeen& beside = {});
+CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, UpAxis up,
+                        const BytesSeen& beside = {});
 // The file of the measurements: the named one, or one beside the mesh; empty: none.
 std::string measurements_path(const SceneMesh& mesh);
 

@@ -1,5 +1,6 @@
 // sim/settings_body.hpp: the keys of the body, its motion, and of solids beside it.                sim/settings.hpp
 #pragma once
+#include "body/body_motion.hpp"
 #include "body/motion.hpp"
 #include "sim/settings_cloth.hpp"
 
@@ -12,7 +13,7 @@ namespace toile::internal {
 inline Shorthand motion_by_name(bool mannequin) {
   return [mannequin](const std::string& text) -> std::string_view {
     const auto names = motion_names();
-    const bool from_file = text.ends_with(".pc2") || text.find('/') != std::string::npos ||
+    const bool from_file = is_point_cache(text) || text.find('/') != std::string::npos ||
                            (!mannequin && std::find(names.begin(), names.end(), text) == names.end());
     return from_file ? "file" : "name";
   };
@@ -26,7 +27,7 @@ void describe(V& v, SceneMotion& motion) {
                 "([motions.md](motions.md))",
                 "a file"},
                motion_names(), motion.name);
-  v.path({"file", "a .pc2 file, or a folder of OBJ or PLY files", "a name"}, motion.path);
+  v.path({"file", "a .pc2 or .mdd file, or a folder of numbered mesh files", "a name"}, motion.path);
   v.number({"fps", "of the file"}, {1, most_fps}, motion.fps);
   v.number({"lead_in_s", "from the pose in which the body stands into the motion"}, {0, 10}, motion.lead_in_s);
 }

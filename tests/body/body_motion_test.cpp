@@ -5,6 +5,7 @@
 #include "body/mannequins.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "io/mdd.hpp"
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
 
@@ -25,8 +26,8 @@ namespace fs = std::filesystem;
 class Folder {
  public:
   Folder()
-      : path_(fs::temp_directory_path() /
-              (std::string("toile_body_motion_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
+      : path_(fs::temp_directory_path() / "toile_body_motion" /
+              testing::UnitTest::GetInstance()->current_test_info()->name()) {
     fs::remove_all(path_);
     fs::create_directories(path_);
   }
@@ -49,7 +50,7 @@ SurfaceMesh figure() {
                                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
     for (const Triangle& t : faces) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   };
-  box(Vec3(1, 0, 0), Vec3(1.1, 0.1, 0.1));  // comes first, so that indices shift
+  box(Vec3(1, 0, 0), Vec3(1.05, 0.05, 0.05));  // comes first, so that indices shift
   box(Vec3(0, 0, 0), Vec3(0.3, 1.6, 0.2));
   return mesh;
 }
@@ -177,7 +178,7 @@ TEST(BodyMotion, ReadsNumberedObjFilesFromAFolderAndByPattern) {
 
 TEST(BodyMotion, SortsByNumberNotByName) {
   const Folder folder;
-  for (int f = 9; f <= 11; ++f) write_obj(folder / ("f" + std::to_string(f) + ".obj"), figure());
+  for (int f = 9; f <= 11; ++f) write_obj(folder / (std::to_string(f) + ".obj"), figure());
   const auto files = numbered_files(folder.path());
   ASSERT_EQ(files.size(), 3U);
   EXPECT_EQ(files[0].number, 9);
@@ -262,6 +263,59 @@ TEST(BodyMotion, ConvertsUnitsAndSuspectsAForgottenOne) {
   options.unit = LengthUnit::cm;
   const BodyMotion motion = BodyMotion::from_pc2(folder / "walk.pc2", figure_body(), options);
   EXPECT_LT((at(motion, 1 / 15.0)[0] - figure_body().positions[0] - Vec3(0.04, 0, 0)).norm(), 1e-6);
+}
+
+TEST(BodyMotion, ReadsMdd) {
+  const Folder folder;
+  MddWriter writer(folder / "walk.mdd", 16, 3, 30);
+  for (int f = 0; f < 3; ++f) writer.append(moved(figure(), along_z(f)).positions);
+  writer.commit();
+  const BodyMotion motion = BodyMotion::from_files(folder / "walk.mdd", figure_body(), {});
+  EXPECT_LT((at(motion, 1 / 30.0)[4] - figure_body().positions[4] - along_z(1)).norm(), 1e-6);
+}
+
+TEST(BodyMotion, ABodyMayBeCarriedFasterThanItsLimbsMove) {
+  const Folder folder;
+  const auto read = [&](double metres_per_frame) {
+    write_pc2(folder / "car.pc2", figure().positions, 4, [&](int f) { return Vec3(metres_per_frame * f, 0, 0); });
+    return complaint([&] { BodyMotion::from_pc2(folder / "car.pc2", figure_body(), {}); });
+  };
+  EXPECT_EQ(read(25 / 30.0), "");
+  EXPECT_TRUE(says(read(101 / 30.0), {"car.pc2: frame 1: expected a body at most 3.33 m", "100 m/s", "got 3.37 m"}));
+}
+
+TEST(BodyMotion, TurnsSamplesWithOtherAxesThanTheBody) {
+  const Folder folder;
+  std::vector<Vec3> z_up;
+  for (const Vec3& p : figure().positions) z_up.emplace_back(p.x(), -p.z(), p.y());
+  write_pc2(folder / "z_up.pc2", z_up, 3, [](int f) { return Vec3(0, 0, 0.01 * f); });
+  const BodyMotion motion = BodyMotion::from_pc2(folder / "z_up.pc2", figure_body(), {});
+  EXPECT_LT((at(motion, 2 / 30.0)[4] - figure_body().positions[4] - Vec3(0, 0.02, 0)).norm(), 1e-6);
+  ASSERT_EQ(motion.notes().size(), 1u);
+  EXPECT_TRUE(says(motion.notes()[0], {"z_up.pc2: z is up in it", "(x, z, -y)"}));
+  // And those of a file that is turned itself: the whole file as it is, or upright already, as Toile writes it.
+  SurfaceMesh lying = figure();
+  lying.positions = z_up;
+  const CollisionBody body = make_collision_body(lying, "lying.obj", LengthUnit::automatic);
+  EXPECT_LT((body.positions[4] - figure_body().positions[4]).norm(), 1e-12);
+  EXPECT_TRUE(BodyMotion::from_pc2(folder / "z_up.pc2", body, {}).notes().empty());
+  write_pc2(folder / "upright.pc2", body.positions, 3, along_z);
+  const BodyMotion upright = BodyMotion::from_pc2(folder / "upright.pc2", body, {});
+  EXPECT_LT((at(upright, 1 / 30.0)[4] - body.positions[4] - along_z(1)).norm(), 1e-6);
+  EXPECT_EQ(upright.notes().size(), 1u);
+}
+
+TEST(BodyMotion, RefusesSamplesWhoseFirstDoesNotFitTheEdges) {
+  const Folder folder;
+  std::vector<Vec3> x = figure().positions;
+  std::swap(x[9], x[14]);  // another order
+  write_pc2(folder / "other.pc2", x, 2, along_z);
+  EXPECT_TRUE(says(complaint([&] { BodyMotion::from_pc2(folder / "other.pc2", figure_body(), {}); }),
+                   {"other.pc2: frame 0, edge ", "a length near the body's", "in another order?"}));
+  std::vector<Vec3> bent = figure().positions;  // another pose
+  for (Vec3& p : bent) p.x() += 0.3 * p.y();
+  write_pc2(folder / "bent.pc2", bent, 2, along_z);
+  EXPECT_EQ(complaint([&] { BodyMotion::from_pc2(folder / "bent.pc2", figure_body(), {}); }), "");
 }
 
 TEST(BodyMotion, TakesSamplesOfTheBodyAlone) {

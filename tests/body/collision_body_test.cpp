@@ -4,9 +4,11 @@
 #include "body/mannequins.hpp"
 #include "core/error.hpp"
 #include "io/obj.hpp"
+#include "mesh/check.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -31,6 +33,12 @@ SurfaceMesh box_of_height(double height) {
   SurfaceMesh mesh;
   add_box(mesh, Vec3::Zero(), Vec3(0.2 * height, height, 0.1 * height), "");
   return mesh;
+}
+
+std::string all_notes(const CollisionBody& body) {
+  std::string text;
+  for (const std::string& note : body.notes) text += note + '\n';
+  return text;
 }
 
 std::string complaint(const SurfaceMesh& mesh, LengthUnit unit) {
@@ -63,26 +71,45 @@ TEST(CollisionBody, AsksForTheUnitInsteadOfGuessingIt) {
   EXPECT_NE(cm.find("got 172 m"), std::string::npos) << cm;
   const std::string dm = complaint(box_of_height(16.5), LengthUnit::automatic);
   EXPECT_NE(dm.find("--body-unit dm if the body is 1.65 m tall"), std::string::npos) << dm;
-  for (const double height : {0.3, 3.0, 1720.0}) {
+  EXPECT_NE(complaint(box_of_height(1720), LengthUnit::automatic).find("--body-unit mm if the body is 1.72 m tall"),
+            std::string::npos);
+  const std::string inches = complaint(box_of_height(66.93), LengthUnit::automatic);
+  EXPECT_NE(inches.find("--body-unit in if the body is 1.70 m tall, or cm if the body is 0.67 m tall"),
+            std::string::npos)
+      << inches;
+  for (const double height : {0.3, 3.0, 17200.0}) {
     const std::string none = complaint(box_of_height(height), LengthUnit::automatic);
-    EXPECT_NE(none.find("no unit of m, dm, cm fits"), std::string::npos) << height << ": " << none;
+    EXPECT_NE(none.find("no unit of m, dm, cm, mm, in fits"), std::string::npos) << height << ": " << none;
     EXPECT_NE(none.find("--body-unit"), std::string::npos) << none;
   }
 }
 
 TEST(CollisionBody, KeepsTheGroupCalledBodyEvenWhenAnotherIsLarger) {
   SurfaceMesh mesh;
-  add_box(mesh, Vec3(-5, -5, -5), Vec3(5, 5, 5), "helper-skirt");
+  add_box(mesh, Vec3(-1, 0, -1), Vec3(1, 1.2, 1), "helper-skirt");
   add_box(mesh, Vec3::Zero(), Vec3(0.3, 1.7, 0.2), "Body");
   const CollisionBody body = make_collision_body(mesh, "f.obj", LengthUnit::automatic);
   EXPECT_EQ(body.positions.size(), 8U);
   EXPECT_EQ(body.triangles.size(), 12U);
   EXPECT_DOUBLE_EQ(body.height_m, 1.7);
+  EXPECT_NE(all_notes(body).find("f.obj: helper-skirt (8 vertices, 4706 % of the volume of the body) left out"),
+            std::string::npos)
+      << all_notes(body);
+}
+
+TEST(CollisionBody, DoesNotFollowTheNameOfAPart) {
+  SurfaceMesh mesh;
+  add_box(mesh, Vec3(0, 0.9, 0), Vec3(0.4, 1.7, 0.2), "body");
+  add_box(mesh, Vec3(0, 0, 0), Vec3(0.4, 0.85, 0.2), "legs");
+  const CollisionBody body = make_collision_body(mesh, "f.obj", LengthUnit::automatic);
+  EXPECT_EQ(body.positions.size(), 16U);
+  EXPECT_DOUBLE_EQ(body.height_m, 1.7);
+  EXPECT_NE(all_notes(body).find("the name is not followed"), std::string::npos) << all_notes(body);
 }
 
 TEST(CollisionBody, WithoutSuchANameKeepsTheLargeClosedPartsOnly) {
   SurfaceMesh mesh;
-  add_box(mesh, Vec3(-3, -3, -3), Vec3(3, 3, 3), "open", 11);
+  add_box(mesh, Vec3(-0.3, 0.4, -0.3), Vec3(0.7, 1.5, 0.5), "cloak", 10);
   add_box(mesh, Vec3::Zero(), Vec3(0.4, 1.4, 0.2), "trunk");
   add_box(mesh, Vec3(0.05, 1.45, 0), Vec3(0.25, 1.7, 0.25), "head");
   add_box(mesh, Vec3(0.1, 1.6, 0.26), Vec3(0.12, 1.62, 0.28), "eye");
@@ -90,17 +117,72 @@ TEST(CollisionBody, WithoutSuchANameKeepsTheLargeClosedPartsOnly) {
   EXPECT_EQ(body.triangles.size(), 24U);
   EXPECT_EQ(body.positions.size(), 16U);
   EXPECT_DOUBLE_EQ(body.height_m, 1.7);
+  EXPECT_NE(all_notes(body).find("cloak (8 vertices) is open: left out"), std::string::npos) << all_notes(body);
+  EXPECT_NE(all_notes(body).find("1 smaller or open parts of 8 vertices (eye) left out"), std::string::npos);
+}
+
+TEST(CollisionBody, RefusesABodyWhoseLargestPartWouldBeLeftOut) {
+  SurfaceMesh mesh;
+  add_box(mesh, Vec3(0, 0, 0), Vec3(0.4, 1.4, 0.2), "trunk", 10);
+  add_box(mesh, Vec3(0.05, 1.45, 0), Vec3(0.25, 1.7, 0.25), "head");
+  const std::string why = complaint(mesh, LengthUnit::automatic);
+  EXPECT_NE(why.find("trunk (10 triangles) with 1 hole (3.2 m round at (0.40, 0.70, 0.10) m)"), std::string::npos)
+      << why;
+}
+
+TEST(CollisionBody, LeavesOutWhatLiesInsideTheRest) {
+  SurfaceMesh mesh;
+  add_box(mesh, Vec3(0, 0, 0), Vec3(0.4, 1.7, 0.2), "skin");
+  add_box(mesh, Vec3(0.01, 0.01, 0.01), Vec3(0.39, 1.69, 0.19), "inner wall");
+  for (std::size_t t = 12; t < 24; ++t) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  const CollisionBody body = make_collision_body(mesh, "f.obj", LengthUnit::automatic);
+  EXPECT_EQ(body.positions.size(), 8U);
+  EXPECT_NE(all_notes(body).find("inner wall (8 vertices) lies inside the body: left out"), std::string::npos);
+}
+
+TEST(CollisionBody, MendsAndSaysInOneSentenceWhatWasDone) {
+  const Mannequin& woman = test::mannequin_of(MannequinKind::woman);
+  SurfaceMesh mesh;
+  mesh.positions = woman.positions;
+  mesh.triangles = woman.triangles;
+  const CollisionBody good = make_collision_body(mesh, "f.obj", LengthUnit::automatic);
+  EXPECT_TRUE(good.notes.empty());
+  std::swap(mesh.triangles[70][1], mesh.triangles[70][2]);
+  mesh.triangles.push_back(mesh.triangles[5]);
+  mesh.triangles.push_back({7, 7, 9});
+  const CollisionBody mended = make_collision_body(mesh, "f.obj", LengthUnit::automatic);
+  EXPECT_EQ(mended.triangles, good.triangles);
+  EXPECT_EQ(mended.positions, good.positions);
+  EXPECT_EQ(all_notes(mended),
+            "f.obj: mended: 1 triangles with a corner twice are gone; 1 triangles that were there before are gone; 1 "
+            "triangles are turned to face outwards\n");
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  std::swap(mesh.triangles[70][1], mesh.triangles[70][2]);
+  mesh.triangles.resize(mesh.triangles.size() - 2);
+  const CollisionBody turned = make_collision_body(mesh, "f.obj", LengthUnit::automatic);
+  EXPECT_EQ(all_notes(turned), "f.obj: mended: all triangles are turned: it was inside out\n");
+  EXPECT_EQ(turned.triangles, good.triangles);
+}
+
+TEST(CollisionBody, CapsTheNeckOfABodyWithoutAHead) {
+  const Mannequin& woman = test::mannequin_of(MannequinKind::woman);
+  SurfaceMesh mesh;
+  mesh.positions = woman.positions;
+  const double neck = 0.86 * woman.measurements_m.height;
+  for (const Triangle& t : woman.triangles)
+    if (std::all_of(t.begin(), t.end(), [&](Index i) { return mesh.positions[at(i)].y() < neck; }))
+      mesh.triangles.push_back(t);
+  const CollisionBody body = make_collision_body(mesh, "bust.obj", LengthUnit::automatic);
+  EXPECT_NE(all_notes(body).find("1 hole (0.3"), std::string::npos) << all_notes(body);
+  EXPECT_NE(all_notes(body).find("m round at (0.00, 1.4"), std::string::npos) << all_notes(body);
+  EXPECT_NO_THROW(check_closed("", body.positions, body.triangles));
+  EXPECT_LT(body.height_m, neck);
+  for (std::size_t i = 0; i < body.positions.size(); ++i)
+    ASSERT_EQ(body.positions[i], mesh.positions[at(body.source_vertex[i])]);
 }
 
 TEST(CollisionBody, RefusesWhatIsNotAClosedBody) {
   EXPECT_NE(complaint(SurfaceMesh{}, LengthUnit::automatic).find("expected a closed surface"), std::string::npos);
-  SurfaceMesh open = box_of_height(1.7);
-  open.triangles.pop_back();
-  open.group.pop_back();
-  EXPECT_NE(complaint(open, LengthUnit::automatic).find("figure.obj"), std::string::npos);
-  SurfaceMesh inside_out = box_of_height(1.7);
-  for (Triangle& t : inside_out.triangles) std::swap(t[1], t[2]);
-  EXPECT_NE(complaint(inside_out, LengthUnit::automatic), "");
   SurfaceMesh endless = box_of_height(1.7);
   endless.positions[3].x() = 1.0 / 0.0;
   EXPECT_NE(complaint(endless, LengthUnit::automatic).find("vertex 3: expected finite"), std::string::npos);
@@ -131,10 +213,7 @@ TEST(CollisionBody, ReadsTheBodyOfMakeHumansBaseMesh) {
   EXPECT_EQ(body.source_vertex_count, mesh.positions.size());
   for (std::size_t i = 0; i < body.positions.size(); ++i)
     ASSERT_EQ(body.positions[i], Vec3(0.1 * mesh.positions[static_cast<std::size_t>(body.source_vertex[i])]));
-  for (std::size_t t = 0; t < body.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      ASSERT_EQ(body.source_vertex[static_cast<std::size_t>(body.triangles[t][k])],
-                mesh.triangles[static_cast<std::size_t>(body.source_triangle[t])][k]);
+  EXPECT_EQ(body.source_triangles, mesh.triangles);
   EXPECT_GT(body.height_m, 1.5);
   EXPECT_LT(body.height_m, 1.9);
   EXPECT_NE(complaint(mesh, LengthUnit::automatic).find("--body-unit dm"), std::string::npos);

@@ -1,6 +1,8 @@
 // Plain solids: closed, outwards, of the size and fineness asked for.
 #include "body/solid_shapes.hpp"
 
+#include "body/body_parts.hpp"
+
 #include "core/error.hpp"
 #include "mesh/check.hpp"
 
@@ -133,7 +135,7 @@ TEST(SolidShapes, AFileIsTakenWhole) {  // parts that a body would not have too
     for (const Vec3& x : part.positions) file.positions.push_back(x + Vec3(2.0 * first, 0, 0));
     for (const auto& [a, b, c] : part.triangles) file.triangles.push_back({a + first, b + first, c + first});
   }
-  const SolidMesh whole = whole_of(file);
+  const SolidMesh whole = whole_of(file, solid_parts(file, "file", 1).triangles);
   check_closed("whole", whole.positions, whole.triangles);
   EXPECT_EQ(whole.positions.size(), 16u);
   EXPECT_EQ(whole.positions.front(), file.positions[1]);

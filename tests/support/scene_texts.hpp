@@ -34,7 +34,7 @@ inline constexpr std::array<std::string_view, 9> scenes_with_every_setting = {
      "placement": {"translation_m": [1, 2, 3], "rotation_deg": [4, 5, 6]}, "moves": [{"t_s": 0.5}, {"t_s": 3, "scale": 0.5}]},
     {"box": {"size_m": [0.5, 0.25, 0.75]}, "friction": 0.6, "offset_mm": 4, "friction_path": [[0.25, 0.1], [2, 0.3]]},
     {"revolved": {"profile_m": [[0, 0], [0.5, 0.1], [0, 1]]}},
-    {"mesh": "solid.obj", "unit": "dm"},
+    {"mesh": "solid.obj", "unit": "dm", "up": "z"},
     {"mannequin": "woman", "motion": {"name": "sway", "lead_in_s": 0.25}},
     {"mesh": "other.obj", "motion": {"file": "other.pc2", "fps": 12}},
     {"cylinder": {"radius_m": 0.3, "height_m": 0.7, "top_m": [0.1, 0.5, 0.2]}}],
@@ -74,7 +74,7 @@ inline constexpr std::array<std::string_view, 9> scenes_with_every_setting = {
 })",
     R"({
   "cloth": [{"pattern": "p.json", "vertices": 500}],
-  "body": {"mesh": "body.obj", "unit": "cm", "measurements": "body.yaml", "motion": {"file": "motion.pc2", "fps": 24, "lead_in_s": 2}}
+  "body": {"mesh": "body.obj", "unit": "cm", "up": "y", "measurements": "body.yaml", "motion": {"file": "motion.pc2", "fps": 24, "lead_in_s": 2}}
 })",
     R"({
   "cloth": [{"mesh": "cloth.obj", "mesh_unit": "cm", "rest_shape": "start"}],
