@@ -44,10 +44,10 @@ struct RunOptions {
 TOILE_EXPORT Verdict run_scene(const std::string& path, const std::string& folder, const RunOptions& options = {});
 
 struct ExportOptions {
-  std::string to = {};       // "obj", "ply" or "gltf"; empty: by the file extension of `out`
-  std::string of = "cloth";  // or "body"
-  int frame = -1;            // -1: the last
-  bool all = false;          // every frame, in numbered files of the folder `out`
+  std::string to = {};       // "obj", "ply", "gltf", "usda", "pc2" or "mdd"; empty: by the file extension of `out`
+  std::string of = "cloth";  // or "body", or of USD "both"
+  int frame = -1;            // -1: the last, and of usda, pc2 and mdd all in one file
+  bool all = false;  // every frame, in numbered files of the folder `out`, or in one file `out` that ends in .glb
 };
 
 // Writes frames of a run folder to `out`, as files for other programs; returns their paths.  Panels keep their names, vertices of a seam are split

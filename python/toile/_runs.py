@@ -5,10 +5,11 @@ from __future__ import annotations
 import base64
 import html
 import os
+import tempfile
 from types import TracebackType
 
 from . import _toile
-from ._errors import Error, InputError
+from ._errors import Error, InputError, IoError
 from ._pictures import VIEW, ShowsItself
 from ._progress import ProgressCall, Shown
 from ._simulation import Simulation
@@ -117,16 +118,36 @@ def check_pattern(path: Path) -> CheckReport:
 def export_run(folder: Path, out: Path, *, to: str = "", of: str = "cloth", frame: int | None = None, all: bool = False) -> list[str]:
     """Writes frames of a run folder as files for other programs; returns their paths.
 
-    to     "obj", "ply" or "gltf"; empty: by the file extension of `out`
-    of     "cloth" or "body"
-    frame  which one; None: the last
-    all    every frame, in numbered files of the folder `out`
+    to     "obj", "ply", "gltf", "usda", "pc2" or "mdd"; empty: by the file extension of `out`, which may also be .usdc
+    of     "cloth", "body", or of USD "both"
+    frame  which one; None: the last, and of usda, usdc, pc2 and mdd all in one file
+    all    every frame, in numbered files of the folder `out`, or in one file `out` that ends in .glb
 
-    Panels keep their names; vertices of a seam are split where the format has one uv per vertex.
+    Panels keep their names; vertices of a seam are split where the format has one uv per vertex.  A .usdc is made by usd-core (pip install
+    usd-core); without it that is an ImportError.
     """
+    if os.fspath(out).endswith(".usdc"):
+        return [_usdc(folder, out, of, frame)]
     if frame is not None and frame < 0:
         raise InputError(f"frame: expected a number from 0, got {frame}")
     return _toile.export_run(os.fspath(folder), os.fspath(out), to, of, -1 if frame is None else frame, all)
+
+
+def _usdc(folder: Path, out: Path, of: str, frame: int | None) -> str:
+    """Through the text form, which holds the same numbers; the file appears when it is complete."""
+    try:
+        from pxr import Sdf
+    except ImportError as error:
+        raise ImportError("a .usdc file is written by usd-core: pip install usd-core, or write .usda") from error
+    target = os.fspath(out)
+    os.makedirs(os.path.dirname(target) or ".", exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=os.path.dirname(target) or ".") as beside:
+        (text,) = export_run(folder, os.path.join(beside, "run.usda"), of=of, frame=frame)
+        binary = os.path.join(beside, "run.usdc")
+        if not Sdf.Layer.FindOrOpen(text).Export(binary):
+            raise IoError(f"{target}: usd-core could not write it")
+        os.replace(binary, target)
+    return target
 
 
 def preview(folder: Path) -> None:

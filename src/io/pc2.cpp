@@ -44,6 +44,11 @@ Header header_of(Index points, float start, float rate, std::int32_t samples) {
 
 }  // namespace
 
+std::string pc2_header(Index points, double start_frame, double rate, int samples) {
+  const Header header = header_of(points, static_cast<float>(start_frame), static_cast<float>(rate), samples);
+  return {reinterpret_cast<const char*>(&header), sizeof header};
+}
+
 Pc2Writer::Pc2Writer(const std::string& path, Index points, double start_frame, double rate)
     : file_(path, GrowingFile::Open::create),
       points_(points),

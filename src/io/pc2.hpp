@@ -16,6 +16,9 @@
 
 namespace toile::internal {
 
+// The 32 bytes before the samples.
+std::string pc2_header(Index points, double start_frame, double rate, int samples);
+
 // Every append commits its frame: the file is then complete, and its header has the number of frames.
 class Pc2Writer {
  public:

@@ -229,12 +229,13 @@ TEST(ExportRun, WritesOneFrameOrAllAndRefusesWhatCannotBeMeant) {
   };
   EXPECT_EQ(complaint([](ExportOptions&) {}), "none");
   EXPECT_NE(complaint([](ExportOptions& o) { o.frame = 99; }).find("frame: expected 0 to "), std::string::npos);
-  EXPECT_NE(complaint([](ExportOptions& o) { o.to = "fbx"; }).find("expected obj, ply or gltf, got fbx"),
-            std::string::npos);
+  EXPECT_NE(
+      complaint([](ExportOptions& o) { o.to = "fbx"; }).find("expected obj, ply, gltf, pc2, mdd or usda, got fbx"),
+      std::string::npos);
   EXPECT_NE(complaint([](ExportOptions& o) { o.to = "gltf"; }).find("expected a file that ends in .glb"),
             std::string::npos);
   EXPECT_NE(complaint([](ExportOptions& o) { o.of = "body"; }).find("body.obj"), std::string::npos) << "there is none";
-  EXPECT_NE(complaint([](ExportOptions& o) { o.of = "hat"; }).find("expected cloth or body"), std::string::npos);
+  EXPECT_NE(complaint([](ExportOptions& o) { o.of = "hat"; }).find("expected cloth, body or both"), std::string::npos);
   EXPECT_NE(complaint([&](ExportOptions& o) {
               o.to = "obj";
               o.out = scratch / "out/../out/cloth.obj";
