@@ -1,4 +1,4 @@
-// apps/cli/body_option.hpp: the options --body, --body-unit and --measurements.
+// apps/cli/body_option.hpp: the options --body, --body-unit, --measurements, --rig, --weights and --target.
 #pragma once
 #include "command_line.hpp"
 #include "sim/scene.hpp"

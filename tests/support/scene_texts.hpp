@@ -11,7 +11,7 @@
 namespace toile::internal::test {
 
 // No value is its key's default.
-inline constexpr std::array<std::string_view, 9> scenes_with_every_setting = {
+inline constexpr std::array<std::string_view, 11> scenes_with_every_setting = {
     R"({
   "name": "sheet",
   "cloth": [{
@@ -75,6 +75,15 @@ inline constexpr std::array<std::string_view, 9> scenes_with_every_setting = {
     R"({
   "cloth": [{"pattern": "p.json", "vertices": 500}],
   "body": {"mesh": "body.obj", "unit": "cm", "measurements": "body.yaml", "motion": {"file": "motion.pc2", "fps": 24, "lead_in_s": 2}}
+})",
+    R"({
+  "cloth": [{"pattern": "p.json"}],
+  "body": {"mesh": "body.obj", "rig": "rig.a.json", "weights": "b.json", "targets": [{"file": "tall.target", "share": 0.5}],
+    "motion": {"file": "walk.bvh", "bones": "bones.json"}}
+})",
+    R"({
+  "cloth": [{"pattern": "p.json"}],
+  "body": {"mesh": "fox.glb", "motion": {"file": "fox.glb", "clip": "Run"}}
 })",
     R"({
   "cloth": [{"mesh": "cloth.obj", "mesh_unit": "cm", "rest_shape": "start"}],
