@@ -33,7 +33,9 @@ Figure mannequin_figure(const Mannequin& mannequin) {
 Pose mannequin_pose(const Figure& figure, const FigurePose& pose) {
   Pose own;
   own.root_m = pose.nodes.front().translation - figure.rest.nodes.front().translation;
-  for (const NodePose& node : pose.nodes) own.turns.push_back(node.turn);
+  // Of the two quaternions of a turn the one below half a turn: the skin blends a joint with its parent.
+  for (const NodePose& node : pose.nodes)
+    own.turns.push_back(node.turn.w < 0 ? Quaternion{-node.turn.w, -node.turn.v} : node.turn);
   return own;
 }
 

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 
 namespace toile::internal {
@@ -178,6 +179,16 @@ void apply_target(std::string_view text, std::string_view file, double share, Su
     if (!line.empty()) fail("the end of the line");
     mesh.positions[vertex] += share * shift;
   }
+}
+
+void put_on_floor(SurfaceMesh& mesh) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.group_names[at(mesh.group[t])] != "body") continue;
+    for (const Index v : mesh.triangles[t]) lowest = std::min(lowest, mesh.positions[at(v)].y());
+  }
+  if (!std::isfinite(lowest)) return;
+  for (Vec3& x : mesh.positions) x.y() -= lowest;
 }
 
 Figure makehuman_figure(const SurfaceMesh& mesh, const TextOfFile& rig_text, const TextOfFile& weights_text,

@@ -18,6 +18,9 @@ namespace toile::internal {
 // All throw InputError with file and place.
 void apply_target(std::string_view text, std::string_view file, double share, SurfaceMesh& mesh);
 
+// MakeHuman's origin is the middle of the body: moves all so that what the group `body` has lowest is at 0.  Without such a group nothing.
+void put_on_floor(SurfaceMesh& mesh);
+
 struct TextOfFile {
   std::string_view text, file;
 };

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "rig/feet.hpp"
+#include "rig/mend_jumps.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -124,7 +125,8 @@ Quaternion between_directions(const Vec3& from, const Vec3& to) {
 class Retargeting {
  public:
   Retargeting(const Person& source, const PoseTrack& moves, const Person& target, std::string_view file)
-      : source_(source, file, "motion"), target_(target, file, "body"), moves_(&moves) {
+      : source_(source, file, "motion"), target_(target, file, "body"), moves_(moves) {
+    mend_jumps(source_.figure(), moves_, notes_);
     leg_ = source_.leg();
     if (!(leg_ > 0) || !(target_.leg() > 0))
       throw InputError(file, leg_ > 0 ? "body" : "motion", "legs with a length", "0");
@@ -135,7 +137,7 @@ class Retargeting {
 
   Retargeted run() {
     Retargeted result;
-    result.track.rate_hz = moves_->rate_hz;
+    result.track.rate_hz = moves_.rate_hz;
     for (std::size_t f = 0; f < frames_.size(); ++f) result.track.poses.push_back(pose(f));
     stand_on_floor(result.track);
     result.notes = std::move(notes_);
@@ -182,7 +184,7 @@ class Retargeting {
     const Figure& figure = source_.figure();
     const Mat3 to_target = target_.axes() * source_.axes().transpose();
     const Quaternion align = quaternion_of(to_target);
-    for (const FigurePose& pose : moves_->poses) {
+    for (const FigurePose& pose : moves_.poses) {
       Posed frame = posed(figure, pose);
       for (std::size_t i = 0; i < figure.nodes.size(); ++i) {
         frame.turn[i] = align * frame.turn[i] * source_.turn(static_cast<Index>(i)).inverse() * align.inverse();
@@ -200,7 +202,7 @@ class Retargeting {
     const Mat3 axes = target_.axes();
     const Vec3 up = axes.col(1), ahead = axes.col(2);
     Vec3 facing = Vec3::Zero();
-    const auto some = static_cast<std::size_t>(std::max(1.0, std::round(facing_s * moves_->rate_hz)));
+    const auto some = static_cast<std::size_t>(std::max(1.0, std::round(facing_s * moves_.rate_hz)));
     for (std::size_t f = 0; f < std::min(some, frames_.size()); ++f)
       facing += frames_[f].turn[at(source_.bone(BodyPart::hips))] * ahead / static_cast<double>(some);
     facing -= facing.dot(up) * up;
@@ -223,7 +225,7 @@ class Retargeting {
       recorded.ankle.push_back(upright * frame.place[at(foot)]);
       recorded.turn.push_back(upright * frame.turn[at(foot)] * upright.inverse());
     }
-    standing_.push_back(standing_frames(recorded, leg_, moves_->rate_hz));
+    standing_.push_back(standing_frames(recorded, leg_, moves_.rate_hz));
     foot_number_[side] = static_cast<int>(feet_.size()) - 1;
   }
 
@@ -358,7 +360,7 @@ class Retargeting {
   }
 
   Standing source_, target_;
-  const PoseTrack* moves_;
+  PoseTrack moves_;
   double leg_ = 0;
   Quaternion align_;
   std::vector<Index> pair_;

@@ -34,6 +34,7 @@ std::string read_seen(const std::string& path, const BytesSeen& seen) {
 void apply_targets(const SceneMesh& mesh, const BytesSeen& seen, SurfaceMesh& surface) {
   for (const SceneTarget& target : mesh.targets)
     apply_target(read_seen(target.path, seen), printable(target.path), target.share, surface);
+  if (!mesh.targets.empty() || !mesh.rig.empty()) put_on_floor(surface);
 }
 
 // The body with its own skeleton, or with the rig beside it.

@@ -91,6 +91,16 @@ TEST(MakeHuman, TargetsMoveVerticesByTheirShare) {
   EXPECT_EQ(of("0 1 2 3 4\n"), "a.target:1: expected the end of the line, got \"4\"");
 }
 
+TEST(MakeHuman, StandsOnTheFloorByItsBody) {
+  SurfaceMesh shaped = mesh();
+  put_on_floor(shaped);
+  EXPECT_EQ(shaped.positions[4], Vec3(5, 0, 5));
+  EXPECT_EQ(shaped.positions[2], Vec3(0, -5, 0)) << "helpers go with it";
+  shaped.group_names[1] = "skin";
+  put_on_floor(shaped);
+  EXPECT_EQ(shaped.positions[4], Vec3(5, 0, 5)) << "without a group of that name nothing";
+}
+
 TEST(BoneParts, SayWhatNamesDoNot) {
   Figure figure;
   for (const char* name : {"Bone", "Bone.001", "Kopf", "head"}) figure.nodes.push_back({name});

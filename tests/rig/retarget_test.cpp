@@ -103,10 +103,12 @@ struct Moved {
   Figure source, target;
   Retargeted result;
 };
-// `at_frame` poses the source, whose axes and units are its own; 60 frames at 30 Hz.
-Moved moved(const Quaternion& axes, const std::function<void(int, const Figure&, FigurePose&)>& at_frame) {
+// `at_frame` poses the source, whose axes and units are its own; 60 frames.
+Moved moved(const Quaternion& axes, const std::function<void(int, const Figure&, FigurePose&)>& at_frame,
+            double rate_hz = 30) {
   Moved moved{figure_of(t_pose, axes, 100), figure_of(a_pose, {}, 1), {}};
   PoseTrack track;
+  track.rate_hz = rate_hz;
   for (int frame = 0; frame < 60; ++frame) {
     track.poses.push_back(moved.source.rest);
     at_frame(frame, moved.source, track.poses.back());
@@ -193,6 +195,24 @@ TEST(Retarget, SolesAreFlatWhereTheyStand) {
       pose.nodes[at(node(figure, foot))].turn = rotation_about(Vec3(1, 0, 0), pi / 9);
   });
   for (const Vec3& x : all_vertices(m.target, m.result.track.poses[30])) EXPECT_NEAR(x.y(), 0, 1e-6);
+}
+
+// A knee that flips from one frame to the next: within 0.1 s, and told.
+TEST(Retarget, MendsWhatNoJointCanDo) {
+  const Moved m = moved(
+      {},
+      [](int frame, const Figure& figure, FigurePose& pose) {
+        pose.nodes[at(node(figure, "LeftUpLeg"))].turn = rotation_about(Vec3(1, 0, 0), frame < 30 ? -1.5 : 1.5);
+        pose.nodes[at(node(figure, "LeftArm"))].turn = rotation_about(Vec3(0, 0, 1), 0.05 * frame);
+      },
+      120);
+  ASSERT_EQ(m.result.notes.size(), 1U);
+  EXPECT_EQ(m.result.notes[0], "\"LeftUpLeg\" turns faster than any joint can at 0.242 s: smoothed over 0.1 s");
+  const auto knee = [&](int frame) {
+    return direction(m.target, m.result.track.poses[static_cast<std::size_t>(frame)], "left_hip", "left_knee");
+  };
+  for (int frame = 20; frame < 40; ++frame) EXPECT_LT(std::acos(knee(frame).dot(knee(frame + 1))), 0.3) << frame;
+  EXPECT_LT((knee(20) - knee(23)).norm(), 1e-9);
 }
 
 TEST(Retarget, SaysWhatIsMissing) {

@@ -39,6 +39,7 @@ def check(name, frames, seconds, way, floor_mm):
     fastest = max(abs(a - b) * FPS for one, two in zip(frames, frames[1:]) for a, b in zip(one, two))
     middle = [[sum(frame[k::3]) / len(frame[k::3]) for k in range(3)] for frame in (frames[0], frames[-1])]
     went = [b - a for a, b in zip(*middle)]
+    assert abs(floor) < 1e-6, "patterns expect a body whose soles are at 0"
     print(f"{name}: soles {min(lowest):.1f} to {max(lowest):.1f} mm, {min(tallest):.2f} to {max(tallest):.2f} of its height, "
           f"fastest {fastest:.1f} m/s, went {went[0]:.2f} {went[1]:.2f} {went[2]:.2f} m in {seconds} s")
     assert -floor_mm < min(lowest) and max(lowest) < floor_mm
