@@ -15,8 +15,8 @@ functions = ("sin cos tan asin acos atan atan2 sincos sinh cosh tanh asinh acosh
              "cbrt hypot erf erfc tgamma lgamma lerp").split()
 call = re.compile(r"(?<![\w.>])(?:std::|::)?(" + "|".join(functions) + r")[fl]?\s*\(")
 # Parts of Eigen and methods of its arrays that call them.
-eigen = re.compile(r"\b(AngleAxisd?|Rotation2Dd?|eulerAngles|canonicalEulerAngles|slerp|angularDistance|computeDirect|"
-                   r"stableNorm|hypotNorm)\b|\.(sin|cos|tan|asin|acos|atan|exp|log|log10|log1p|pow|sinh|cosh|tanh)\(")
+eigen = re.compile(r"\b(AngleAxisd?|Rotation2Dd?|eulerAngles|canonicalEulerAngles|angularDistance|computeDirect|"
+                   r"stableNorm|hypotNorm)\b|\.(sin|cos|tan|asin|acos|atan|exp|log|log10|log1p|pow|sinh|cosh|tanh|slerp)\(")
 
 
 def offences(root):

@@ -1,4 +1,4 @@
-// apps/cli/body_option.hpp: the options --body, --body-unit, --body-up and --measurements.
+// apps/cli/body_option.hpp: the options --body, --body-unit, --body-up, --measurements, --rig, --weights and --target.
 #pragma once
 #include "command_line.hpp"
 #include "sim/scene.hpp"

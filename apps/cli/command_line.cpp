@@ -158,10 +158,17 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
   add_up_option(*dress, line);
   dress->add_option("--measurements", line.measurements,
                     "Measurements of the body's mesh, YAML (default: the file of its name beside it)");
-  dress->add_option(
-      "--motion", line.motion,
-      "Motion: stand, sway, walk, twist, crouch, dance; for a mesh stand, sway, twist, a .pc2 or .mdd file, or "
-      "a folder of numbered mesh files");
+  dress->add_option("--motion", line.motion,
+                    "Motion: stand, sway, walk, twist, crouch, dance; for a mesh stand, sway, twist, a .pc2 or .mdd "
+                    "file, a folder of numbered mesh files, and for a body with a skeleton a glTF or a BVH file");
+  dress->add_option("--clip", line.clip, "Animation of the motion's glTF file: its name, or its number from 0");
+  dress->add_option("--bones", line.bones,
+                    "Which joints of a BVH file and of the body are which part of a person, JSON");
+  dress->add_option("--rig", line.rig, "Skeleton of a mesh that has none of its own: a rig of MakeHuman's, JSON");
+  dress->add_option("--weights", line.weights,
+                    "Skin weights of the rig, JSON (default: weights.NAME.json beside rig.NAME.json)");
+  dress->add_option("--target", line.targets, "Change of the mesh's shape, MakeHuman's: FILE or FILE=SHARE; repeatable")
+      ->allow_extra_args(false);
   dress->add_flag("--strict-start", line.strict_start, "End with exit code 4 when the start already intersects");
   add_garment_options(*dress, line);
 

@@ -20,7 +20,8 @@ struct CommandLine {
   int threads = 0;  // 0: one per core
   bool no_preview = false, quiet = false, json = false, picture = false;
 
-  std::string body, body_unit, body_up, measurements, motion, quality, start;
+  std::string body, body_unit, body_up, measurements, motion, clip, bones, rig, weights, quality, start;
+  std::vector<std::string> targets;
   std::string svg, repair;          // of check: files to write; empty: none
   std::vector<int> frames;          // of preview
   std::string to, of = "cloth";     // of export

@@ -5,11 +5,14 @@
 #include "core/parallel.hpp"
 #include "core/stopwatch.hpp"
 #include "embedded.hpp"
+#include "io/bvh.hpp"
 #include "io/file.hpp"
 #include "io/json_text.hpp"
+#include "io/mesh_file.hpp"
 #include "io/run_folder.hpp"
 #include "output_folder.hpp"
 #include "preview/preview.hpp"
+#include "sim/body_figure.hpp"
 #include "sim/picture_run.hpp"
 #include "sim/simulate.hpp"
 #include "terminal.hpp"
@@ -91,13 +94,18 @@ std::string name_of_pattern(const std::string& path) {
 
 // A text that cannot be a file's name is a misspelt motion; a missing mesh file is reported when it is read.
 bool looks_like_a_file(const std::string& text) {
-  return is_point_cache(text) || text.find_first_of("/%") != std::string::npos || std::filesystem::exists(text);
+  return is_point_cache(text) || moves_a_skeleton(text) || text.find_first_of("/%") != std::string::npos ||
+         std::filesystem::exists(text);
 }
 
 SceneCollider dress_body(const CommandLine& line) {
   SceneCollider body = body_option(line);
   const bool mannequin = body.as<SceneMannequin>() != nullptr;
   if (mannequin && !line.body_unit.empty()) throw Error(ErrorKind::usage, "--body-unit: mannequins are in metres");
+  if (!line.clip.empty() && !has_animated_ending(line.motion))
+    throw Error(ErrorKind::usage, "--clip: expected --motion with a glTF file beside it");
+  if (!line.bones.empty() && !has_bvh_ending(line.motion))
+    throw Error(ErrorKind::usage, "--bones: expected --motion with a BVH file beside it");
   if (line.motion.empty()) return body;
   SceneMotion motion;
   const auto names = motion_names(), of_a_mesh = motion_names_without_skeleton();
@@ -114,6 +122,8 @@ SceneCollider dress_body(const CommandLine& line) {
   if (among(names)) motion.name = line.motion;
   if (motion.name.empty()) {
     motion.path = line.motion;
+    motion.clip = line.clip;
+    motion.bones = line.bones;
     motion.fps = line.fps.value_or(motion.fps);
   }
   body.motion = std::move(motion);

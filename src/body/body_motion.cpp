@@ -2,6 +2,7 @@
 #include "body/body_motion.hpp"
 
 #include "body/body_samples.hpp"
+#include "body/figure_motion.hpp"
 #include "body/middle_line.hpp"
 #include "core/error.hpp"
 #include "io/mdd.hpp"
@@ -93,6 +94,17 @@ BodyMotion BodyMotion::of_person(std::string_view file, const CollisionBody& bod
   if (std::find(names.begin(), names.end(), motion.name()) == names.end())
     throw InputError(file, "motion", std::string(motions_for_a_mesh), '"' + motion.name() + '"');
   return {body.triangles, std::make_shared<MovingPerson>(file, body, motion)};
+}
+
+BodyMotion BodyMotion::of_figure(std::string_view file, Figure figure, PoseTrack track, const CollisionBody& body,
+                                 const SampleOptions& options) {
+  return {body.triangles, std::make_shared<FigureMotion>(file, std::move(figure), std::move(track), body, options)};
+}
+
+BodyMotion BodyMotion::of_mannequin(std::string_view file, const Mannequin& mannequin, Figure figure, PoseTrack track,
+                                    const SampleOptions& options) {
+  return {mannequin.triangles,
+          std::make_shared<FigureMotion>(file, mannequin, std::move(figure), std::move(track), options)};
 }
 
 BodyMotion BodyMotion::from_pc2(const std::string& path, const CollisionBody& body, const SampleOptions& options) {

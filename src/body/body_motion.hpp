@@ -1,22 +1,18 @@
 // body/body_motion.hpp: a moving body: fixed triangles, and the positions of the vertices as a function of time.
 //
-// Sources: a mannequin with a Motion, or any upright person with one that needs no skeleton, evaluated exactly at every t; or samples
-// at a fixed rate from a PC2 file or numbered OBJ files.  Between samples p_i and p_i+1, u = (tau - tau_i) / dt:
+// Sources: a mannequin with a Motion, or any upright person with one that needs no skeleton, evaluated exactly at every t; poses of its own
+// skeleton (body/figure_motion.hpp); or samples at a fixed rate from a PC2 file or numbered OBJ files.  Between samples p_i and p_i+1, u = (tau - tau_i) / dt:
 //   x = (1 + 2u)(1 - u)^2 p_i + u(1 - u)^2 dt m_i + u^2 (3 - 2u) p_i+1 + u^2 (u - 1) dt m_i+1,
 //   m_i = (p_i+1 - p_i-1) / 2 dt, one-sided at both ends                                            [Catmull & Rom 1974]
 // so that velocities are continuous; through samples of a straight uniform path it goes exactly.  After the last sample
-// the body holds still.
-//
-// Lead-in of L seconds from the drape pose d, put before the samples when the first differs from d:
-//   x(t) = d + s(t / L) (p(tau(t)) - d),   s(u) = u^3 (10 - 15u + 6u^2)
-// tau(t) is max(0, t - L) with its corner rounded over 2 e, e = min(L / 2, 0.15 s), tau' being 3w^2 - 2w^3 there: the
-// body starts at rest, is C2 to the end of the lead-in, and meets sample i at L + i dt whenever i dt >= e.
+// the body holds still.  From the drape pose it is led into the samples, when the first is another (body/lead_in.hpp).
 //
 // Mind: PC2's own start and rate are not used; programs disagree on what they mean.  The rate is the caller's.
 #pragma once
 #include "body/collision_body.hpp"
 #include "body/motion.hpp"
 #include "core/hash.hpp"
+#include "rig/pose_track.hpp"
 
 #include <memory>
 #include <span>
@@ -43,6 +39,14 @@ class BodyMotion {
   // A person as a mesh, standing like the body at 0 s.  Throws InputError, with `file` as its place, for a motion that needs a skeleton, and for a
   // body that is no person (body/middle_line.hpp).
   static BodyMotion of_person(std::string_view file, const CollisionBody& body, const Motion& motion);
+
+  // A body that was made of the figure's vertices at rest, moved by its skeleton.  `options.rate_hz` does not count: the track has its own.
+  static BodyMotion of_figure(std::string_view file, Figure figure, PoseTrack track, const CollisionBody& body,
+                              const SampleOptions& options);
+
+  // A mannequin, by poses of its figure (body/mannequin_figure.hpp).
+  static BodyMotion of_mannequin(std::string_view file, const Mannequin& mannequin, Figure figure, PoseTrack track,
+                                 const SampleOptions& options);
 
   // A point cache of all vertices of the file that `body` was read from, or of the kept ones only.
   static BodyMotion from_pc2(const std::string& path, const CollisionBody& body, const SampleOptions& options);

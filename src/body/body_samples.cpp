@@ -1,7 +1,7 @@
 // body/body_samples.cpp: checks samples as they are read, and interpolates between them.
 #include "body/body_samples.hpp"
 
-#include "body/movements.hpp"
+#include "body/lead_in.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::size_t coordinate_limit = std::size_t{1} << 30;
 constexpr double same_pose_m = 1e-5;
-constexpr double rounding_s = 0.15;   // half the time over which the samples' clock starts
 constexpr double height_ratio = 4.0;  // first sample to body
 // No skin is stretched so in a pose that a body may stand in, but most edges are if vertices come in another order.
 constexpr double longer_ratio = 3.0, longer_share = 0.05;  // an edge to the body's, and beyond it of the height
@@ -30,14 +29,6 @@ std::size_t z(Index i) { return static_cast<std::size_t>(i); }
 void check_range(std::string_view file, std::string_view place, double value, double low, double high) {
   if (value >= low && value <= high) return;
   throw InputError(file, place, fmt::sprintf("%g", low) + " to " + fmt::sprintf("%g", high), fmt::sprintf("%g", value));
-}
-
-// max(0, t - start) with its corner rounded over 2 e: tau' = 3w^2 - 2w^3 for w = (t - start + e) / 2e in [0, 1].
-double rounded_ramp(double t, double start, double e) {
-  if (t >= start + e) return t - start;
-  if (t <= start - e) return 0;
-  const double w = (t - start + e) / (2 * e);
-  return 2 * e * (w * w * w - 0.5 * w * w * w * w);
 }
 
 }  // namespace
@@ -198,8 +189,8 @@ double BodySamples::duration_s() const { return lead_in_s_ + static_cast<double>
 
 void BodySamples::positions(double t_s, std::span<Vec3> x) const {
   const double t = std::max(t_s, 0.0);
-  const double tau = rounded_ramp(t, lead_in_s_, std::min(0.5 * lead_in_s_, rounding_s));
-  const double share = lead_in_s_ > 0 ? least_jerk(t / lead_in_s_) : 1.0;
+  const LeadIn lead_in{lead_in_s_};
+  const double tau = lead_in.clock(t), share = lead_in.share(t);
   const double last = static_cast<double>(frames_ - 1), at = std::min(tau * options_.rate_hz, last);
   const auto i = static_cast<std::size_t>(std::min(std::floor(at), std::max(last - 1.0, 0.0)));
   const double u = at - static_cast<double>(i), r = 1.0 - u;

@@ -27,8 +27,9 @@ std::span<const std::string_view> motion_names();
 // The motions that need no skeleton (body/middle_line.hpp): "stand", "sway", "twist".  Also as words for a message.
 std::span<const std::string_view> motion_names_without_skeleton();
 inline constexpr std::string_view motions_for_a_mesh =
-    "stand, sway or twist, a .pc2 file or a folder of OBJ files: a mesh has no skeleton to walk, crouch or dance with, "
-    "the mannequins have";
+    "stand, sway or twist, a .pc2 file, a folder of OBJ files or a glTF file: a mesh has no skeleton to walk, crouch "
+    "or "
+    "dance with, the mannequins have";
 
 class Motion {
  public:

@@ -12,7 +12,7 @@
 // keep neighbours below 140.
 #pragma once
 #include "body/mannequin.hpp"
-#include "body/quaternion.hpp"
+#include "core/quaternion.hpp"
 
 #include <span>
 #include <vector>

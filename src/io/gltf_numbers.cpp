@@ -56,6 +56,11 @@ double component_at(const unsigned char* bytes, int component, bool normalised) 
   }
 }
 
+std::size_t components_of(int type) {
+  if (type == TINYGLTF_TYPE_MAT4) return 16;
+  return type == TINYGLTF_TYPE_SCALAR ? 1 : static_cast<std::size_t>(type);
+}
+
 std::string type_name(int type) {
   switch (type) {
     case TINYGLTF_TYPE_SCALAR:
@@ -64,6 +69,10 @@ std::string type_name(int type) {
       return "VEC2";
     case TINYGLTF_TYPE_VEC3:
       return "VEC3";
+    case TINYGLTF_TYPE_VEC4:
+      return "VEC4";
+    case TINYGLTF_TYPE_MAT4:
+      return "MAT4";
     default:
       return "another type";
   }
@@ -147,7 +156,10 @@ std::vector<double> GltfNumbers::read(int number, int type, std::size_t count_li
   if (size == 0) fail(place + "/componentType", "5120 to 5123, 5125 or 5126", std::to_string(accessor.componentType));
   if (accessor.count > count_limit)
     fail(place + "/count", "at most " + std::to_string(count_limit), std::to_string(accessor.count));
-  const std::size_t components = type == TINYGLTF_TYPE_SCALAR ? 1 : static_cast<std::size_t>(type);
+  // Columns of smaller components have gaps between them.
+  if (type == TINYGLTF_TYPE_MAT4 && accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    fail(place + "/componentType", "5126", std::to_string(accessor.componentType));
+  const std::size_t components = components_of(type);
   std::vector<double> values;
   if (accessor.bufferView >= 0) {
     std::size_t stride = 0;
@@ -170,8 +182,8 @@ std::vector<double> GltfNumbers::read(int number, int type, std::size_t count_li
   return values;
 }
 
-std::vector<double> GltfNumbers::read_indices(int number, std::size_t count_limit) const {
-  std::vector<double> indices = read(number, TINYGLTF_TYPE_SCALAR, count_limit);
+std::vector<double> GltfNumbers::read_indices(int number, int type_wanted, std::size_t count_limit) const {
+  std::vector<double> indices = read(number, type_wanted, count_limit);
   const tinygltf::Accessor& accessor = model_->accessors[static_cast<std::size_t>(number)];
   const int type = accessor.componentType;
   if (accessor.normalized ||

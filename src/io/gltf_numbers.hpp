@@ -19,7 +19,7 @@ class GltfNumbers {
   // [count * components] of an accessor of type TINYGLTF_TYPE_..., all finite.  Throws InputError naming the accessor.
   std::vector<double> read(int accessor, int type, std::size_t count_limit) const;
   // For indices: integers that are not normalised.
-  std::vector<double> read_indices(int accessor, std::size_t count_limit) const;
+  std::vector<double> read_indices(int accessor, int type, std::size_t count_limit) const;
 
  private:
   [[noreturn]] void fail(const std::string& place, const std::string& expected, const std::string& got) const;

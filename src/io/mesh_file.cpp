@@ -69,6 +69,14 @@ std::string inside_folder_of(const std::string& path, std::string_view name) {
   return real.string();
 }
 
+MeshSource source_of(std::string_view bytes, const std::string& path, const BytesSeen& beside) {
+  return {bytes, printable(path), [&](std::string_view name) {
+            std::string other = read_file(inside_folder_of(path, name), file_limit);
+            if (beside) beside(other);
+            return other;
+          }};
+}
+
 }  // namespace
 
 const std::vector<MeshReader>& mesh_readers() {
@@ -92,12 +100,23 @@ bool has_mesh_ending(std::string_view path) { return by_ending(ending_of(path)) 
 SurfaceMesh parse_mesh(std::string_view bytes, const std::string& path, const BytesSeen& beside) {
   std::vector<std::string> notes;
   const MeshReader& reader = reader_of(bytes, path, notes);
-  SurfaceMesh mesh = reader.read({bytes, printable(path), [&](std::string_view name) {
-                                    std::string other = read_file(inside_folder_of(path, name), file_limit);
-                                    if (beside) beside(other);
-                                    return other;
-                                  }});
+  SurfaceMesh mesh = reader.read(source_of(bytes, path, beside));
   mesh.notes.insert(mesh.notes.begin(), notes.begin(), notes.end());
+  return mesh;
+}
+
+AnimatedMesh parse_animated(std::string_view bytes, const std::string& path, const BytesSeen& beside) {
+  std::vector<std::string> notes;
+  const MeshReader& reader = reader_of(bytes, path, notes);
+  if (reader.read_animated == nullptr) {
+    std::vector<std::string> names;
+    for (const MeshReader& other : mesh_readers())
+      if (other.read_animated != nullptr) names.emplace_back(other.name);
+    throw InputError(printable(path), "format", "one with a skeleton or animations: " + alternatives(names),
+                     reader.name);
+  }
+  AnimatedMesh mesh = reader.read_animated(source_of(bytes, path, beside));
+  mesh.surface.notes.insert(mesh.surface.notes.begin(), notes.begin(), notes.end());
   return mesh;
 }
 
@@ -105,6 +124,17 @@ SurfaceMesh load_mesh(const std::string& path, const BytesSeen& seen) {
   const std::string bytes = read_file(path, file_limit);
   if (seen) seen(bytes);
   return parse_mesh(bytes, path, seen);
+}
+
+AnimatedMesh load_animated(const std::string& path, const BytesSeen& seen) {
+  const std::string bytes = read_file(path, file_limit);
+  if (seen) seen(bytes);
+  return parse_animated(bytes, path, seen);
+}
+
+bool has_animated_ending(std::string_view path) {
+  const MeshReader* const reader = by_ending(ending_of(path));
+  return reader != nullptr && reader->read_animated != nullptr;
 }
 
 std::vector<std::string> files_of_mesh(const std::string& path) {

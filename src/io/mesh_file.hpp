@@ -3,6 +3,7 @@
 // The first bytes identify a format ("ply", "glTF", "{"); OBJ has no such mark and is the fallback.  A file name with the extension of
 // another format is noted in the mesh's notes.
 #pragma once
+#include "io/animated_mesh.hpp"
 #include "io/surface_mesh.hpp"
 
 #include <functional>
@@ -27,6 +28,8 @@ struct MeshReader {
   SurfaceMesh (*read)(const MeshSource& source);
   // Other files that it consists of, as MeshSource::beside takes them; nullptr: none.
   std::vector<std::string> (*names_beside)(std::string_view bytes);
+  // With what moves it; nullptr: such files have nothing of the kind.
+  AnimatedMesh (*read_animated)(const MeshSource& source) = nullptr;
 };
 
 // The readable formats (mesh_formats.cpp).
@@ -44,6 +47,12 @@ using BytesSeen = std::function<void(std::string_view bytes)>;
 SurfaceMesh parse_mesh(std::string_view bytes, const std::string& path, const BytesSeen& beside = {});
 // Reads the whole file; `seen` is called with its bytes first.
 SurfaceMesh load_mesh(const std::string& path, const BytesSeen& seen = {});
+
+// The same of a format that has skeletons and animations; InputError for another.
+AnimatedMesh parse_animated(std::string_view bytes, const std::string& path, const BytesSeen& beside = {});
+AnimatedMesh load_animated(const std::string& path, const BytesSeen& seen = {});
+// A file whose name ends like one of those formats'.
+bool has_animated_ending(std::string_view path);
 
 // The file and the files in its folder that it refers to; for a path that cannot be read, the path alone.
 std::vector<std::string> files_of_mesh(const std::string& path);

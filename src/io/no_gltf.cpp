@@ -3,6 +3,13 @@
 #include "io/mesh_formats.hpp"
 
 namespace toile::internal {
+namespace {
+
+[[noreturn]] void refuse(const MeshSource& source) {
+  throw InputError(source.file, "format", "OBJ or PLY, as this Toile is built without tinygltf", "glTF");
+}
+
+}  // namespace
 
 MeshReader gltf_reader() {
   return {"glTF",
@@ -11,10 +18,9 @@ MeshReader gltf_reader() {
             return bytes.substr(0, 4) == "glTF" ||
                    bytes.substr(0, bytes.find_first_not_of(" \t\r\n") + 1).ends_with('{');
           },
-          [](const MeshSource& source) -> SurfaceMesh {
-            throw InputError(source.file, "format", "OBJ or PLY, as this Toile is built without tinygltf", "glTF");
-          },
-          nullptr};
+          [](const MeshSource& source) -> SurfaceMesh { refuse(source); },
+          nullptr,
+          [](const MeshSource& source) -> AnimatedMesh { refuse(source); }};
 }
 
 }  // namespace toile::internal

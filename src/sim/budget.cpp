@@ -9,6 +9,7 @@
 #include "dress/sewing.hpp"
 #include "io/mdd.hpp"
 #include "io/pc2.hpp"
+#include "sim/body_figure.hpp"
 
 #include <fmt/printf.h>
 
@@ -103,6 +104,10 @@ class Estimate {
     making_mb_ = std::max(making_mb_, cost.making_mb);
     if (!collider.motion || !collider.motion->name.empty()) return;
     const SceneMotion& motion = *collider.motion;
+    if (moves_a_skeleton(motion.path)) {  // its poses take little
+      motion_duration_s_ = std::max(motion_duration_s_, skeleton_motion_s(motion) + motion.lead_in_s);
+      return;
+    }
     const double samples = samples_of_motion(motion.path), vertices = cost.triangles / 2;
     motion_duration_s_ = std::max(motion_duration_s_, samples / motion.fps + motion.lead_in_s);
     budget_.items.push_back({"motion " + printable(motion.path), 0, mb_per_sample * samples * vertices});

@@ -5,6 +5,7 @@
 #include "core/hash.hpp"
 #include "io/file.hpp"
 #include "mesh/check.hpp"
+#include "sim/body_figure.hpp"
 #include "sim/colliders.hpp"
 
 #include <fmt/printf.h>
@@ -40,13 +41,17 @@ void set_movement(BodyMotion motion, std::string name, Collider& loaded) {
                    std::move(name), duration_s};
 }
 
+std::string name_of_motion(const SceneMotion& motion) {
+  const std::string file = std::filesystem::path(motion.path).filename().string();
+  return motion.clip.empty() ? file : file + ' ' + motion.clip;
+}
+
 void load_movement(const SceneMotion& motion, LengthUnit unit, const CollisionBody& standing, Collider& loaded) {
   SampleOptions samples;
   samples.rate_hz = motion.fps;
   samples.unit = unit;
   samples.lead_in_s = motion.lead_in_s;
-  set_movement(BodyMotion::from_files(motion.path, standing, samples),
-               std::filesystem::path(motion.path).filename().string(), loaded);
+  set_movement(BodyMotion::from_files(motion.path, standing, samples), name_of_motion(motion), loaded);
 }
 
 // Hair and shoes add to a mesh and not to measurements; people differ by more.
@@ -75,12 +80,20 @@ void load_measurements(const SceneMesh& mesh, std::span<const Vec3> x, Collider&
 
 }  // namespace
 
-CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, UpAxis up,
-                        const BytesSeen& beside) {
-  const std::string file = printable(path);
-  CollisionBody body = make_collision_body(parse_mesh(text, path, beside), file, unit, up);
+CollisionBody make_body(const SurfaceMesh& read, const SceneMesh& mesh) {
+  const std::string file = printable(mesh.path);
+  CollisionBody body = make_collision_body(read, file, mesh.unit, mesh.up);
   check_areas(file, body.positions, body.triangles);
   return body;
+}
+
+CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, UpAxis up,
+                        const BytesSeen& beside) {
+  SceneMesh mesh;
+  mesh.path = path;
+  mesh.unit = unit;
+  mesh.up = up;
+  return make_body(parse_mesh(text, path, beside), mesh);
 }
 
 std::string measurements_path(const SceneMesh& mesh) {
@@ -94,7 +107,12 @@ Collider load(const SceneMannequin& mannequin, const SceneCollider& whole) {
   Collider collider;
   const Mannequin made = make_mannequin(mannequin.who);
   CollisionBody body = from_mannequin(made);
-  if (whole.motion && whole.motion->name.empty()) {
+  if (whole.motion && whole.motion->name.empty() && moves_a_skeleton(whole.motion->path)) {
+    Hash bytes;
+    set_movement(mannequin_motion(made, *whole.motion, [&](std::string_view file) { bytes.add_text(file); }),
+                 name_of_motion(*whole.motion), collider);
+    add_input(bytes.value(), collider);
+  } else if (whole.motion && whole.motion->name.empty()) {
     load_movement(*whole.motion, LengthUnit::automatic, body, collider);
   } else if (whole.motion) {
     Motion motion = Motion::named(whole.motion->name, mannequin.who);
@@ -108,12 +126,12 @@ Collider load(const SceneMannequin& mannequin, const SceneCollider& whole) {
 namespace {
 
 // A solid takes the whole file, closed parts of any number.
-CollisionBody read_whole(const SceneMesh& file_of, UpAxis up, const BytesSeen& seen) {
+CollisionBody read_whole(const SceneMesh& file_of, const BytesSeen& seen) {
   const std::string file = printable(file_of.path);
   const SurfaceMesh mesh = load_mesh(file_of.path, seen);
   const BodyParts parts = solid_parts(mesh, file, metres_in(file_of.unit));
   SolidMesh read = whole_of(mesh, parts.triangles);
-  const Mat3 turn = up == UpAxis::z ? z_up_to_y_up() : Mat3(Mat3::Identity());
+  const Mat3 turn = file_of.up == UpAxis::z ? z_up_to_y_up() : Mat3(Mat3::Identity());
   for (Vec3& x : read.positions) x = metres_in(file_of.unit) * (turn * x);
   check_closed(file, read.positions, read.triangles);
   check_areas(file, read.positions, read.triangles);
@@ -125,20 +143,38 @@ CollisionBody read_whole(const SceneMesh& file_of, UpAxis up, const BytesSeen& s
   return whole;
 }
 
-}  // namespace
-
-Collider load(const SceneMesh& mesh, const SceneCollider& whole) {
-  Collider collider;
+Collider load_figure(const SceneMesh& mesh, const SceneMotion& motion, bool worn) {
   Hash bytes;
   const BytesSeen seen = [&](std::string_view file) { bytes.add_text(file); };
-  const UpAxis up = !whole.worn && mesh.up == UpAxis::automatic ? UpAxis::y : mesh.up;
+  const std::string text = read_file(mesh.path);
+  seen(text);
+  FigureBody figure = read_figure(mesh, text, motion, seen);
+  Collider collider;
+  collider.input_hash = bytes.value();
+  collider.warnings = std::move(figure.standing.notes);
+  if (worn) load_measurements(mesh, figure.standing.positions, collider);
+  set_movement(std::move(figure.motion), name_of_motion(motion), collider);
+  collider.surface = {std::move(figure.standing.positions), std::move(figure.standing.triangles)};
+  return collider;
+}
+
+}  // namespace
+
+Collider load(const SceneMesh& given, const SceneCollider& whole) {
+  Collider collider;
+  SceneMesh mesh = given;
+  if (!whole.worn && mesh.up == UpAxis::automatic) mesh.up = UpAxis::y;
+  if (whole.motion && whole.motion->name.empty() && moves_a_skeleton(whole.motion->path))
+    return load_figure(mesh, *whole.motion, whole.worn);
+  Hash bytes;
+  const BytesSeen seen = [&](std::string_view file) { bytes.add_text(file); };
   const auto read_person = [&] {
     const std::string text = read_file(mesh.path);
     seen(text);
-    return read_body(mesh.path, text, mesh.unit, up, seen);
+    return make_body(shaped_surface(mesh, text, seen), mesh);
   };
   const bool is_person = whole.worn || whole.motion;
-  CollisionBody read = is_person ? read_person() : read_whole(mesh, up, seen);
+  CollisionBody read = is_person ? read_person() : read_whole(mesh, seen);
   collider.input_hash = bytes.value();
   collider.warnings = std::move(read.notes);
   if (whole.worn) load_measurements(mesh, read.positions, collider);

@@ -8,16 +8,21 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace toile::internal {
 
 struct SceneCollider;
 
 struct SceneMotion {
-  std::string name;                              // of the mannequin: walk, twist, dance ...; empty: from a file
-  std::string path;                              // resolved: .pc2, .mdd, or a folder of mesh files
-  double fps = SampleOptions{}.rate_hz;          // of the file
+  std::string name;                      // of the mannequin: walk, twist, dance ...; empty: from a file
+  std::string path;                      // resolved: .pc2, .mdd, a folder of mesh files, glTF or BVH
+  std::string clip;                      // of a file with animations: a name or a number; empty: the only one
+  std::string bones;                     // resolved: which joints are which part of a person; empty: by their names
+  double fps = SampleOptions{}.rate_hz;  // of the file
   double lead_in_s = SampleOptions{}.lead_in_s;  // from the body's own pose into the motion
 };
 
@@ -35,12 +40,25 @@ void describe_choice(V& v, SceneMannequin& mannequin, bool) {
   v.name({"mannequin", "one that is built in ([mannequin.md](mannequin.md))", "no"}, kinds, mannequin.who);
 }
 
+// A change of shape, as MakeHuman has them.
+struct SceneTarget {
+  std::string path;  // resolved
+  double share = 1;
+};
+template <class V>
+void describe(V& v, SceneTarget& target) {
+  v.path({Setting{"file", "lines of a vertex and its shift"}.needs()}, target.path);
+  v.number({"share", "how much of it"}, {-10, 10}, target.share);
+}
+
 struct SceneMesh {
   static constexpr std::string_view key = "mesh";
   std::string path;                         // resolved
   LengthUnit unit = LengthUnit::automatic;  // of a solid: metres
   std::string measurements;                 // path, resolved; empty: the mesh's name with .yaml, if there is one
   UpAxis up = UpAxis::automatic;            // of a solid, and beside cloth that is modelled on it: y
+  std::string rig, weights;                 // paths, resolved; of a body whose own file has no skeleton
+  std::vector<SceneTarget> targets;
 };
 template <class V>
 void describe_choice(V& v, SceneMesh& mesh, bool worn) {
@@ -56,6 +74,14 @@ void describe_beside(V& v, SceneMesh& mesh, bool worn) {
     v.path({"measurements", "of the mesh, a YAML file: [howto/measurements.md](howto/measurements.md)",
             "the file of the mesh's name that ends in .yaml, if there is one"},
            mesh.measurements);
+  if (!worn) return;
+  v.path({"rig",
+          "of a mesh without a skeleton of its own: a rig of MakeHuman's or MPFB's "
+          "([motions.md](motions.md#makehuman))",
+          "none"},
+         mesh.rig);
+  v.path({"weights", "of the rig: its skin weights", "weights.NAME.json beside rig.NAME.json"}, mesh.weights);
+  v.list({"targets", "changes of the mesh's shape, before anything else: MakeHuman's targets", "none"}, mesh.targets);
 }
 
 // Only given in memory: a scene file has no key for it.  One frame or more.
@@ -69,6 +95,8 @@ struct SceneArrays {
   std::shared_ptr<const Frames> frames;
 };
 
+// The body of a mesh that was read from a file, checked.  Throws InputError.
+CollisionBody make_body(const SurfaceMesh& read, const SceneMesh& mesh);
 // The body of a mesh file with this text, checked; `beside` receives the other files that it is made of.  Throws InputError, IoError.
 CollisionBody read_body(const std::string& path, std::string_view text, LengthUnit unit, UpAxis up,
                         const BytesSeen& beside = {});

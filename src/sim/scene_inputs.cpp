@@ -3,6 +3,7 @@
 #include "body/body_samples.hpp"
 #include "io/file.hpp"
 #include "io/mesh_file.hpp"
+#include "sim/body_figure.hpp"
 #include "sim/setup.hpp"
 
 #include <filesystem>
@@ -42,7 +43,12 @@ std::vector<std::string> input_paths(const Scene& scene) {
     const SceneMesh* const mesh = collider.as<SceneMesh>();
     if (mesh != nullptr) add(mesh->path);
     if (mesh != nullptr && collider.worn) add(measurements_path(*mesh));
+    if (mesh != nullptr) {
+      for (const std::string& path : rig_paths(*mesh)) add(path);
+      for (const SceneTarget& target : mesh->targets) add(target.path);
+    }
     if (collider.motion) add(collider.motion->path);
+    if (collider.motion) add(collider.motion->bones);
   };
   add_collider(scene.body);
   for (const SceneCollider& solid : scene.solids) add_collider(solid);

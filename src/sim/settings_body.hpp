@@ -2,6 +2,7 @@
 #pragma once
 #include "body/body_motion.hpp"
 #include "body/motion.hpp"
+#include "sim/body_figure.hpp"
 #include "sim/settings_cloth.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace toile::internal {
 inline Shorthand motion_by_name(bool mannequin) {
   return [mannequin](const std::string& text) -> std::string_view {
     const auto names = motion_names();
-    const bool from_file = is_point_cache(text) || text.find('/') != std::string::npos ||
+    const bool from_file = is_point_cache(text) || moves_a_skeleton(text) || text.find('/') != std::string::npos ||
                            (!mannequin && std::find(names.begin(), names.end(), text) == names.end());
     return from_file ? "file" : "name";
   };
@@ -27,8 +28,19 @@ void describe(V& v, SceneMotion& motion) {
                 "([motions.md](motions.md))",
                 "a file"},
                motion_names(), motion.name);
-  v.path({"file", "a .pc2 or .mdd file, or a folder of numbered mesh files", "a name"}, motion.path);
-  v.number({"fps", "of the file"}, {1, most_fps}, motion.fps);
+  v.path(
+      {"file",
+       "a .pc2 or .mdd file, a folder of numbered mesh files; of a body with a skeleton a glTF file, the body's own or one with "
+       "nodes of the same names, or a BVH file; of a mannequin a BVH file too "
+       "([motions.md](motions.md#bodies-with-a-skeleton))",
+       "a name"},
+      motion.path);
+  v.text({"clip", "of a glTF file: the name of an animation, or its number from 0", "the only one"}, motion.clip);
+  v.path({"bones", "of a BVH file: which joints are which part of a person ([motions.md](motions.md#bvh))",
+          "what their names say"},
+         motion.bones);
+  v.number({"fps", "of the file, or so many poses a second of an animation; BVH has its own"}, {1, most_fps},
+           motion.fps);
   v.number({"lead_in_s", "from the pose in which the body stands into the motion"}, {0, 10}, motion.lead_in_s);
 }
 

@@ -11,7 +11,7 @@
 namespace toile::internal::test {
 
 // No value is its key's default.
-inline constexpr std::array<std::string_view, 9> scenes_with_every_setting = {
+inline constexpr std::array<std::string_view, 11> scenes_with_every_setting = {
     R"({
   "name": "sheet",
   "cloth": [{
@@ -37,6 +37,8 @@ inline constexpr std::array<std::string_view, 9> scenes_with_every_setting = {
     {"mesh": "solid.obj", "unit": "dm", "up": "z"},
     {"mannequin": "woman", "motion": {"name": "sway", "lead_in_s": 0.25}},
     {"mesh": "other.obj", "motion": {"file": "other.pc2", "fps": 12}},
+    {"mesh": "fox.glb", "motion": {"file": "fox.glb", "clip": "Run"}},
+    {"mannequin": "man", "motion": {"file": "walk.bvh", "bones": "bones.json"}},
     {"cylinder": {"radius_m": 0.3, "height_m": 0.7, "top_m": [0.1, 0.5, 0.2]}}],
   "world": {"gravity_m_per_s2": [0.1, -9, 0.2], "wind_m_per_s": [1, 0.5, 2], "air_density_kg_per_m3": 1.1},
   "time": {"fps": 25, "seconds": 2, "drape_seconds": 3, "step_max_ms": 10, "integrator": "bdf2", "until_still": true},
@@ -75,6 +77,15 @@ inline constexpr std::array<std::string_view, 9> scenes_with_every_setting = {
     R"({
   "cloth": [{"pattern": "p.json", "vertices": 500}],
   "body": {"mesh": "body.obj", "unit": "cm", "up": "y", "measurements": "body.yaml", "motion": {"file": "motion.pc2", "fps": 24, "lead_in_s": 2}}
+})",
+    R"({
+  "cloth": [{"pattern": "p.json"}],
+  "body": {"mesh": "body.obj", "rig": "rig.a.json", "weights": "b.json", "targets": [{"file": "tall.target", "share": 0.5}],
+    "motion": {"file": "walk.bvh", "bones": "bones.json"}}
+})",
+    R"({
+  "cloth": [{"pattern": "p.json"}],
+  "body": {"mesh": "fox.glb", "motion": {"file": "fox.glb", "clip": "Run"}}
 })",
     R"({
   "cloth": [{"mesh": "cloth.obj", "mesh_unit": "cm", "rest_shape": "start"}],
