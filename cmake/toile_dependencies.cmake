@@ -23,6 +23,10 @@ if(TOILE_CLI AND (PROJECT_IS_TOP_LEVEL OR NOT TOILE_CLI STREQUAL "AUTO"))
   find_package(CLI11 QUIET)
 endif()
 toile_part(CLI "the program `toile`" NEEDS "CLI11 (Debian: libcli11-dev)" FOUND CLI11_FOUND WANTED ${PROJECT_IS_TOP_LEVEL})
+if(TOILE_SQLITE AND toile_has_CLI)
+  find_package(SQLite3 QUIET)
+endif()
+toile_part(SQLITE "the index of batches" NEEDS "SQLite 3 (Debian: libsqlite3-dev)" FOUND SQLite3_FOUND WANTED ${toile_has_CLI})
 
 # Pictures.  Embree 4, or 3: src/preview/embree.hpp has what differs.
 if(TOILE_PREVIEW)

@@ -39,7 +39,7 @@ function(toile_part name what)
   set(toile_has_${name} ${has} PARENT_SCOPE)
 endfunction()
 
-foreach(name CLI PREVIEW GLTF TESTS BENCH PYTHON)
+foreach(name CLI PREVIEW GLTF SQLITE TESTS BENCH PYTHON)
   set(TOILE_${name} AUTO CACHE STRING "ON, OFF or AUTO (cmake/toile_parts.cmake)")
   set_property(CACHE TOILE_${name} PROPERTY STRINGS AUTO ON OFF)
 endforeach()

@@ -11,6 +11,7 @@ packages=(
   libtinygltf-dev                                                     # io: glTF files
   libhwy-dev                                                          # solver: vectors of the width the processor has
   libembree-dev libpng-dev ffmpeg                                     # preview: pictures and film
+  libsqlite3-dev                                                      # batches: their index
   libgtest-dev libbenchmark-dev python3                               # tests, benchmarks
   python3-dev python3-venv                                            # the Python module
 )

@@ -79,6 +79,25 @@ void add_export_options(CLI::App& command, CommandLine& line) {
   command.add_flag("--json", line.json, "Print the result as one JSON object");
 }
 
+void add_batch_options(CLI::App& command, CommandLine& line) {
+  command.add_option("JOBS", line.inputs, "Job file: one JSON object per line")->required()->expected(1);
+  command.add_option("--out", line.out, "Directory of the batch (default: ./out/NAME)");
+  command.add_option("--paths-from", line.paths_from,
+                     "Where relative paths of jobs begin (default: the folder of the job file)");
+  command.add_option("--jobs", line.processes, "Jobs at a time, each a process; 0: one per core")
+      ->check(CLI::Range(0, 1024));
+  CLI::Option* const lines = command.add_option(
+      "--lines", line.lines, "Only these lines of the file, 7 or 1-100; without the batch's own files");
+  command.add_flag("--collect", line.collect, "Run nothing: verdicts, index and page of the runs that are there")
+      ->excludes(lines);
+  command.add_option("--limit-seconds", line.limit_seconds, "End a job that takes longer; a line may say otherwise")
+      ->check(CLI::Range(0.0, 1e9));
+  command.add_option("--limit-memory", line.limit_mb, "Refuse a job more memory, MB; a line may say otherwise")
+      ->check(CLI::Range(0.0, 1e9));
+  command.add_flag("--quiet", line.quiet, "Print errors only");
+  command.add_flag("--json", line.json, "Print the result as one JSON object");
+}
+
 void add_garment_options(CLI::App& command, CommandLine& line) {
   command.add_option("--fabric", line.fabric, "silk, cotton, wool, denim or knit");
   command.add_option("--resolution", line.resolution_cm, "Edge length of the cloth's triangles, cm")
@@ -138,7 +157,7 @@ std::string one_line(std::string text) {
 }
 
 struct Commands {
-  CLI::App *demo, *dress, *run, *check, *verify, *preview, *resume, *untangle, *export_run, *bench;
+  CLI::App *demo, *dress, *run, *check, *verify, *preview, *resume, *untangle, *export_run, *bench, *batch;
 };
 
 // `demo_name` gets the argument of `demo`.
@@ -214,6 +233,9 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
   CLI::App* export_run = app.add_subcommand("export", "Write frames of a run as files for other programs");
   add_export_options(*export_run, line);
 
+  CLI::App* batch = app.add_subcommand("batch", "Run many jobs, each in a process of its own");
+  add_batch_options(*batch, line);
+
   CLI::App* bench = add_bench(app, line);
   for (CLI::App* command : {demo, dress, run, check, verify, preview}) add_common(*command, line);
   for (CLI::App* command : {demo, dress, run, check}) add_limits(*command, line);
@@ -222,7 +244,9 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
         ->add_option("--time-limit", line.time_limit_s,
                      "Seconds that dressing may take, up to the motion; then what there is is written; 0: any")
         ->check(CLI::Range(0.0, 1e9));
-  return {demo, dress, run, check, verify, preview, resume, untangle, export_run, bench};
+  for (CLI::App* command : {demo, dress, run})
+    command->add_flag("--thumbnail", line.thumbnail, "A small picture of the last frame: thumbnail.png");
+  return {demo, dress, run, check, verify, preview, resume, untangle, export_run, bench, batch};
 }
 
 // CLI::Range lets NaN pass.
@@ -277,8 +301,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   }
   if (app.get_subcommands().empty())
     throw Error(ErrorKind::usage,
-                "a command is missing: demo, dress, run, check, verify, preview, resume, untangle, export or bench "
-                "(toile --help)");
+                "a command is missing: demo, dress, run, check, verify, preview, resume, untangle, export, batch or "
+                "bench (toile --help)");
 
   const CLI::App* chosen = app.get_subcommands().front();
   require_finite(line);
@@ -287,7 +311,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       {known.demo, Command::demo},     {known.dress, Command::dress},       {known.run, Command::run},
       {known.check, Command::check},   {known.verify, Command::verify},     {known.preview, Command::preview},
       {known.resume, Command::resume}, {known.untangle, Command::untangle}, {known.export_run, Command::export_run},
-      {known.bench, Command::bench}};
+      {known.bench, Command::bench},   {known.batch, Command::batch}};
   for (const auto& [command, value] : commands)
     if (command == chosen) line.command = value;
   if (chosen == known.bench) settle_bench(*known.bench, line);

@@ -9,7 +9,7 @@
 namespace toile::internal {
 
 struct CommandLine {
-  enum class Command { help, demo, dress, run, check, verify, preview, resume, untangle, export_run, bench };
+  enum class Command { help, demo, dress, run, check, verify, preview, resume, untangle, export_run, bench, batch };
   Command command = Command::help;
   std::string help;                 // Command::help: the text to print
   std::vector<std::string> inputs;  // patterns, scene, files, directory, the demo's or the benchmark's name
@@ -18,7 +18,7 @@ struct CommandLine {
 
   std::string out;  // empty: ./out/NAME
   int threads = 0;  // 0: one per core
-  bool no_preview = false, quiet = false, json = false, picture = false;
+  bool no_preview = false, quiet = false, json = false, picture = false, thumbnail = false;
 
   std::string body, body_unit, body_up, measurements, motion, clip, bones, rig, weights, quality, start;
   std::vector<std::string> targets;
@@ -46,6 +46,13 @@ struct CommandLine {
   std::optional<double> step_max_ms;  // of paper, instead of each row's own
   std::string torture_size = "S";
   int starts = 1, first_start = 0;
+
+  // Options of batch.
+  int processes = 0;       // 0: one per core
+  std::string paths_from;  // empty: the folder of the job file
+  std::string lines;       // "7" or "1-100" of the job file; empty: all
+  bool collect = false;
+  double limit_seconds = 0, limit_mb = 0;  // of a job; 0: none
 };
 
 // Throws Error(usage) with one line.

@@ -2,6 +2,7 @@
 #pragma once
 #include "command_line.hpp"
 #include "exit_code.hpp"
+#include "sim/scene.hpp"
 
 namespace toile::internal {
 
@@ -13,5 +14,9 @@ ExitCode preview_command(const CommandLine& line);
 ExitCode untangle_command(const CommandLine& line);
 ExitCode export_command(const CommandLine& line);
 ExitCode bench_command(const CommandLine& line);
+ExitCode batch_command(const CommandLine& line);
+
+// The scene that a demo, dress or run is of; relative paths refer to the present folder.  Throws InputError, IoError and Error(usage).
+SceneFile scene_of(const CommandLine& line);
 
 }  // namespace toile::internal

@@ -35,6 +35,8 @@ ExitCode run_command(const CommandLine& line) {
       return export_command(line);
     case CommandLine::Command::bench:
       return bench_command(line);
+    case CommandLine::Command::batch:
+      return batch_command(line);
   }
   return ExitCode::internal;
 }
@@ -75,7 +77,9 @@ ExitCode guarded_main(int argc, char** argv) noexcept {
     prepare_for_the_end(json);
     const CommandLine line = parse_command_line(argc, argv);
     ExitCode code = ExitCode::internal;
-    if (line.command == CommandLine::Command::help) return run_command(line);
+    using Command = CommandLine::Command;
+    // A batch only waits for processes, and starts them from the thread that lives as long as the program (apps/batch/worker.cpp).
+    if (line.command == Command::help || line.command == Command::batch) return run_command(line);
     with_threads(threads_for(line), [&] { code = run_command(line); });
     return code;
   } catch (const Error& error) {

@@ -14,6 +14,7 @@
 #include "preview/preview.hpp"
 #include "sim/body_figure.hpp"
 #include "sim/picture_run.hpp"
+#include "sim/picture_state.hpp"
 #include "sim/simulate.hpp"
 #include "terminal.hpp"
 
@@ -171,6 +172,8 @@ void set_quality(const std::string& quality, Scene& scene) {
   }
 }
 
+}  // namespace
+
 SceneFile scene_of(const CommandLine& line) {
   SceneFile file;
   switch (line.command) {
@@ -199,6 +202,8 @@ SceneFile scene_of(const CommandLine& line) {
   return file;
 }
 
+namespace {
+
 // A build without pictures refuses a user's scene that asks for them, before hours are spent on it; `demo` and `dress` make pictures by default,
 // and do without.
 bool wants_pictures(const CommandLine& line, const Scene& scene) {
@@ -212,6 +217,16 @@ bool wants_pictures(const CommandLine& line, const Scene& scene) {
   if (!line.quiet)
     std::fprintf(stderr, "toile: built without pictures: there will be no preview.png and preview.mp4\n");
   return false;
+}
+
+// One view of the last frame, for lists of many runs.
+void draw_thumbnail(const std::string& directory) {
+  constexpr StillOptions small{144, 192, 6, 25, 8};  // a few kilobytes, and a tenth of a second
+  const RunFolder folder(directory, RunFolder::Use::pictures, {}, {});
+  const std::string png = picture_last_frame(directory, small);
+  AtomicFile file(folder.path("thumbnail.png"));
+  file.write(png);
+  file.commit();
 }
 
 // For `dress`: an unattended run must not take a quarter of an hour.
@@ -239,7 +254,20 @@ std::string summary(const Report& report, const std::string& directory) {
                    report.audit.still_mm_per_s_p99, report.state_hash.c_str());
 }
 
+void draw_pictures(const std::string& directory, const Scene& scene, ProgressBar& bar) {
+  const RunFolder folder(directory, RunFolder::Use::pictures, {}, {});
+  PictureOptions pictures;
+  pictures.frames = scene.picture_frames;
+  picture_run(
+      directory, pictures,
+      [&](double share) {
+        bar.show({"picturing", share, -1});
+      },
+      interrupted);
+}
+
 ExitCode run_scene(const CommandLine& line, const Scene& scene, const Stopwatch& since_start) {
+  if (line.thumbnail) require_pictures();
   const bool pictures_wanted = wants_pictures(line, scene);
   ProgressBar bar(line);
   RunOptions options;
@@ -263,18 +291,11 @@ ExitCode run_scene(const CommandLine& line, const Scene& scene, const Stopwatch&
   ExitCode code = exit_code(outcome(report));
 
   std::string picture_error;
-  if (pictures_wanted && code != ExitCode::interrupted) {
+  if ((pictures_wanted || line.thumbnail) && code != ExitCode::interrupted) {
     // The run is complete without its pictures: errors here are reported, and do not discard the result.
     try {
-      const RunFolder folder(options.directory, RunFolder::Use::pictures, {}, {});
-      PictureOptions pictures;
-      pictures.frames = scene.picture_frames;
-      picture_run(
-          options.directory, pictures,
-          [&](double share) {
-            bar.show({"picturing", share, -1});
-          },
-          interrupted);
+      if (line.thumbnail && (report.frames > 0 || report.sewing.frames > 0)) draw_thumbnail(options.directory);
+      if (pictures_wanted) draw_pictures(options.directory, scene, bar);
     } catch (const Error& error) {
       picture_error = error.what();
       if (code == ExitCode::ok) code = exit_code(error.kind());

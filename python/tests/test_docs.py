@@ -1,5 +1,7 @@
 """Runs the Python that the documents show: every ```python block of a document, one after the other, in an empty folder."""
 
+import os
+import pathlib
 import re
 import subprocess
 import sys
@@ -7,7 +9,8 @@ import sys
 import pytest
 from conftest import one_core, root
 
-documents = ["README.md", "docs/howto/python.md"]
+batches = "docs/howto/batch.md"
+documents = ["README.md", "docs/howto/python.md", batches]
 
 
 def blocks(text):
@@ -18,9 +21,14 @@ def blocks(text):
 def test_the_code_of_a_document_runs(document, tmp_path):
     code = blocks((root / document).read_text())
     assert code, f"{document} shows no Python"
+    env = dict(os.environ)
+    if document == batches:
+        pytest.importorskip("distributed", reason="Dask is not installed")
+        program = env.get("TOILE_PROGRAM") or pytest.skip("the program is not built")
+        env["PATH"] = f"{pathlib.Path(program).parent}:{env['PATH']}"
     (tmp_path / "patterns").symlink_to(root / "patterns")
     (tmp_path / "scenes").symlink_to(root / "scenes")
-    done = subprocess.run([sys.executable, "-"], input="\n".join(code), text=True, cwd=tmp_path, capture_output=True, preexec_fn=one_core)
+    done = subprocess.run([sys.executable, "-"], input="\n".join(code), text=True, cwd=tmp_path, env=env, capture_output=True, preexec_fn=one_core)
     assert done.returncode == 0, done.stderr
 
 

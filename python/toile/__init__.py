@@ -14,6 +14,7 @@ from ._batch import Batch
 from ._body import Body
 from ._cloth import Cloth, fabric
 from ._frame import Frame
+from ._run_batch import run_batch
 from ._runs import RunWriter, check_pattern, export_run, preview, run_scene, verify
 from ._simulation import Simulation
 from ._toile import CheckReport, Crossings, DressReport, Fabric, Finding, Reason, State, StepReport, Verdict, fabric_names
@@ -44,6 +45,7 @@ __all__ = [
     "fabric",
     "fabric_names",
     "preview",
+    "run_batch",
     "run_scene",
     "verify",
 ]

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/file.hpp"
+#include "io/json_line.hpp"
 
 namespace toile::internal {
 namespace {
@@ -41,7 +42,7 @@ class ReadingIterator {
 // Line and column of places in a text, asked for in increasing order.
 class LineCounter {
  public:
-  explicit LineCounter(const char* begin) : at_(begin) {}
+  LineCounter(const char* begin, int first_line) : at_(begin), line_(first_line) {}
 
   void advance(const char* to) {
     for (; at_ < to; ++at_) {
@@ -58,7 +59,7 @@ class LineCounter {
 
  private:
   const char* at_;
-  int line_ = 1, column_ = 1;
+  int line_, column_ = 1;
 };
 
 std::string place_in(std::string_view file, int line, int column) {
@@ -111,13 +112,13 @@ std::string pointer_step(std::string_view key) {
 // this character may belong to what follows does no harm, as only a comma, a bracket or white space can follow.
 class JsonBuilder {
  public:
-  JsonBuilder(std::string_view text, std::string_view file)
+  JsonBuilder(std::string_view text, std::string_view file, int first_line)
       : file_(std::make_shared<const std::string>(file)),
         begin_(text.data()),
         end_(begin_ + text.size()),
         read_(begin_),
         previous_(begin_),
-        counter_(begin_) {}
+        counter_(begin_, first_line) {}
   JsonBuilder(const JsonBuilder&) = delete;  // iterators point at it
   JsonBuilder& operator=(const JsonBuilder&) = delete;
 
@@ -316,20 +317,22 @@ class JsonBuilder {
   Json root_;
 };
 
-Json Json::parse(std::string_view text, std::string_view file) {
-  if (text.size() > text_limit) {
-    throw InputError(printable(file), "", "at most " + std::to_string(text_limit) + " bytes of JSON",
+Json Json::parse(std::string_view text, std::string_view file) { return parse_json_line(text, file, 1); }
+
+Json parse_json_line(std::string_view text, std::string_view file, int first_line) {
+  if (text.size() > Json::text_limit) {
+    throw InputError(printable(file), "", "at most " + std::to_string(Json::text_limit) + " bytes of JSON",
                      std::to_string(text.size()));
   }
   if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
   // The parser takes a NUL byte for the end of the text and would ignore the rest.
   if (const auto nul = text.find('\0'); nul != std::string_view::npos) {
-    LineCounter counter(text.data());
+    LineCounter counter(text.data(), first_line);
     counter.advance(text.data() + nul);
     throw InputError(place_in(file, counter.line(), counter.column()), "", "JSON", "a NUL byte");
   }
   if (text.empty()) text = "";  // a null pointer is not a valid iterator
-  return JsonBuilder(text, file).build();
+  return JsonBuilder(text, file, first_line).build();
 }
 
 Json Json::load(const std::string& path) { return parse(read_file(path, text_limit), path); }

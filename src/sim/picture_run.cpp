@@ -266,7 +266,7 @@ std::string picture_last_frame(const std::string& directory, const StillOptions&
   require_pictures();
   const std::filesystem::path folder(directory);
   Take cloth, body;
-  if (!cloth.open(folder, "cloth"))
+  if (!cloth.open(folder, "cloth") && !cloth.open(folder, "sewing"))
     throw IoError((folder / "cloth.obj").string(), "no such file: this directory holds no run");
   Vec3s x, body_x;
   cloth.frames->read(cloth.frames->samples() - 1, x);

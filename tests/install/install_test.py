@@ -17,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 
-optional_packages = ["embree", "PNG", "TinyGLTF", "CLI11", "GTest", "benchmark"]
+optional_packages = ["embree", "PNG", "TinyGLTF", "SQLite3", "CLI11", "GTest", "benchmark"]
 
 
 class Failed(Exception):

@@ -1,5 +1,7 @@
 #include "io/json.hpp"
 
+#include "io/json_line.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -100,6 +102,16 @@ TEST(Json, CountsColumnsInCharactersAndLinesByLineFeed) {
   const Json json = parse("{\"\xc3\xa4\xe2\x82\xac\": 1,\r\n\"b\": 2}");
   EXPECT_EQ(json.object()[0].second.where(), "s.json:1:8");
   EXPECT_EQ(json.at("b").where(), "s.json:2:6");
+}
+
+TEST(Json, CountsLinesFromWhereTheTextBegins) {
+  const Json json = parse_json_line("{\n\"a\": 1}", "jobs.jsonl", 41);
+  EXPECT_EQ(json.where(), "jobs.jsonl:41:1");
+  EXPECT_EQ(json.at("a").where(), "jobs.jsonl:42:6");
+  for (const char* wrong : {"{\"a\" 1}", "[\0]"})
+    EXPECT_TRUE(message_of<InputError>([&] {
+                  parse_json_line(std::string_view(wrong, 3), "jobs.jsonl", 41);
+                }).starts_with("jobs.jsonl:41:"));
 }
 
 TEST(Json, SkipsAByteOrderMark) { EXPECT_EQ(parse("\xef\xbb\xbf[1]").array()[0].where(), "s.json:1:2"); }
