@@ -207,8 +207,9 @@ def _select_crossings(context: bpy.types.Context) -> int:
         bpy.ops.object.mode_set(mode="OBJECT")
     inside = np.isin(particles, np.array(crossings.vertices, dtype=np.int64)) & (particles >= 0)
     mesh = obj.data
-    for elements in (mesh.polygons, mesh.edges):
-        elements.foreach_set("select", [False] * len(elements))
+    mesh.polygons.foreach_set("select", [False] * len(mesh.polygons))
+    if bpy.app.version[:2] != (5, 0):  # 5.0.1 crashes where the selection of an edge is written
+        mesh.edges.foreach_set("select", [False] * len(mesh.edges))
     mesh.vertices.foreach_set("select", inside.tolist())
     group = obj.vertex_groups.get("Toile crossings") or obj.vertex_groups.new(name="Toile crossings")
     group.remove(list(range(len(mesh.vertices))))

@@ -5,6 +5,10 @@ from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatPrope
 
 from .engine import fabrics
 
+# Newer versions want to be told that "//" is known; older ones do not know the word.
+_RELATIVE = {"options": {"PATH_SUPPORTS_BLEND_RELATIVE"}} if bpy.app.version >= (4, 5, 0) else {}
+
+
 def _is_mesh(_: object, obj: bpy.types.Object) -> bool:
     return obj.type == "MESH"
 
@@ -48,7 +52,9 @@ class ToileSettings(bpy.types.PropertyGroup):
         items=(("MESH", "Object", "A garment that is modelled already, where it is worn"), ("PATTERN", "Pattern", "A GarmentCode JSON file")),
     )
     garment: PointerProperty(name="Object", type=bpy.types.Object, poll=_is_mesh, description="It becomes cloth")
-    pattern: StringProperty(name="Pattern", subtype="FILE_PATH", description="Sewn around the body, which stands at the origin and looks along -Y")
+    pattern: StringProperty(
+        name="Pattern", subtype="FILE_PATH", description="Sewn around the body, which stands at the origin and looks along -Y", **_RELATIVE
+    )
     result: PointerProperty(name="Result", type=bpy.types.Object, description="The garment that was sewn from the pattern")
     body: PointerProperty(name="Body", type=bpy.types.Object, poll=_is_mesh, description="A closed surface. Its modifiers and armature act, as in the viewport")
     solids: PointerProperty(name="Colliders", type=bpy.types.Collection, description="Its meshes are solids too, closed ones; they move as Blender moves them")
@@ -90,7 +96,9 @@ class ToileSettings(bpy.types.PropertyGroup):
     lead_frames: IntProperty(name="Lead-In", default=30, min=1, max=1000, description="Frames from the rest pose to the first frame")
     wind: FloatVectorProperty(name="Wind, m/s", size=3, subtype="XYZ", soft_min=-20, soft_max=20)
     threads: IntProperty(name="Threads", min=0, max=1024, description="0: all; results do not depend on it")
-    folder: StringProperty(name="Folder", subtype="DIR_PATH", default="//toile", description="Where runs and caches go; the caches are read from there")
+    folder: StringProperty(
+        name="Folder", subtype="DIR_PATH", default="//toile", description="Where runs and caches go; the caches are read from there", **_RELATIVE
+    )
 
     status: StringProperty()
     details: StringProperty()
