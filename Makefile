@@ -1,5 +1,5 @@
 # The commands of the README.  Everything real happens in CMake; this file only says what is run.
-.PHONY: configure build demo test test-golden test-clang test-sanitizers test-long bench settings tidy format symbols clean packages python-environment api-reference
+.PHONY: configure build demo test test-golden test-clang test-sanitizers test-long bench settings tidy format symbols clean packages python-environment api-reference blender-addon test-blender
 JOBS ?= $(shell nproc)
 
 # Prerequisites one after the other, with -j too: `packages` comes before what needs them.
@@ -76,6 +76,15 @@ format:
 # What the Python module is built and tested with, from PyPI; without a registry within reach the module is left out.
 python-environment: packages
 	@tools/python_environment.sh build/release
+
+# The add-on for Blender as a zip file, with the program of this build.
+blender-addon: configure
+	@cmake --build --preset release --target blender_addon -j $(JOBS)
+
+# In a real Blender: Debian's, about 400 MB with what it needs, where there is none.
+test-blender: build
+	@command -v blender >/dev/null || [ -n "$$TOILE_BLENDER" ] || tools/install_packages.sh --blender
+	ctest --preset release -R '^blender_' --output-on-failure
 
 packages:
 	@tools/install_packages.sh

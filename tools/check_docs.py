@@ -20,7 +20,7 @@ import pathlib
 import re
 import sys
 
-source_folders = ["src", "apps", "include", "examples", "tests", "cmake", "tools", "bench", "scenes", "patterns", "python", ".ci"]
+source_folders = ["src", "apps", "include", "examples", "tests", "cmake", "tools", "bench", "scenes", "patterns", "python", "blender", ".ci"]
 source_files = ["CMakeLists.txt", "Makefile", "CMakePresets.json"]
 source_suffixes = {".hpp", ".cpp", ".txt", ".cmake", ".py", ".sh", ".json", ""}
 code_path = re.compile(r"`((?:src|tests|tools|apps|cmake|patterns|scenes|bench|include|examples|docs)/[^\s`:]+)`")

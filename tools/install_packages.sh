@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that building, testing and running Toile need.  Does nothing when all are there.
 # `--check` installs nothing: it says which are missing, and exits with 1 when any is.
+# `--blender` adds what the tests of the add-on for Blender run in.
 set -euo pipefail
 
 packages=(
@@ -15,6 +16,7 @@ packages=(
   libgtest-dev libbenchmark-dev python3                               # tests, benchmarks
   python3-dev python3-venv                                            # the Python module
 )
+[ "${1:-}" = "--blender" ] && packages+=(blender python3-numpy xvfb libgl1-mesa-dri)
 
 missing=()
 for package in "${packages[@]}"; do
