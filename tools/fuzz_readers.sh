@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Feeds the reader of a format of meshes or motions with broken files until something breaks, by libFuzzer with address and undefined-behaviour sanitizers.
 #
-# Usage: fuzz_readers.sh FORMAT [SECONDS [FOLDER]]      FORMAT: obj, ply, gltf; gltf-motion (skins and animations), bvh or rig (MakeHuman's: a
-#                                                       target, a rig, weights); 60 seconds; FOLDER keeps what was found (build/fuzz/FORMAT)
+# Usage: fuzz_readers.sh FORMAT [SECONDS [FOLDER]]      FORMAT: obj, ply, stl, gltf; body (what makes a body of an OBJ); gltf-motion (skins
+#                                                       and animations), bvh or rig (MakeHuman's: a target, a rig, weights); 60 seconds; FOLDER keeps what was found (build/fuzz/FORMAT)
 #
 # Needs clang (Debian: clang, libclang-rt-14-dev).  Ends with the fuzzer's code: 0 when nothing was found.
 set -euo pipefail
@@ -12,12 +12,13 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 folder=${3:-$root/build/fuzz/$format}
 harness=mesh_reader_fuzz
 case $format in
-  obj | ply) file=fuzz.$format ;;
+  obj | ply | stl) file=fuzz.$format ;;
+  body) file=fuzz.obj harness=body_fuzz ;;
   gltf) file=fuzz.glb ;;
   gltf-motion) file=fuzz.glb harness=motion_reader_fuzz ;;
   bvh | rig) file=fuzz.$format harness=motion_reader_fuzz ;;
   *)
-    echo "fuzz_readers.sh: expected obj, ply, gltf, gltf-motion, bvh or rig, got $format" >&2
+    echo "fuzz_readers.sh: expected obj, ply, stl, gltf, body, gltf-motion, bvh or rig, got $format" >&2
     exit 2
     ;;
 esac
@@ -25,7 +26,12 @@ mkdir -p "$folder/corpus"
 
 sources=("$root"/tests/fuzz/$harness.cpp "$root"/src/core/*.cpp "$root"/src/rig/*.cpp "$root"/src/io/file.cpp "$root"/src/io/json.cpp
   "$root"/src/io/mesh_file.cpp "$root"/src/io/mesh_writer.cpp "$root"/src/io/animated_mesh.cpp "$root"/src/io/bvh.cpp "$root"/src/io/makehuman.cpp
-  "$root"/src/io/obj_*.cpp "$root"/src/io/ply_*.cpp "$root"/src/io/gltf_*.cpp)
+  "$root"/src/io/sequence_writer.cpp "$root"/src/io/usda_write.cpp "$root"/src/io/pc2.cpp "$root"/src/io/mdd.cpp
+  "$root"/src/io/obj_*.cpp "$root"/src/io/ply_*.cpp "$root"/src/io/stl_*.cpp "$root"/src/io/gltf_*.cpp)
+if [ "$format" = body ]; then
+  sources+=("$root"/src/mesh/*.cpp "$root"/src/body/body_parts.cpp "$root"/src/body/collision_body.cpp "$root"/src/body/measure.cpp
+    "$root"/src/body/upright.cpp)
+fi
 objects=()
 for source in "${sources[@]}"; do
   case $source in */obj_replace.cpp) continue ;; esac
@@ -44,6 +50,11 @@ case $format in
     printf 'ply\nformat ascii 1.0\ncomment panel 0 a\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n' >"$seed"
     printf 'property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\nproperty int panel\n' >>"$seed"
     printf 'end_header\n0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n3 0 1 2 0\n' >>"$seed"
+    ;;
+  stl) printf 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n' >"$seed" ;;
+  body) # a box, and a loose triangle that doubles one of its own
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\nv 0 0 0\no body\nf 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\n' >"$seed"
+    printf 'f 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6\no other\nf 9 3 4\n' >>"$seed"
     ;;
   gltf) # three corners, their texture coordinates and indices
     printf '{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"scale":[1,2,3]}],"materials":[{"name":"a"}],' >"$seed"

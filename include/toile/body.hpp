@@ -15,13 +15,25 @@
 
 namespace toile {
 
+// A change of a mesh's shape, MakeHuman's: a file, and how much of it.
+struct BodyTarget {
+  std::string file;
+  double share = 1;
+};
 struct BodyFileOptions {
   LengthUnit unit = LengthUnit::automatic;
   std::string motion =
-      {};  // a .pc2, a .mdd, a folder of numbered mesh files, or the name of a motion for upright meshes; empty: it stands
+      {};  // a .pc2, a .mdd, a folder of numbered mesh files, or the name of a motion for upright meshes; of a body with a skeleton a
+           // glTF or a BVH file; empty: it stands
   double fps = 30;                // of the files of the motion
   std::string measurements = {};  // a YAML file; empty: the one beside the mesh, if there is one
   UpAxis up = UpAxis::automatic;  // of the mesh; of a solid, automatic is y
+  std::string clip = {};  // of a glTF motion: the name of an animation, or its number from 0; empty: the only one
+  std::string bones =
+      {};  // of a BVH motion: a JSON file that says which joints are which part of a person; empty: by their names
+  std::string rig = {},
+              weights = {};  // of a mesh without a skeleton: a rig of MakeHuman's; weights empty: those beside it
+  std::vector<BodyTarget> targets = {};  // applied before anything else
 };
 struct CylinderOptions {  // upright, with rounded rims
   double radius_m = 0.2, height_m = 0.5;

@@ -7,12 +7,15 @@
 #include <toile/error.hpp>
 
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <array>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -24,12 +27,21 @@ using namespace nb::literals;
 namespace {
 
 Body from_file(const std::string& path, std::string_view unit, const std::string& motion, double fps,
-               const std::string& measurements, std::string_view up) {
+               const std::string& measurements, std::string_view up, const std::string& clip, const std::string& bones,
+               const std::string& rig, const std::string& weights,
+               const std::vector<std::pair<std::string, double>>& targets) {
+  std::vector<BodyTarget> changes;
+  for (const auto& [file, share] : targets) changes.push_back({file, share});
   return Body::from_file(path, {.unit = named("unit", unit, length_units),
                                 .motion = motion,
                                 .fps = fps,
                                 .measurements = measurements,
-                                .up = named("up", up, up_axes)});
+                                .up = named("up", up, up_axes),
+                                .clip = clip,
+                                .bones = bones,
+                                .rig = rig,
+                                .weights = weights,
+                                .targets = std::move(changes)});
 }
 
 Body from_frames(const FramesIn& frames_m, const FacesIn& body_faces, double fps) {
@@ -48,7 +60,7 @@ void bind_body(nb::module_& module) {
       .def_static("mannequin", &Body::mannequin, nb::call_guard<nb::gil_scoped_release>(), "who"_a, "motion"_a)
       .def_static("motion_names", &Body::motion_names)
       .def_static("from_file", &from_file, nb::call_guard<nb::gil_scoped_release>(), "path"_a, "unit"_a, "motion"_a,
-                  "fps"_a, "measurements"_a, "up"_a)
+                  "fps"_a, "measurements"_a, "up"_a, "clip"_a, "bones"_a, "rig"_a, "weights"_a, "targets"_a)
       .def_static(
           "from_arrays",
           [](const PointsIn& vertices_m, const FacesIn& body_faces) {

@@ -43,7 +43,7 @@ class Body(Made):
     def mannequin(cls, who: str, *, motion: str | os.PathLike[str] = "") -> Body:
         """One of the program's own: "woman", "man" or "dancer" (docs/mannequin.md).
 
-        motion: one of motion_names(), a .pc2 or .mdd file or a folder of numbered mesh files; empty: it stands.
+        motion: one of motion_names(), a .pc2, .mdd or .bvh file or a folder of numbered mesh files; empty: it stands.
         """
         return cls._make("mannequin", who=who, motion=_motion(motion))
 
@@ -62,13 +62,23 @@ class Body(Made):
         fps: float = 30,
         measurements: str | os.PathLike[str] = "",
         up: str = "automatic",
+        clip: str | int = "",
+        bones: str | os.PathLike[str] = "",
+        rig: str | os.PathLike[str] = "",
+        weights: str | os.PathLike[str] = "",
+        targets: Mapping[str | os.PathLike[str], float] | None = None,
     ) -> Body:
         """A closed mesh (OBJ, PLY, STL, glTF).  It is read by the constructor of a simulation, which raises IoError and InputError.
 
         unit          "automatic" (metres, or an error that says which unit would fit), "m", "dm", "cm", "mm" or "in"
-        motion        a .pc2 or .mdd file, a folder of numbered mesh files, or the name of a motion for upright meshes; empty: it stands
+        motion        a .pc2 or .mdd file, a folder of numbered mesh files, or the name of a motion for upright meshes; of a body with a skeleton a
+                      glTF or a BVH file; empty: it stands
         fps           frames a second of the motion's files
         measurements  a YAML file (docs/howto/measurements.md); empty: the one beside the mesh, if there is one
+        clip          of a glTF motion: the name of an animation, or its number from 0; empty: the only one
+        bones         of a BVH motion: a JSON file that says which joints are which part of a person (docs/motions.md); empty: by their names
+        rig, weights  of a mesh without a skeleton: MakeHuman's, JSON; weights empty: the file beside the rig
+        targets       changes of the mesh's shape, MakeHuman's: {file: share}, in this order, before anything else
         up            the axis of the file that points up: "y", "z", or "automatic", as a person is seen to stand in it; of a solid y
         """
         return cls._make(
@@ -79,6 +89,11 @@ class Body(Made):
             fps=fps,
             measurements=file_path(measurements) if os.fspath(measurements) else "",
             up=up,
+            clip=str(clip),
+            bones=file_path(bones) if os.fspath(bones) else "",
+            rig=file_path(rig) if os.fspath(rig) else "",
+            weights=file_path(weights) if os.fspath(weights) else "",
+            targets=[(file_path(file), float(share)) for file, share in (targets or {}).items()],
         )
 
     @classmethod

@@ -5,6 +5,7 @@
 #include "body/motion.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace toile {
 namespace {
@@ -56,10 +57,22 @@ Body Body::mannequin(std::string_view who, const std::string& motion) {
 Body Body::from_file(const std::string& path, const BodyFileOptions& options) {
   return translated([&] {
     auto parts = std::make_unique<Parts>();
-    parts->body.shape = internal::SceneMesh{path, static_cast<internal::LengthUnit>(options.unit), options.measurements,
-                                            static_cast<internal::UpAxis>(options.up)};
+    internal::SceneMesh mesh;
+    mesh.path = path;
+    mesh.unit = static_cast<internal::LengthUnit>(options.unit);
+    mesh.measurements = options.measurements;
+    mesh.up = static_cast<internal::UpAxis>(options.up);
+    mesh.rig = options.rig;
+    mesh.weights = options.weights;
+    for (const BodyTarget& target : options.targets) mesh.targets.push_back({target.file, target.share});
+    parts->body.shape = std::move(mesh);
     require_above_zero("fps", options.fps);
-    if (!options.motion.empty()) parts->body.motion = motion_of(options.motion, options.fps);
+    if (!options.motion.empty()) {
+      internal::SceneMotion motion = motion_of(options.motion, options.fps);
+      motion.clip = options.clip;
+      motion.bones = options.bones;
+      parts->body.motion = std::move(motion);
+    }
     return Body(std::move(parts));
   });
 }

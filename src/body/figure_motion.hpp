@@ -38,7 +38,7 @@ class FigureMotion : public BodyMotion::Source {
   Figure figure_;
   std::optional<SkinnedBody> mannequin_;
   PoseTrack track_;
-  std::vector<Index> vertices_;  // of the figure
+  std::vector<Index> vertices_;      // of the figure
   Mat3 to_body_ = Mat3::Identity();  // from the figure's axes and unit
   LeadIn lead_in_;
 };

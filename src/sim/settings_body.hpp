@@ -28,13 +28,13 @@ void describe(V& v, SceneMotion& motion) {
                 "([motions.md](motions.md))",
                 "a file"},
                motion_names(), motion.name);
-  v.path(
-      {"file",
-       "a .pc2 or .mdd file, a folder of numbered mesh files; of a body with a skeleton a glTF file, the body's own or one with "
-       "nodes of the same names, or a BVH file; of a mannequin a BVH file too "
-       "([motions.md](motions.md#bodies-with-a-skeleton))",
-       "a name"},
-      motion.path);
+  v.path({"file",
+          "a .pc2 or .mdd file, a folder of numbered mesh files; of a body with a skeleton a glTF file, the body's own "
+          "or one with "
+          "nodes of the same names, or a BVH file; of a mannequin a BVH file too "
+          "([motions.md](motions.md#bodies-with-a-skeleton))",
+          "a name"},
+         motion.path);
   v.text({"clip", "of a glTF file: the name of an animation, or its number from 0", "the only one"}, motion.clip);
   v.path({"bones", "of a BVH file: which joints are which part of a person ([motions.md](motions.md#bvh))",
           "what their names say"},

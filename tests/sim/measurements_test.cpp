@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace toile::internal {
 namespace {
@@ -49,7 +50,9 @@ std::string tape(double lower_m, const std::string& more = "") {
 SceneCollider body_of(const Scratch& scratch) {
   SceneCollider body;
   body.worn = true;
-  body.shape = SceneMesh{scratch / "woman.obj", LengthUnit::automatic, ""};
+  SceneMesh mesh;
+  mesh.path = scratch / "woman.obj";
+  body.shape = std::move(mesh);
   return body;
 }
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 namespace toile::internal {
 namespace {
@@ -76,7 +77,9 @@ TEST(MovingBody, APersonGivenAsAMeshSwaysByName) {
   obj.object_names = {"woman"};
   write_obj(scratch / "woman.obj", obj);
   Scene scene = kerchief("sway");
-  scene.body.shape = SceneMesh{scratch / "woman.obj", LengthUnit::automatic, ""};
+  SceneMesh mesh;
+  mesh.path = scratch / "woman.obj";
+  scene.body.shape = std::move(mesh);
   scene.seconds = 1;
   const Report report = test::run_into(scratch / "out", scene);
   EXPECT_EQ(report.motion_name, "sway");

@@ -70,7 +70,7 @@ class Body:
     motion: str = ""  # a point cache beside the scene
 
     def as_json(self, fps: float) -> dict[str, Any]:
-        body: dict[str, Any] = {"mesh": self.mesh, "unit": "m"}
+        body: dict[str, Any] = {"mesh": self.mesh, "unit": "m", "up": "y"}  # turned by engine/axes.py, and by nobody else
         if self.friction is not None:
             body["friction"] = self.friction
         if self.motion:
