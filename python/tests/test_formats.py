@@ -80,7 +80,7 @@ def test_every_frame_of_a_run(two_panels, tmp_path):
     assert not np.allclose(trimesh.load(files[0]).vertices, trimesh.load(files[-1]).vertices)
     with pytest.raises(toile.InputError, match="frame"):
         toile.export_run(folder, tmp_path / "a.ply", frame=4)
-    with pytest.raises(toile.Error, match="obj, ply or gltf"):
+    with pytest.raises(toile.Error, match="obj, ply, gltf, pc2, mdd or usda"):
         toile.export_run(folder, tmp_path / "a.fbx")
 
 
