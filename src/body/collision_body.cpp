@@ -8,7 +8,6 @@
 #include <fmt/printf.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -25,7 +24,10 @@ std::vector<LengthUnit> units_that_fit(double height) {
     const double h = height * metres_in(unit);
     if (h >= shortest_body_m && h <= tallest_body_m) fit.push_back(unit);
   }
-  const auto ratio = [&](LengthUnit unit) { return std::abs(std::log(height * metres_in(unit) / usual_m)); };
+  const auto ratio = [&](LengthUnit unit) {
+    const double h = height * metres_in(unit);
+    return std::max(h / usual_m, usual_m / h);
+  };
   std::stable_sort(fit.begin(), fit.end(), [&](LengthUnit l, LengthUnit r) { return ratio(l) < ratio(r); });
   return fit;
 }

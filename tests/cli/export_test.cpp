@@ -42,8 +42,8 @@ TEST(ExportCommand, WritesWhatItNamesAndSaysWhatItCannot) {
     EXPECT_EQ(wrong.err_lines(), 1) << wrong.err;
     EXPECT_NE(wrong.err.find(why), std::string::npos) << wrong.err;
   };
-  refused({}, 2, "expected a format, obj, ply or gltf");
-  refused({"--to", "usd"}, 2, "expected obj, ply or gltf, got usd");
+  refused({}, 2, "expected a format, obj, ply, gltf, pc2, mdd or usda");
+  refused({"--to", "usd"}, 2, "expected obj, ply, gltf, pc2, mdd or usda, got usd");
   refused({"--to", "ply", "--all", "--frame", "1"}, 2, "--all");
   refused({"--to", "ply", "--frame", "9"}, 3, "frame: expected 0 to 2, got 9");
   refused({"--to", "ply", "--of", "body"}, 6, "body.obj");
