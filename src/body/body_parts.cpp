@@ -19,9 +19,10 @@ namespace {
 
 constexpr double part_share = 0.003;   // of the largest part's volume: a hand has 0.006, an eyeball 0.0001
 constexpr double told_share = 0.01;    // of the body's: smaller parts that are left out are counted together
-constexpr double mended_share = 0.05;  // of the largest part's area; smaller parts are not mended
+constexpr double mended_share = 0.05;  // of the largest part's area or of all triangles; smaller parts are not mended
 constexpr double whole_share = 0.8;    // of the length of everything: what is as long is a body by itself
 constexpr double digits = 1e-5;        // of a file's coordinates: places that differ by less of the file's size are one
+constexpr double share_of_an_edge = 0.01;  // and by less of the middle edge: a floor in the file may be large
 
 bool is_body_name(std::string_view name) {
   constexpr std::string_view wanted = "body";
@@ -136,7 +137,10 @@ class Selection {
   }
 
   bool is_candidate(const Part& part) const {
-    return name_is_whole_ ? part.named : part.area >= mended_share * largest_area_;
+    if (name_is_whole_) return part.named;
+    const auto triangles = static_cast<double>(part.mesh.triangles.size());
+    return part.area >= mended_share * largest_area_ ||
+           triangles >= mended_share * static_cast<double>(work_.triangles.size());
   }
 
   // Mends the parts for which `wanted`, if one of them needs it.
@@ -146,7 +150,8 @@ class Selection {
     if (std::none_of(parts_.begin(), parts_.end(), needs_it)) return;
     Eigen::AlignedBox3d all;
     for (const Part& part : parts_) all.extend(part.box);
-    corners_ = mend_corners(work_, mesh_.positions, digits * all.diagonal().norm());
+    corners_ = mend_corners(work_, mesh_.positions,
+                            std::min(digits * all.diagonal().norm(), share_of_an_edge * middle_edge()));
     split();
     for (Part& part : parts_) {
       if (!needs_it(part)) continue;
@@ -157,6 +162,17 @@ class Selection {
       part.volume = 0;
       for (const SurfacePart& p : found.parts) part.volume += p.volume_m3;
     }
+  }
+
+  // The median of all sides.
+  double middle_edge() const {
+    std::vector<double> sides;
+    for (const Triangle& t : work_.triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+        sides.push_back((mesh_.positions[at(t[k])] - mesh_.positions[at(t[(k + 1) % 3])]).norm());
+    const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
+    std::nth_element(sides.begin(), middle, sides.end());
+    return *middle;
   }
 
   const Part& largest_open() const {

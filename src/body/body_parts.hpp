@@ -4,7 +4,7 @@
 // hand stays, eyeballs go), without those inside another.  A group or object named `body` (in any case) stands for the parts that it lies
 // in, and others are left out, if these are about as long as everything.
 //
-// A part with a twentieth of the largest one's area is mended (mesh/triangle_repair.hpp).  What is still open is left out if the rest is about as
+// A part with a twentieth of the largest one's area or of all triangles is mended (mesh/triangle_repair.hpp).  What is still open is left out if the rest is about as
 // long without it, as a cloak is; else the body is refused.  All that is done and all that is left out is said.
 #pragma once
 #include "io/surface_mesh.hpp"

@@ -75,6 +75,12 @@ std::vector<char> inner_walls(std::span<const Triangle> triangles, std::span<con
     return (positions[at(b)] - positions[at(a)]).cross(positions[at(c)] - positions[at(a)]).norm();
   };
   constexpr std::size_t probes = 5;  // the largest triangles of a patch
+  // Of a surface that is crowded everywhere no wall is looked for: it would take more than some ten seconds.
+  constexpr double most_tests = 2e9;
+  const auto patches_there = std::count_if(members.begin(), members.end(), [](const auto& of) { return !of.empty(); });
+  if (static_cast<double>(patches_there) * probes * ray_directions.size() * static_cast<double>(triangles.size()) >
+      most_tests)
+    return wall;
   for (std::vector<Index>& of : members) {
     if (of.empty()) continue;
     std::stable_sort(of.begin(), of.end(), [&](Index s, Index t) { return area(s) > area(t); });

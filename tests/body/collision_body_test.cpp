@@ -164,6 +164,30 @@ TEST(CollisionBody, MendsAndSaysInOneSentenceWhatWasDone) {
   EXPECT_EQ(turned.triangles, good.triangles);
 }
 
+TEST(CollisionBody, IsMendedBesideALargeFloorThatIsLeftOut) {
+  const Mannequin& woman = test::mannequin_of(MannequinKind::woman);
+  SurfaceMesh mesh;
+  for (const Triangle& t : woman.triangles) {  // a soup
+    const auto first = static_cast<Index>(mesh.positions.size());
+    for (const Index i : t) mesh.positions.push_back(woman.positions[at(i)]);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.object.push_back(0);
+  }
+  std::swap(mesh.triangles[9][1], mesh.triangles[9][2]);
+  const auto floor = static_cast<Index>(mesh.positions.size());
+  for (const double x : {-100.0, 100.0})
+    for (const double z : {-100.0, 100.0}) mesh.positions.emplace_back(x, 0, z);
+  mesh.triangles.push_back({floor, floor + 1, floor + 2});
+  mesh.triangles.push_back({floor + 2, floor + 1, floor + 3});
+  mesh.object.insert(mesh.object.end(), {1, 1});
+  mesh.object_names = {"person", "floor"};
+  const CollisionBody body = make_collision_body(mesh, "f.obj", LengthUnit::automatic);
+  EXPECT_EQ(body.positions.size(), woman.positions.size());
+  EXPECT_EQ(body.triangles.size(), woman.triangles.size());
+  EXPECT_NEAR(body.height_m, woman.measurements_m.height, 0.01);
+  EXPECT_NE(all_notes(body).find("floor (4 vertices) is open: left out"), std::string::npos) << all_notes(body);
+}
+
 TEST(CollisionBody, CapsTheNeckOfABodyWithoutAHead) {
   const Mannequin& woman = test::mannequin_of(MannequinKind::woman);
   SurfaceMesh mesh;
