@@ -96,7 +96,7 @@ class EarClipping {
     return e.x() * f.y() - e.y() * f.x();
   }
   bool is_ear(const std::array<std::size_t, 3>& corner) const {
-    const auto [a, b, c] = corner;
+    const std::size_t a = corner[0], b = corner[1], c = corner[2];  // no structured binding: the lambda captures them
     if (turn(a, b, c) <= 0) return false;
     return std::none_of(left_.begin(), left_.end(), [&](std::size_t p) {
       return p != a && p != b && p != c && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
