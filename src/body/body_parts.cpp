@@ -66,6 +66,8 @@ class Selection {
 
   BodyParts body() {
     mend([&](const Part& part) { return is_candidate(part); });
+    if (parts_.empty())
+      throw InputError(file_, "body", "a closed surface", "triangles with a corner twice, and no others");
     if (std::none_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.closed; }))
       refuse(largest_open());
     take();

@@ -210,6 +210,11 @@ TEST(CollisionBody, RefusesWhatIsNotAClosedBody) {
   SurfaceMesh endless = box_of_height(1.7);
   endless.positions[3].x() = 1.0 / 0.0;
   EXPECT_NE(complaint(endless, LengthUnit::automatic).find("vertex 3: expected finite"), std::string::npos);
+  SurfaceMesh nothing = box_of_height(1.7);
+  for (Triangle& t : nothing.triangles) t[1] = t[0];
+  EXPECT_NE(complaint(nothing, LengthUnit::automatic)
+                .find("figure.obj: body: expected a closed surface, got triangles with a corner twice"),
+            std::string::npos);
   SurfaceMesh dangling = box_of_height(1.7);
   dangling.triangles[4][1] = 99;
   EXPECT_NE(complaint(dangling, LengthUnit::automatic).find("triangle 4"), std::string::npos);
