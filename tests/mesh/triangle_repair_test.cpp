@@ -174,6 +174,8 @@ TEST(TriangleRepair, CapsAHoleWhoseRimIsNotConvex) {
   const auto top = [](Index i, Index j) { return i * n + j; };
   for (Index i = 0; i < n; ++i)
     for (Index j = 0; j < n; ++j) x.emplace_back(i, 0, -j);
+  x[at(top(5, 4))].x() = 4.5;  // the cut across the corner that is not convex is the shortest
+  x[at(top(4, 5))].z() = -4.5;
   x.emplace_back(5, -8, -5);
   const Index apex = n * n;
   const auto add = [&](const Triangle& t) {
