@@ -140,6 +140,7 @@ void OutfitRun::share_out() {
 
 void OutfitRun::choose_steps() {
   stepper_->options().step_max_s = options_.step_max_s.value_or(phase_.pace.step_max_s);
+  stepper_->options().stretch_floor = phase_.pace.stretch_floor;
   stepper_->integrator().set_slow_motion(phase_.pace.slow_motion.value_or(options_.step.slow_motion));
 }
 

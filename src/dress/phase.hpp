@@ -2,7 +2,8 @@
 //
 //   after_weld      0.2 s weightless, 0.3 s in which gravity and elastic grow; the garments worn before stand still that long.
 //                   A first garment slips on the body for 1 s before friction holds it; labels let go between 0.5 and 1 s.
-//   within_growing  as just welded, for as long as the body grows: labels hold, elastic waits, nothing sticks
+//   within_growing  as just welded, for as long as the body grows: labels hold, elastic waits, nothing sticks.  Steps are halved once at most
+//                   because of stretch: nobody sees these frames, and the push of the body is no divergence
 //   coming_apart    the same without weight
 //   as_drawn        all in full from the start: a grid, or a drape that is taken up again
 #pragma once
@@ -26,6 +27,7 @@ struct Pace {
   std::optional<double> slow_motion;  // instead of StepOptions::slow_motion
   double slow_tolerance =
       std::numeric_limits<double>::infinity();  // of the solver at most, once nearly all cloth is slow
+  int stretch_floor = std::numeric_limits<int>::max();  // halvings from which stretch refuses no step: never
 };
 constexpr Pace steps_of(double step_max_s) {
   Pace pace;

@@ -53,6 +53,20 @@ TEST(OutfitRun, StepsAreTwiceAsLongWhileRestIsAwaited) {
   EXPECT_DOUBLE_EQ(awaited.longest_step_s(), 1.0 / 60);
 }
 
+// A particle that flies off changes the stretch beside it in every step.
+TEST(OutfitRun, StretchHalvesTheStepsOfAGrowingBodyOnceAtMost) {
+  const auto shortest_step_s = [](bool grows) {
+    Hanging hanging(false, "{}", "0.002", grows);
+    if (grows) hanging.run->start_motion([](double, std::span<Vec3>) {});
+    hanging.outfit.state.v[hanging.outfit.state.v.size() / 2] = Vec3(0, 100, 0);
+    const FrameReport report = hanging.run->frame();
+    EXPECT_TRUE(report.ok) << report.diagnosis;
+    return report.step_min_s;
+  };
+  EXPECT_LT(shortest_step_s(false), 1.0 / 100);
+  EXPECT_DOUBLE_EQ(shortest_step_s(true), 1.0 / 60);
+}
+
 // At 60 frames per second steps have the same length whether rest is awaited or not, and states are the same until the first that is
 // solved again for its slow motion.
 TEST(OutfitRun, SlowMotionIsSolvedForWhileRestIsAwaited) {
