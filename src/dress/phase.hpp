@@ -26,7 +26,7 @@ struct Pace {
   double step_max_s = 1.0 / 60;       // unless the scene sets it
   std::optional<double> slow_motion;  // instead of StepOptions::slow_motion
   double slow_tolerance =
-      std::numeric_limits<double>::infinity();  // of the solver at most, once nearly all cloth is slow
+      std::numeric_limits<double>::infinity();          // of the solver at most, once nearly all cloth is slow
   int stretch_floor = std::numeric_limits<int>::max();  // halvings from which stretch refuses no step: never
 };
 constexpr Pace steps_of(double step_max_s) {

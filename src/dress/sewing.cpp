@@ -156,6 +156,7 @@ void Sewing::set_thickness_scale(std::vector<double> scale) {
 void Sewing::go_on(Vec3s x, std::vector<double> scale) {
   for (double& s : scale) s *= options_.thickness_scale;
   state_ = {std::move(x), Vec3s(scale.size(), Vec3::Zero())};
+  seconds_before_ = seconds();
   start_stepper();  // its memory of contacts belongs to the old positions
   set_thickness_scale(std::move(scale));
   escalations_ = 0;

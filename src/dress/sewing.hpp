@@ -95,14 +95,15 @@ class Sewing {
   // Where the last attempt to weld would have pushed cloth through cloth.
   std::optional<Vec3> weld_obstacle() const { return weld_obstacle_; }
   const ImplicitEuler& integrator() const { return stepper_->integrator(); }
-  PhaseSeconds seconds() const { return stepper_->integrator().seconds(); }
+  PhaseSeconds seconds() const { return seconds_before_ + stepper_->integrator().seconds(); }
 
   // The state between frames (core/state_archive.hpp).
   template <class Archive>
   void remember(Archive& archive) {
     archive.fixed(state_.x);
     archive.fixed(state_.v);
-    archive(pull_factor_, time_s_, best_gap_m_, best_time_s_, escalations_, weld_obstacle_, status_, *stepper_);
+    archive(pull_factor_, time_s_, best_gap_m_, best_time_s_, escalations_, weld_obstacle_, status_, seconds_before_,
+            *stepper_);
     archive.fixed(thickness_scale_);
     if constexpr (Archive::reads) set_thickness_scale(thickness_scale_);
   }
@@ -123,6 +124,7 @@ class Sewing {
   StepOptions step_;
   ClothState state_;
   std::optional<AdaptiveStep> stepper_;
+  PhaseSeconds seconds_before_;  // of the steppers before this one
   LabelSprings labels_, kept_;
   std::vector<double> start_distance_m_;  // [pair]
   double longest_m_ = 0, mean_edge_m_ = 0, pull_factor_ = 1, time_s_ = 0;

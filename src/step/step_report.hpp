@@ -18,6 +18,10 @@ struct PhaseSeconds {
     archive(eval, cg, cloth_cloth, cloth_solid, filter, body);
   }
 };
+inline PhaseSeconds operator+(const PhaseSeconds& a, const PhaseSeconds& b) {
+  return {a.eval + b.eval,     a.cg + b.cg,    a.cloth_cloth + b.cloth_cloth, a.cloth_solid + b.cloth_solid,
+          a.filter + b.filter, a.body + b.body};
+}
 inline PhaseSeconds operator-(const PhaseSeconds& a, const PhaseSeconds& b) {
   return {a.eval - b.eval,     a.cg - b.cg,    a.cloth_cloth - b.cloth_cloth, a.cloth_solid - b.cloth_solid,
           a.filter - b.filter, a.body - b.body};

@@ -44,7 +44,9 @@ int crossings_of(const Outfit& outfit) { return test::crossings_of(outfit.state.
 TEST(Dressing, WhatIsCaughtBetweenTheSeamsIsTakenApartAndTheSeamsClose) {
   DressingTube tube(0.04);
   ASSERT_EQ(tube.sewn(), SewingStatus::blocked);
+  const double evaluated_s = tube.dressing->sewing().seconds().eval;
   ASSERT_TRUE(tube.dressing->take_apart({}, {}, {}));
+  EXPECT_GE(tube.dressing->sewing().seconds().eval, evaluated_s);
   EXPECT_EQ(tube.sewn(), SewingStatus::closed);
   EXPECT_EQ(crossings_of(tube.dressing->worn()), 0);
 }
