@@ -215,6 +215,21 @@ TEST(Retarget, MendsWhatNoJointCanDo) {
   EXPECT_LT((knee(20) - knee(23)).norm(), 1e-9);
 }
 
+// From a leg turned outwards by 100 degrees to one turned inwards by 90: through the front, which is the longer way.
+TEST(Retarget, AJumpGoesTheWayThatAJointCanGo) {
+  const Moved m = moved(
+      {},
+      [](int frame, const Figure& figure, FigurePose& pose) {
+        pose.nodes[at(node(figure, "LeftUpLeg"))].turn =
+            rotation_about(Vec3(0, 1, 0), (frame < 30 ? 100 : -90) * pi / 180);
+      },
+      120);
+  for (const FigurePose& pose : m.result.track.poses) {
+    const Quaternion& turn = pose.nodes[at(node(m.target, "left_hip"))].turn;
+    EXPECT_GE(std::abs(turn.w), std::cos(50 * pi / 180) - 1e-9);  // never more than 100 degrees from rest
+  }
+}
+
 TEST(Retarget, SaysWhatIsMissing) {
   const Figure none = figure_of({{"Bone", -1, {0, 1, 0}}}, {}, 1), target = figure_of(a_pose, {}, 1);
   PoseTrack track;
