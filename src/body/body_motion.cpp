@@ -96,15 +96,16 @@ BodyMotion BodyMotion::of_person(std::string_view file, const CollisionBody& bod
   return {body.triangles, std::make_shared<MovingPerson>(file, body, motion)};
 }
 
-BodyMotion BodyMotion::of_figure(std::string_view file, Figure figure, PoseTrack track, const CollisionBody& body,
-                                 const SampleOptions& options) {
-  return {body.triangles, std::make_shared<FigureMotion>(file, std::move(figure), std::move(track), body, options)};
+BodyMotion BodyMotion::of_figure(std::string_view file, Figure figure, const PersonBones& bones, PoseTrack track,
+                                 const CollisionBody& body, const SampleOptions& options) {
+  return {body.triangles,
+          std::make_shared<FigureMotion>(file, std::move(figure), bones, std::move(track), body, options)};
 }
 
-BodyMotion BodyMotion::of_mannequin(std::string_view file, const Mannequin& mannequin, Figure figure, PoseTrack track,
-                                    const SampleOptions& options) {
+BodyMotion BodyMotion::of_mannequin(std::string_view file, const Mannequin& mannequin, Figure figure,
+                                    const PersonBones& bones, PoseTrack track, const SampleOptions& options) {
   return {mannequin.triangles,
-          std::make_shared<FigureMotion>(file, mannequin, std::move(figure), std::move(track), options)};
+          std::make_shared<FigureMotion>(file, mannequin, std::move(figure), bones, std::move(track), options)};
 }
 
 BodyMotion BodyMotion::from_pc2(const std::string& path, const CollisionBody& body, const SampleOptions& options) {

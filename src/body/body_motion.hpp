@@ -20,10 +20,15 @@
 
 namespace toile::internal {
 
+struct PersonBones;
+
 struct SampleOptions {
   double rate_hz = 30;  // samples per second
   LengthUnit unit = LengthUnit::automatic;
   double lead_in_s = 1;
+  double arm_room_m = 0.015;  // for cloth, between arms that a skeleton moves and the body (body/arm_clearance.hpp)
+  double fold_room_m =
+      0.006;  // likewise between skin and skin (body/skin_folds.hpp): what is 2.2 offsets of 2.5 mm apart pinches no cloth
   double fastest_m_s =
       20;  // a vertex that moves farther between two samples, beside all together, is an error of the file
 };
@@ -41,12 +46,12 @@ class BodyMotion {
   static BodyMotion of_person(std::string_view file, const CollisionBody& body, const Motion& motion);
 
   // A body that was made of the figure's vertices at rest, moved by its skeleton.  `options.rate_hz` does not count: the track has its own.
-  static BodyMotion of_figure(std::string_view file, Figure figure, PoseTrack track, const CollisionBody& body,
-                              const SampleOptions& options);
+  static BodyMotion of_figure(std::string_view file, Figure figure, const PersonBones& bones, PoseTrack track,
+                              const CollisionBody& body, const SampleOptions& options);
 
   // A mannequin, by poses of its figure (body/mannequin_figure.hpp).
-  static BodyMotion of_mannequin(std::string_view file, const Mannequin& mannequin, Figure figure, PoseTrack track,
-                                 const SampleOptions& options);
+  static BodyMotion of_mannequin(std::string_view file, const Mannequin& mannequin, Figure figure,
+                                 const PersonBones& bones, PoseTrack track, const SampleOptions& options);
 
   // A point cache of all vertices of the file that `body` was read from, or of the kept ones only.
   static BodyMotion from_pc2(const std::string& path, const CollisionBody& body, const SampleOptions& options);

@@ -2,6 +2,7 @@
 #include "body/body_samples.hpp"
 
 #include "body/lead_in.hpp"
+#include "body/step_speed.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -22,7 +23,6 @@ constexpr double height_ratio = 4.0;  // first sample to body
 // No skin is stretched so in a pose that a body may stand in, but most edges are if vertices come in another order.
 constexpr double longer_ratio = 3.0, longer_share = 0.05;  // an edge to the body's, and beyond it of the height
 constexpr double fits_better = 0.5;                        // distance from the body's pose with other axes
-constexpr double fastest_whole_m_s = 100;                  // of the body as a whole: in or on whatever carries it
 
 std::size_t z(Index i) { return static_cast<std::size_t>(i); }
 
@@ -149,32 +149,10 @@ void BodySamples::check_edges(std::string_view file, const Vec3s& frame) const {
 }
 
 void BodySamples::check_speed(std::string_view file, const Vec3s& frame) const {
-  const std::string place = "frame " + std::to_string(frames_);
-  // What most of the body does is what carries it; single vertices do not change a median.
-  Vec3 whole;
-  std::vector<double> moves(frame.size());
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < frame.size(); ++i) moves[i] = frame[i][k] - sample(frames_ - 1, i)[k];
-    const auto middle = moves.begin() + static_cast<std::ptrdiff_t>(moves.size() / 2);
-    std::nth_element(moves.begin(), middle, moves.end());
-    whole[k] = *middle;
-  }
-  const double farthest_whole = fastest_whole_m_s / options_.rate_hz,
-               farthest = options_.fastest_m_s / options_.rate_hz;
-  if (whole.norm() > farthest_whole)
-    throw InputError(
-        file, place,
-        fmt::sprintf("a body at most %.3g m from the frame before (%g m/s)", farthest_whole, fastest_whole_m_s),
-        fmt::sprintf("%.3g m", whole.norm()));
-  for (std::size_t i = 0; i < frame.size(); ++i) {
-    const double moved = (frame[i] - sample(frames_ - 1, i) - whole).norm();
-    if (moved <= farthest) continue;
-    const std::size_t from = source_count_ == drape_.size() ? i : z(source_vertex_[i]);
-    throw InputError(file, place + ", vertex " + std::to_string(from),
-                     "at most " + fmt::sprintf("%.3g m", farthest) + " from the frame before (" +
-                         fmt::sprintf("%g m/s", options_.fastest_m_s) + ") beside what the whole body moves",
-                     fmt::sprintf("%.3g m", moved));
-  }
+  Vec3s before(frame.size());
+  for (std::size_t i = 0; i < before.size(); ++i) before[i] = sample(frames_ - 1, i);
+  check_step_speed(file, "frame " + std::to_string(frames_), before, frame, {options_.rate_hz, options_.fastest_m_s},
+                   [&](std::size_t i) { return source_count_ == drape_.size() ? i : z(source_vertex_[i]); });
 }
 
 void BodySamples::finish(std::string_view file) {

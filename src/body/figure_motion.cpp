@@ -1,6 +1,8 @@
 #include "body/figure_motion.hpp"
 
+#include "body/arm_clearance.hpp"
 #include "body/mannequin_figure.hpp"
+#include "body/step_speed.hpp"
 #include "core/error.hpp"
 
 #include <fmt/printf.h>
@@ -16,6 +18,7 @@ constexpr double same_place = 1e-6;  // of the height: the body is the figure at
 constexpr double same_pose_m = 1e-5;
 constexpr double same_again = 5e-3;  // of the height: the last pose is the first again; less than a step of any gait
 constexpr double farthest_m = 1e6;
+constexpr double told_yield_m = 1e-3;
 
 double farthest_apart(std::span<const Vec3> a, std::span<const Vec3> b) {
   double apart = 0;
@@ -25,8 +28,8 @@ double farthest_apart(std::span<const Vec3> a, std::span<const Vec3> b) {
 
 }  // namespace
 
-FigureMotion::FigureMotion(std::string_view file, Figure figure, PoseTrack track, const CollisionBody& body,
-                           const SampleOptions& options)
+FigureMotion::FigureMotion(std::string_view file, Figure figure, const PersonBones& bones, PoseTrack track,
+                           const CollisionBody& body, const SampleOptions& options)
     : figure_(std::move(figure)),
       track_(std::move(track)),
       vertices_(body.source_vertex),
@@ -37,12 +40,15 @@ FigureMotion::FigureMotion(std::string_view file, Figure figure, PoseTrack track
     throw InputError(file, "skeleton", "one that carries the body where it stands",
                      fmt::sprintf("%.3g m apart", farthest_apart(x, body.positions)));
   check_samples(file, body, options);
+  make_room(file, body, bones, options);
 }
 
-FigureMotion::FigureMotion(std::string_view file, const Mannequin& mannequin, Figure figure, PoseTrack track,
-                           const SampleOptions& options)
+FigureMotion::FigureMotion(std::string_view file, const Mannequin& mannequin, Figure figure, const PersonBones& bones,
+                           PoseTrack track, const SampleOptions& options)
     : figure_(std::move(figure)), mannequin_(mannequin), track_(std::move(track)), vertices_(every_vertex(figure_)) {
-  check_samples(file, from_mannequin(mannequin), options);
+  const CollisionBody body = from_mannequin(mannequin);
+  check_samples(file, body, options);
+  make_room(file, body, bones, options);
 }
 
 void FigureMotion::place(const FigurePose& pose, std::span<Vec3> x) const {
@@ -55,25 +61,35 @@ void FigureMotion::place(const FigurePose& pose, std::span<Vec3> x) const {
     for (Vec3& p : x) p = to_body_ * p;
 }
 
+void FigureMotion::make_room(std::string_view file, const CollisionBody& body, const PersonBones& bones,
+                             const SampleOptions& options) {
+  if (options.arm_room_m == 0 && options.fold_room_m == 0) return;
+  const PosedBody posed{&figure_, vertices_, body.triangles, to_body_,
+                        [this](const FigurePose& pose, std::span<Vec3> x) { place(pose, x); }};
+  std::vector<std::string> told;
+  keep_arms_clear(posed, bones, options.arm_room_m, track_, told);
+  folds_ = SkinFolds(posed, options.fold_room_m, track_);
+  if (folds_.deepest_m() > told_yield_m)
+    told.push_back(fmt::sprintf("skin that is folded onto itself yields by up to %.1f mm, to leave %.0f mm for cloth",
+                                1000 * folds_.deepest_m(), 1000 * options.fold_room_m));
+  for (const std::string& note : told) notes_.push_back(std::string(file) + ": " + note);
+}
+
 void FigureMotion::check_samples(std::string_view file, const CollisionBody& body, const SampleOptions& options) {
-  const double farthest = options.fastest_m_s / track_.rate_hz;
   std::vector<Vec3> first(vertices_.size()), before, x(vertices_.size());
   bool moves = false;
   for (std::size_t frame = 0; frame < track_.poses.size(); ++frame) {
     place(track_.poses[frame], x);
+    const std::string when = fmt::sprintf("%.3f s", static_cast<double>(frame) / track_.rate_hz);
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const auto where = [&] {
-        return fmt::sprintf("%.3f s, vertex %d", static_cast<double>(frame) / track_.rate_hz, vertices_[i]);
-      };
       if (!(x[i].cwiseAbs().maxCoeff() <= farthest_m))
-        throw InputError(file, where(), "coordinates within 1000 km",
+        throw InputError(file, when + ", vertex " + std::to_string(vertices_[i]), "coordinates within 1000 km",
                          x[i].allFinite() ? "farther" : "infinity or not a number");
-      const double moved = before.empty() ? 0 : (x[i] - before[i]).norm();
-      moves |= moved > same_again * body.height_m;
-      if (moved > farthest)
-        throw InputError(file, where(), fmt::sprintf("at most %g m/s", options.fastest_m_s),
-                         fmt::sprintf("%.3g m/s", moved * track_.rate_hz));
+      moves |= frame > 0 && (x[i] - before[i]).norm() > same_again * body.height_m;
     }
+    if (frame > 0)
+      check_step_speed(file, when, before, x, {track_.rate_hz, options.fastest_m_s},
+                       [&](std::size_t i) { return at(vertices_[i]); });
     if (frame == 0) first = x;
     before = x;
   }
@@ -88,15 +104,19 @@ double FigureMotion::duration_s() const {
 
 void FigureMotion::positions(double t_s, std::span<Vec3> x) const {
   const double t = std::max(t_s, 0.0);
-  const FigurePose pose = pose_at(track_, lead_in_.clock(t));
-  place(between(figure_.rest, pose, lead_in_.share(t)), x);
+  place_at(lead_in_.clock(t), lead_in_.share(t), x);
+}
+
+void FigureMotion::place_at(double track_s, double share, std::span<Vec3> x) const {
+  place(between(figure_.rest, pose_at(track_, track_s), share), x);
+  folds_.yield(track_s, share, x);
 }
 
 void FigureMotion::add_to(Hash& hash) const {
   hash.add_counted(std::span<const Vec3>(figure_.modelled));
   std::vector<Vec3> x(vertices_.size());
-  for (const FigurePose& pose : track_.poses) {
-    place(pose, x);
+  for (std::size_t k = 0; k < track_.poses.size(); ++k) {
+    place_at(static_cast<double>(k) / track_.rate_hz, 1, x);
     hash.add_counted(std::span<const Vec3>(x));
   }
   const double numbers[] = {track_.rate_hz, lead_in_.seconds, track_.loops ? 1.0 : 0.0};

@@ -38,10 +38,16 @@ void apply_targets(const SceneMesh& mesh, const BytesSeen& seen, SurfaceMesh& su
 }
 
 // The body with its own skeleton, or with the rig beside it.
-AnimatedMesh animated_body(const SceneMesh& mesh, std::string_view text, const BytesSeen& seen) {
+AnimatedMesh animated_body(const SceneMesh& mesh, std::string_view text, const SceneMotion& motion,
+                           const BytesSeen& seen) {
   if (mesh.rig.empty()) {
     if (!mesh.targets.empty())
       throw InputError(printable(mesh.path), "targets", "\"rig\" beside them, or no motion of a skeleton", "none");
+    if (!has_animated_ending(mesh.path))
+      throw InputError(printable(mesh.path), "skeleton",
+                       "a glTF body that has one, or a rig for this mesh (--rig, in a scene \"rig\") beside " +
+                           printable(motion.path),
+                       "a mesh alone");
     return parse_animated(text, mesh.path, seen);
   }
   AnimatedMesh body;
@@ -60,6 +66,8 @@ SampleOptions options_of(const SceneMotion& motion, LengthUnit unit) {
   options.rate_hz = motion.fps;
   options.unit = unit;
   options.lead_in_s = motion.lead_in_s;
+  // A recording is of another body, and makes room for cloth; an animation was made for this one, and is kept.
+  if (!has_bvh_ending(motion.path)) options.arm_room_m = options.fold_room_m = 0;
   return options;
 }
 
@@ -78,13 +86,13 @@ PoseTrack animation(const AnimatedMesh& body, const SceneMesh& mesh, const Scene
   return track_of(clip, body.figure, motion.fps, file);
 }
 
-PoseTrack recording(const Figure& figure, const SceneMotion& motion, const BytesSeen& seen,
+PoseTrack recording(const Figure& figure, PersonBones& body, const SceneMotion& motion, const BytesSeen& seen,
                     std::vector<std::string>& notes) {
   const std::string file = printable(motion.path);
   std::string text;
   const BvhMotion recorded = load_bvh(motion.path, text);
   if (seen) seen(text);
-  PersonBones body = person_bones(figure), given = person_bones(recorded.figure);
+  PersonBones given = person_bones(recorded.figure);
   if (!motion.bones.empty())
     read_bone_parts(read_seen(motion.bones, seen), printable(motion.bones), {&figure, &body},
                     {&recorded.figure, &given});
@@ -104,12 +112,13 @@ SurfaceMesh shaped_surface(const SceneMesh& mesh, std::string_view text, const B
 }
 
 FigureBody read_figure(const SceneMesh& mesh, std::string_view text, const SceneMotion& motion, const BytesSeen& seen) {
-  AnimatedMesh body = animated_body(mesh, text, seen);
+  AnimatedMesh body = animated_body(mesh, text, motion, seen);
   CollisionBody standing = make_body(body.surface, mesh);
-  PoseTrack track = has_bvh_ending(motion.path) ? recording(body.figure, motion, seen, standing.notes)
+  PersonBones bones = person_bones(body.figure);
+  PoseTrack track = has_bvh_ending(motion.path) ? recording(body.figure, bones, motion, seen, standing.notes)
                                                 : animation(body, mesh, motion, seen, standing.notes);
-  BodyMotion moving = BodyMotion::of_figure(printable(motion.path), std::move(body.figure), std::move(track), standing,
-                                            options_of(motion, mesh.unit));
+  BodyMotion moving = BodyMotion::of_figure(printable(motion.path), std::move(body.figure), bones, std::move(track),
+                                            standing, options_of(motion, mesh.unit));
   return {std::move(standing), std::move(moving)};
 }
 
@@ -119,8 +128,9 @@ BodyMotion mannequin_motion(const Mannequin& mannequin, const SceneMotion& motio
                      "a name, a .pc2 file, a folder of OBJ files or a BVH file, for a mannequin", "a glTF file");
   Figure figure = mannequin_figure(mannequin);
   std::vector<std::string> notes;  // a mannequin has every part
-  PoseTrack track = recording(figure, motion, seen, notes);
-  return BodyMotion::of_mannequin(printable(motion.path), mannequin, std::move(figure), std::move(track),
+  PersonBones bones = person_bones(figure);
+  PoseTrack track = recording(figure, bones, motion, seen, notes);
+  return BodyMotion::of_mannequin(printable(motion.path), mannequin, std::move(figure), bones, std::move(track),
                                   options_of(motion, LengthUnit::m));
 }
 
