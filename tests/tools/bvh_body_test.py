@@ -19,12 +19,16 @@ def frames_of(path):
     return [struct.unpack_from(f"<{3 * points}f", data, 32 + 12 * frame * points) for frame in range(samples)]
 
 
-def run(program, folder, body, seconds):
+def start(program, folder, body, seconds):
     scene = {"cloth": [{"grid": {"width_m": 0.1, "height_m": 0.1, "edge_m": 0.05}, "placement": {"translation_m": [5, 9, 5]}}], "body": body,
              "world": {"gravity_m_per_s2": [0, 0, 0]}, "time": {"fps": FPS, "seconds": seconds, "drape_seconds": 0}}
     (folder / "scene.json").write_text(json.dumps(scene))
-    done = subprocess.run([program, "run", str(folder / "scene.json"), "--no-preview", "--quiet", "--out", str(folder / "run")],
+    return subprocess.run([program, "run", str(folder / "scene.json"), "--no-preview", "--quiet", "--out", str(folder / "run")],
                           capture_output=True, text=True)
+
+
+def run(program, folder, body, seconds):
+    done = start(program, folder, body, seconds)
     assert done.returncode == 0, done.stderr
     return frames_of(folder / "run" / "body.pc2")
 
@@ -60,6 +64,12 @@ def main(program, shared):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         check("MakeHuman", run(program, folder, woman, 2.5), 2.5, (1.8, 2.8), 15)
+        warnings = json.loads((folder / "run" / "report.json").read_text())["warnings"]
+        for told in ("arm is turned away from the body by up to", "skin that is folded onto itself yields by up to"):
+            assert any(told in warning for warning in warnings), (told, warnings)
+        alone = {key: woman[key] for key in ("mesh", "unit", "motion")}
+        refused = start(program, folder, alone, 1)
+        assert refused.returncode == 3 and "base.obj: skeleton: expected" in refused.stderr and "--rig" in refused.stderr, refused.stderr
     with tempfile.TemporaryDirectory() as name:
         check("mannequin", run(program, pathlib.Path(name), {"mannequin": "man", "motion": walk}, 2.5), 2.5, (1.8, 2.8), 15)
 
