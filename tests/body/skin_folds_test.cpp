@@ -100,6 +100,26 @@ TEST(SkinFolds, SkinThatPassesIntoItselfMakesRoom) {
   EXPECT_LE(folds.deepest_m(), 0.008);  // 1 % of the height
 }
 
+// Skin that comes near, and is not yet within itself, keeps most of the room.
+TEST(SkinFolds, SkinThatFacesSkinKeepsItsRoom) {
+  const Limb limb;
+  const PoseTrack track = bending(limb, 54);
+  const SkinFolds folds(limb.body(), room_m, track);
+  const auto narrowest = [&](const std::vector<Vec3>& x) {
+    const BodySurface surface(x, limb.triangles);
+    double gap = room_m;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const BodyPoint before = surface.nearest_opposite(x[i], surface.vertex_normal(static_cast<Index>(i)), room_m);
+      if (before.triangle >= 0) gap = std::min(gap, before.gap_m);
+    }
+    return gap;
+  };
+  std::vector<Vec3> x = all_vertices(limb.figure, track.poses.back());
+  EXPECT_LT(narrowest(x), 0.5 * room_m);
+  folds.yield(1, 1, x);
+  EXPECT_GT(narrowest(x), 0.8 * room_m);
+}
+
 TEST(SkinFolds, WhatIsNotFoldedStaysToTheBit) {
   const Limb limb;
   const PoseTrack track = bending(limb, 30);
