@@ -70,7 +70,7 @@ def main():
             words = [str(archive), str(options.program), str(options.source)]
             worst = max(worst, run(blender, "in_blender.py", [*words, *options.tests], environment))
             if not options.tests:
-                worst = max(worst, run(blender, "exports.py", words, environment), in_a_window(blender, words, environment))
+                worst = max(worst, *(run(blender, script, words, environment) for script in ("exports.py", "poses.py")), in_a_window(blender, words, environment))
     return 1 if worst else 0
 
 
