@@ -42,16 +42,24 @@ void move_triangles(const Triangles& triangles, std::span<const Vec3> start, std
   });
 }
 
-// Do all corners lie farther than `moving` from the plane, on one side of it?
-bool apart(const Mover& mover, const Triangle& triangle, std::span<const Vec3> x, const Vec3& normal,
-           const Vec3& origin, double moving) {
-  const double middle = normal.dot(mover.centre - origin);
-  if (std::abs(middle) <= moving) return false;
-  for (const Index i : triangle) {
-    const double height = normal.dot(x[at(i)] - origin);
-    if (middle > 0 ? height <= moving : height >= -moving) return false;
-  }
-  return true;
+// The corners of a triangle, before and after the motion.
+struct Corners {
+  std::array<Vec3, 3> start, end;
+};
+
+Corners corners_of(const Triangle& t, std::span<const Vec3> start, std::span<const Vec3> end) {
+  return {{start[at(t[0])], start[at(t[1])], start[at(t[2])]}, {end[at(t[0])], end[at(t[1])], end[at(t[2])]}};
+}
+
+// By how much all of a lies beyond all of b along n, before and after: the less of both.
+double lead(const Vec3& n, const Corners& a, const Corners& b) {
+  const auto at_one_time = [&](const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q) {
+    const Vec3& o = q[0];
+    return std::min({n.dot(p[0] - o), n.dot(p[1] - o), n.dot(p[2] - o)}) -
+           std::max({0.0, n.dot(q[1] - o), n.dot(q[2] - o)});
+  };
+  const double start = at_one_time(a.start, b.start);
+  return start > 0 ? std::min(start, at_one_time(a.end, b.end)) : start;
 }
 
 class BodyImpactQuery {
@@ -66,6 +74,7 @@ class BodyImpactQuery {
         start_(start),
         end_(end),
         separation_m_(separation_share * guard.contact_m),
+        clear_m_(clear_share * separation_m_),
         most_(most_impacts(start.size())) {}
 
   void walk(TreeTask task, std::vector<Impact>& found) const {
@@ -76,8 +85,8 @@ class BodyImpactQuery {
                    reach = p.radius + q.radius + moving;
       if ((p.centre - q.centre).squaredNorm() > reach * reach) return;
       const Triangle &of_cloth = cloth_.triangle(a), &of_body = body_.triangle(b);
-      if (apart(p, of_cloth, start_, q.normal, body_.positions()[at(of_body[0])], moving) ||
-          apart(q, of_body, body_.positions(), p.normal, start_[at(of_cloth[0])], moving))
+      if (stay_apart(p, q, corners_of(of_cloth, start_, end_),
+                     corners_of(of_body, body_.positions(), body_.next_positions())))
         return;
       const unsigned owned_a = cloth_.owned(a), owned_b = body_.owned(b);
       const Index n = static_cast<Index>(start_.size());
@@ -98,6 +107,14 @@ class BodyImpactQuery {
   }
 
  private:
+  // Along one of three directions, for all of the motion.
+  bool stay_apart(const Mover& p, const Mover& q, const Corners& a, const Corners& b) const {
+    const Vec3 between = p.centre - q.centre;
+    for (const Vec3& n : {q.normal, p.normal, Vec3(between.stableNormalized())})
+      if (lead(n.dot(between) < 0 ? Vec3(-n) : n, a, b) > clear_m_) return true;
+    return false;
+  }
+
   // `first`: the number of particles of the first feature.
   void decide(ContactKind kind, const std::array<Index, 4>& particle, std::size_t first,
               std::vector<Impact>& found) const {
@@ -146,7 +163,7 @@ class BodyImpactQuery {
   const BodyGuard& guard_;
   const BodyImpactWorkspace& workspace_;
   std::span<const Vec3> start_, end_;
-  double separation_m_;
+  double separation_m_, clear_m_;
   std::size_t most_;  // per task the same as in all: distant solids change the body's division into tasks
 };
 

@@ -91,11 +91,12 @@ double lower_bound(const Points& x, const Vec3& w) {
   return bound;
 }
 
-// The computed distance, if all but `advance_reserve` of its excess over xi is proven; else the proven bound.
+// The computed distance, if all but `advance_reserve` of its excess over xi is proven; else the proven bound.  w is as found.
 template <class Features>
-double proven_distance(const Points& x, double separation_m, double rounding_m) {
+double proven_distance(const Points& x, double separation_m, double rounding_m, Vec3& w) {
   const Found found = Features::closest(x);
   const double d = found.distance_m;
+  w = found.w;
   if (found.loss <= d * (advance_reserve * (d - separation_m) - rounding_m)) return d;
   return std::min(d, lower_bound<Features>(x, found.w) - rounding_m);
 }
@@ -105,36 +106,37 @@ double largest_coordinate(const Points& x) {
       {x[0].cwiseAbs().maxCoeff(), x[1].cwiseAbs().maxCoeff(), x[2].cwiseAbs().maxCoeff(), x[3].cwiseAbs().maxCoeff()});
 }
 
-// Whether x and y = x + u are both farther apart along w than xi.  Then so is all between: every w . (a - b) is linear in t.
+// Whether two times of the motion are both farther apart along w.  Then so is all between: every w . (a - b) is linear in t.
 template <class Features>
-bool apart_along(const Vec3& w, const Points& x, const Points& y, double separation_m, double rounding_m) {
+bool apart_along(const Vec3& w, const Points& x, const Points& y, double apart_m, double rounding_m) {
   const double length = w.norm();
   return length > least_direction &&
-         std::min(Features::support(x, w), Features::support(y, w)) > (separation_m + rounding_m) * length;
+         std::min(Features::support(x, w), Features::support(y, w)) > (apart_m + rounding_m) * length;
 }
 
 // `l_m` bounds the change of the distance over the whole motion.
 template <class Features>
 double first_impact(const Points& x, const Points& u, double l_m, double separation_m) {
   const double rounding_m = rounding_share * (largest_coordinate(x) + largest_coordinate(u));
-  double d = proven_distance<Features>(x, separation_m, rounding_m);
+  Vec3 w;
+  double d = proven_distance<Features>(x, separation_m, rounding_m, w);
   const double room = d - separation_m;
   if (!(room > 0)) return 0;
   if ((1 - advance_reserve) * room > l_m) return no_impact;
+  Points end;
+  for (std::size_t k = 0; k < 4; ++k) end[k] = x[k] + u[k];
   if (room < separation_m) {  // advances would be short: do they separate, or slide along each other?
-    Points end;
-    for (std::size_t k = 0; k < 4; ++k) end[k] = x[k] + u[k];
-    for (const Vec3& w : {Features::closest(x).w, Features::closest(end).w})
-      if (apart_along<Features>(w, x, end, separation_m, rounding_m)) return no_impact;
+    for (const Vec3& along : {w, Features::closest(end).w})
+      if (apart_along<Features>(along, x, end, separation_m, rounding_m)) return no_impact;
   }
   const double stop_m = std::min(0.1 * room, 0.2 * separation_m);
   double t = 0;
-  Points moved;
+  Points moved = x;
   for (int i = 0; i < most_advances; ++i) {
     const double next = t + advance_share * (d - separation_m) / l_m;
-    if (next > 1) return no_impact;
+    if (next > 1 || apart_along<Features>(w, moved, end, clear_share * separation_m, rounding_m)) return no_impact;
     for (std::size_t k = 0; k < 4; ++k) moved[k] = x[k] + next * u[k];
-    d = proven_distance<Features>(moved, separation_m, rounding_m);
+    d = proven_distance<Features>(moved, separation_m, rounding_m, w);
     t = next;
     if (!(d - separation_m >= stop_m)) return t;  // still farther apart than xi: a tenth of the room before is left
   }

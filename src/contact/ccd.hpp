@@ -8,9 +8,11 @@
 // Conservative by construction: no root is sought, and a motion that is called free keeps d > xi.  The small absolute
 // part of g lets a landing come close; with the relative part alone a pair 20 mm apart is an impact at 2 mm.
 //
-// Where d_0 < 2 xi, advances would be short from the start.  Then a direction is tried along which the features are
-// farther apart than xi at both ends.  They are so all the way, because a difference of two corners along it is linear
-// in t.
+// Limbs and the cloth on them move far and hardly against each other, so a thousand advances may lead past a face or an edge.  But features that
+// are farther apart along one direction at two times are so at all times between, because a difference of two corners along it is linear in t.
+// Before each advance w, the direction of the distance, is tried so for all of the rest: 1.3 xi are asked for, since nearer than xi + g the motion
+// might be an impact to the advances; the answer is the same, by fewer of them.
+// Where d_0 < 2 xi, advances would be short from the start.  There w and the direction at the end are tried with xi.
 //
 // Rounding.  Closest points err on one side: any two points are at least as far apart as the features.  In a needle or
 // between nearly parallel edges they are found badly.  So d is not trusted but bounded: for every w
@@ -42,6 +44,9 @@
 namespace toile::internal {
 
 inline constexpr double no_impact = 2;  // a time later than any step
+
+// Of xi: features that are farther apart all the way are no impact.  xi + g, and what need not be proven of the distance.
+inline constexpr double clear_share = 1.3;
 
 // First time in [0, 1] at which the vertex x[0] and the face x[1..3] come nearer than `separation_m` (xi), or
 // no_impact.  Positions x in m, displacements u in m.  A pair that is nearer than xi at the start is an impact at 0.
