@@ -11,7 +11,8 @@
 
 namespace toile::internal {
 
-inline constexpr double pinch_m = 5e-3;  // twice the default offset of a run
+inline constexpr double pinch_m =
+    3e-3;  // two offsets of cloth from a person: nearer than that, a step has no room either
 
 // The `crossings` (of find_body_crossings for the same surfaces) that do not lie in a pinch, in their order.
 std::vector<Crossing> outside_pinches(std::span<const Crossing> crossings, std::span<const Triangle> cloth,

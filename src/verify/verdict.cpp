@@ -15,16 +15,17 @@ std::string percent(double fraction) { return fmt::sprintf("%.3g %%", 100 * frac
 
 std::string number(double value) { return fmt::sprintf("%.3g", value); }
 
+std::string first_one(const std::vector<Crossing>& crossings) {
+  if (crossings.empty()) return "";
+  const Crossing& c = crossings.front();
+  return "; the first is the edge of " + std::string(c.edge_of_body ? "body" : "cloth") + " vertices " +
+         std::to_string(c.edge[0]) + ", " + std::to_string(c.edge[1]) + " near (" + number(c.position.x()) + ", " +
+         number(c.position.y()) + ", " + number(c.position.z()) + ") m";
+}
+
 std::string edges(int found, int limit, const std::vector<Crossing>& crossings, const char* through) {
-  std::string text =
-      std::to_string(found) + " edges pass through " + through + " in the last frame, limit " + std::to_string(limit);
-  if (!crossings.empty()) {
-    const Crossing& c = crossings.front();
-    text += "; the first is the edge of " + std::string(c.edge_of_body ? "body" : "cloth") + " vertices " +
-            std::to_string(c.edge[0]) + ", " + std::to_string(c.edge[1]) + " near (" + number(c.position.x()) + ", " +
-            number(c.position.y()) + ", " + number(c.position.z()) + ") m";
-  }
-  return text;
+  return std::to_string(found) + " edges pass through " + through + " in the last frame, limit " +
+         std::to_string(limit) + first_one(crossings);
 }
 
 std::string first_of(const std::vector<std::string>& all) {
@@ -82,7 +83,8 @@ bool is_measured_reason(std::string_view code) {
 Verdict judge(const VerifyReport& report, const Limits& limits) {
   Verdict verdict;
   verdict.limits = limits;
-  verdict.qualifications = report.reported_qualifications;
+  for (const Reason& reported : report.reported_qualifications)  // but not what is measured here
+    if (reported.code != reason::pinched_cloth) verdict.qualifications.push_back(reported);
   const auto add = [&](std::string_view code, std::string detail) {
     const bool known =
         std::any_of(verdict.reasons.begin(), verdict.reasons.end(), [&](const Reason& r) { return r.code == code; });
@@ -105,9 +107,16 @@ Verdict judge(const VerifyReport& report, const Limits& limits) {
         "frame " + std::to_string(report.first_bad_frame) + " has a position that is infinite or NaN");
 
   if (report.finite && report.frames > 0) {
-    if (report.cloth_body_edges.last > limits.cloth_body_edges)
-      add(reason::cloth_body_intersection, edges(report.cloth_body_edges.last, limits.cloth_body_edges,
-                                                 report.last_body_crossings, "the other surface"));
+    const int with_room = report.outside_pinches.last, pinched = report.cloth_body_edges.last - with_room;
+    if (with_room > limits.cloth_body_edges)
+      add(reason::cloth_body_intersection,
+          edges(with_room, limits.cloth_body_edges, report.last_outside_pinches, "the other surface"));
+    if (pinched > 0)
+      verdict.qualifications.push_back(
+          {std::string(reason::pinched_cloth), std::to_string(pinched) +
+                                                   " edges pass between cloth and body in the last frame, where parts "
+                                                   "of the body leave no room between them" +
+                                                   (with_room > 0 ? "" : first_one(report.last_body_crossings))});
     if (report.cloth_cloth_edges.last > limits.cloth_cloth_edges)
       add(reason::cloth_self_intersection,
           edges(report.cloth_cloth_edges.last, limits.cloth_cloth_edges, report.last_cloth_crossings, "the cloth"));

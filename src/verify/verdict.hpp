@@ -1,7 +1,7 @@
 // verify/verdict.hpp: pass or fail, with a code for each reason.                                   docs/reason-codes.md
 //
-// pass = the run reached its end, everything is finite, the last frame has no crossings, the cloth outside elastic is
-// stretched by at most the limits, it has not slid off a body that moved, and, where the run was to come to rest, it has.
+// pass = the run reached its end, everything is finite, the last frame has no crossings but those of cloth that the body pinches, the cloth
+// outside elastic is stretched by at most the limits, it has not slid off a body that moved, and, where the run was to come to rest, it has.
 //
 // Easily got wrong: earlier frames may cross (a bad start that was untangled) and still pass.  Their counts are in the
 // report, for stricter checks.
@@ -15,7 +15,7 @@
 namespace toile::internal {
 
 struct Limits {
-  int cloth_body_edges = 0, cloth_cloth_edges = 0;  // of the last frame
+  int cloth_body_edges = 0, cloth_cloth_edges = 0;  // of the last frame; with the body where it leaves room
   double stretch_p99 = 0.08, stretch_max = 0.25;    // over a gauge, of the last frame, outside elastic
   bool must_be_still = false;                       // `dress` without motion
   double still_mm_per_s = 5;
@@ -33,8 +33,9 @@ inline constexpr std::string_view stretch = "stretch";
 inline constexpr std::string_view slid_off = "slid_off";
 inline constexpr std::string_view unfinished = "unfinished";
 inline constexpr std::string_view data_changed = "data_changed";
-inline constexpr std::string_view moved_by_untangling = "moved_by_untangling";  // a qualification, like the next one
+inline constexpr std::string_view moved_by_untangling = "moved_by_untangling";  // a qualification, like the next ones
 inline constexpr std::string_view inputs_changed = "inputs_changed";
+inline constexpr std::string_view pinched_cloth = "pinched_cloth";
 }  // namespace reason
 
 // Whether the judge decides this code by measuring the files, without trusting the report.  `unfinished` is not such a

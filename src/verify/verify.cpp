@@ -113,6 +113,7 @@ void RunAudit::add(std::span<const Vec3> x, std::span<const Vec3> body_x) {
   const int frame = report_.frames++;
   const bool finite = all_finite(x) && all_finite(body_x);
   report_.last_body_crossings.clear();
+  report_.last_outside_pinches.clear();
   report_.last_cloth_crossings.clear();
   report_.cloth_body_edges.last = report_.outside_pinches.last = report_.cloth_cloth_edges.last = 0;
   if (finite) {
@@ -124,8 +125,9 @@ void RunAudit::add(std::span<const Vec3> x, std::span<const Vec3> body_x) {
     count(report_.last_cloth_crossings, frame, report_.cloth_cloth_edges, report_.first_cloth_crossing_frame);
     count(report_.last_body_crossings, frame, report_.cloth_body_edges, report_.first_body_crossing_frame);
     Index first_outside = -1;
-    count(outside_pinches(report_.last_body_crossings, run_.mesh.triangles, x, run_.body_triangles, body_x), frame,
-          report_.outside_pinches, first_outside);
+    report_.last_outside_pinches =
+        outside_pinches(report_.last_body_crossings, run_.mesh.triangles, x, run_.body_triangles, body_x);
+    count(report_.last_outside_pinches, frame, report_.outside_pinches, first_outside);
     const std::size_t crossings = report_.last_cloth_crossings.size() + report_.last_body_crossings.size();
     if (crossings > report_.worst_cloth_crossings.size() + report_.worst_body_crossings.size()) {
       report_.worst_frame = frame;

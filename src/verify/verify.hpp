@@ -56,7 +56,7 @@ struct VerifyReport {
   double still_mm_per_s_p99 = 0;  // largest per-frame p99 of the last second; zero with fewer than two frames
   JitterStatistics jitter;        // of the motion if the body moves, else of all frames
   SlipStatistics slip;            // of the motion
-  std::vector<Crossing> last_body_crossings, last_cloth_crossings;
+  std::vector<Crossing> last_body_crossings, last_outside_pinches, last_cloth_crossings;
   Index worst_frame = -1;  // the first of those with most crossings; -1: no frame has any
   std::vector<Crossing> worst_body_crossings, worst_cloth_crossings;
   bool must_be_still = false;  // from report.json: limits.still_mm_per_s is a number

@@ -67,16 +67,17 @@ TEST(Pinches, AnEdgeThroughAllOfItPassesTwoFacesThatLieInOne) {
 
 TEST(Pinches, ACrossingBeforeANearFaceThatLooksBackLiesInOne) {
   int all = 0;
-  EXPECT_EQ(Slabs(0.004).outside(Vec3(0.1, -0.009, 0.05), all), 0u);
+  EXPECT_EQ(Slabs(0.0029).outside(Vec3(0.1, -0.009, 0.05), all), 0u);
   EXPECT_GT(all, 0);
 }
 
 TEST(Pinches, WhereTheBodyLeavesRoomThereIsNone) {
   int all = 0;
   EXPECT_GT(Slabs(0.02).outside(Vec3(0.1, -0.005, 0.05), all), 0u) << "2 cm of room";
+  EXPECT_GT(Slabs(0.0031).outside(Vec3(0.1, -0.001, 0.05), all), 0u) << "two offsets, and a hair more";
   EXPECT_GT(Slabs(-0.03).outside(Vec3(0.1, 0.065, 0.05), all), 0u) << "the upper one's top";
   EXPECT_GT(Slabs(1).outside(Vec3(0.1, -0.005, 0.05), all), 0u);
-  // The back of a thin thing is nearer than 5 mm, and looks away.
+  // The back of a thin thing is nearer than 3 mm, and looks away.
   Solid plate;
   plate.add_slab(0, 0.002);
   const std::vector<Vec3> cloth = {{0.1, -0.001, 0.05}, {0.11, 0.01, 0.05}, {0.09, 0.01, 0.06}};

@@ -37,7 +37,7 @@ TEST(Verdict, PassesARunExactlyAtItsLimits) {
 
 TEST(Verdict, GivesOneCodeForEachExcess) {
   VerifyReport report = good();
-  report.cloth_body_edges.last = 1;
+  report.cloth_body_edges.last = report.outside_pinches.last = 1;
   EXPECT_EQ(codes(report), Codes{"cloth_body_intersection"});
   report = good();
   report.cloth_cloth_edges.last = 1;
@@ -60,6 +60,30 @@ TEST(Verdict, GivesOneCodeForEachExcess) {
   report = good();
   report.frames = 0;
   EXPECT_EQ(codes(report), Codes{"unfinished"});
+}
+
+TEST(Verdict, PassesClothThatTheBodyPinchesWithAReservation) {
+  VerifyReport report = good();
+  report.cloth_body_edges.last = 5;
+  report.outside_pinches.last = 0;
+  report.last_body_crossings.resize(1);
+  report.last_body_crossings[0].edge = {7, 8};
+  report.reported_qualifications = {{"pinched_cloth", "what the report says of it"}};
+  Verdict verdict = judge(report);
+  EXPECT_TRUE(verdict.pass);
+  ASSERT_EQ(verdict.qualifications.size(), 1u) << "the report's word is not repeated";
+  EXPECT_EQ(verdict.qualifications[0].code, "pinched_cloth");
+  EXPECT_TRUE(verdict.qualifications[0].detail.starts_with("5 edges pass between cloth and body"))
+      << verdict.qualifications[0].detail;
+  EXPECT_NE(verdict.qualifications[0].detail.find("vertices 7, 8"), std::string::npos)
+      << verdict.qualifications[0].detail;
+  report.outside_pinches.last = 2;
+  verdict = judge(report);
+  EXPECT_EQ(codes(report), Codes{"cloth_body_intersection"});
+  EXPECT_TRUE(verdict.reasons[0].detail.starts_with("2 edges pass through")) << verdict.reasons[0].detail;
+  EXPECT_TRUE(verdict.qualifications[0].detail.starts_with("3 edges")) << verdict.qualifications[0].detail;
+  report.cloth_body_edges.last = 2;
+  EXPECT_TRUE(judge(report).qualifications.empty());
 }
 
 TEST(Verdict, SaysOfAMisfitWhichGirthIsAroundWhichGirthOfTheBody) {
