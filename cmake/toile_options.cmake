@@ -41,6 +41,9 @@ elseif(TOILE_SANITIZE)
   message(FATAL_ERROR "TOILE_SANITIZE is `${TOILE_SANITIZE}`; expected `address`, `thread` or nothing")
 endif()
 
+# The modules; tests are always built so (tests/CMakeLists.txt).  Off where ccache is to find the objects again in another folder.
+option(TOILE_PRECOMPILE "parse the headers of others once, for all modules" OFF)
+
 find_program(TOILE_CCACHE ccache)
 if(TOILE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${TOILE_CCACHE})
