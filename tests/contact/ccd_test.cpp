@@ -129,6 +129,20 @@ TEST(Ccd, WhatHasHardlyRoomMayPartAndSlideAndNotCome) {
   EXPECT_LE(edge_edge_impact(edges, {Vec3(0, 0.5, 0), Vec3(0, -0.6, 0), Vec3::Zero(), Vec3::Zero()}, xi), 1);
 }
 
+TEST(Ccd, ALongSlideCloseByIsFree) {
+  // 166,000 advances along, and the pair would count as an impact after 2000.
+  const double xi = 1e-6, gap = 3e-6;
+  const Four face{Vec3(0.2, gap, -0.2), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, -1)};
+  const Four edges{Vec3(0.5, gap, -0.5), Vec3(0.5, gap, 0.5), Vec3(0, 0, 0), Vec3(1, 0, 0)};
+  const Vec3 by(0.3, 0, -0.1), zero = Vec3::Zero();
+  EXPECT_EQ(vertex_face_impact(face, {by, zero, zero, zero}, xi), no_impact);
+  EXPECT_EQ(edge_edge_impact(edges, {by, by, zero, zero}, xi), no_impact);
+  // Not all of the way: it comes down at the end.
+  const Vec3 down(0.3, -4e-6, -0.1);
+  EXPECT_LE(vertex_face_impact(face, {down, zero, zero, zero}, xi), 1);
+  EXPECT_LE(edge_edge_impact(edges, {down, down, zero, zero}, xi), 1);
+}
+
 TEST(Ccd, ParallelEdgesThatSlideThroughEachOtherMeet) {
   const Four x{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0.01, 0), Vec3(1, 0.01, 0)};
   const Four u{Vec3::Zero(), Vec3::Zero(), Vec3(0, -0.02, 0), Vec3(0, -0.02, 0)};
