@@ -179,7 +179,9 @@ Report Run::finish() {
   auto& reasons = report.verdict.reasons;
   reasons.insert(reasons.begin(), simulation_->failure().begin(), simulation_->failure().end());
   report.verdict.pass = reasons.empty();
-  report.verdict.qualifications = simulation_->qualifications();
+  auto& qualifications = report.verdict.qualifications;
+  qualifications.insert(qualifications.begin(), simulation_->qualifications().begin(),
+                        simulation_->qualifications().end());
   report.seconds_total = simulation_->seconds();
   report.peak_memory_mb = peak_memory_mb();
   const auto text = [&](const std::vector<WrittenFile>& files) {

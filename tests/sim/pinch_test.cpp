@@ -6,6 +6,7 @@
 #include "io/scratch.hpp"
 #include "sim/simulate.hpp"
 #include "verify/crossings.hpp"
+#include "verify/verdict.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,6 +48,24 @@ TEST(Pinch, ASleeveComesOutOfAnElbowAsItWentIn) {
     before = now;
   }
   EXPECT_LT(fastest, 3.0) << "the forearm's tip goes at 1.7 m/s";
+}
+
+TEST(Pinch, WhatIsPinchedInTheLastFrameIsAReservation) {
+  const Scratch scratch;
+  Scene scene = parse_scene(read_file(TOILE_SOURCE_DIR "/scenes/torture/18-elbow.json"), "18-elbow.json");
+  scene.cloth.front().set_edge_m(0.018);
+  scene.seconds = 0.7;  // the elbow is bent, and the arm in itself
+  RunOptions options;
+  options.directory = scratch / "out";
+  options.command = "test";
+  const Report report = simulate(scene, options);
+  EXPECT_GT(report.audit.cloth_body_edges.last, 0);
+  EXPECT_EQ(report.audit.outside_pinches.last, 0);
+  for (const Verdict& verdict : {report.verdict, judge(verify_directory(options.directory))}) {
+    for (const Reason& reason : verdict.reasons) EXPECT_NE(reason.code, "cloth_body_intersection");
+    ASSERT_EQ(verdict.qualifications.size(), 1u);
+    EXPECT_EQ(verdict.qualifications[0].code, "pinched_cloth");
+  }
 }
 
 }  // namespace
