@@ -199,8 +199,8 @@ class UsdText {
   }
 
   bool write_mesh(const SurfaceSequence& surface, const UsdMesh& mesh) {
-    text_ +=
-        "    def Mesh \"" + mesh.identifier + "\" (\n        displayName = " + in_quotes(mesh.name) + "\n    )\n    {\n";
+    text_ += "    def Mesh \"" + mesh.identifier + "\" (\n        displayName = " + in_quotes(mesh.name) +
+             "\n    )\n    {\n";
     text_ += "        uniform bool doubleSided = 1\n        uniform token subdivisionScheme = \"none\"\n";
     text_ += "        int[] faceVertexCounts = ";
     add_list(text_, mesh.triangles, [&](const Triangle&) { text_ += '3'; });
