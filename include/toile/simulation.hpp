@@ -49,7 +49,7 @@ struct TOILE_EXPORT DressReport {
   bool ok() const { return reasons.empty(); }
   std::string ended;            // "still", "time", "seam_blocked", "step_collapsed", "time_limit", "interrupted" ...
   std::vector<Reason> reasons;  // why it is not worn as it should be; empty: it is worn well
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;  // of what was mended and chosen, and reservations: "pinched_cloth: 8 edges ..."
   double simulated_s = 0;
   // One line for each reason and warning.
   TOILE_EXPORT std::string explain() const;

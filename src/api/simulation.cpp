@@ -134,8 +134,10 @@ void Simulation::Implementation::judge(DressReport& to) {
                                               engine->body_triangles(), body_x.size()));
   audit.add(internal::as_written(state().x), internal::as_written(body_x));
   internal::VerifyReport measured = audit.report();
-  for (const internal::Reason& reason : internal::judge(measured).reasons)
-    to.reasons.push_back({reason.code, reason.detail});
+  const internal::Verdict verdict = internal::judge(measured);
+  for (const internal::Reason& reason : verdict.reasons) to.reasons.push_back({reason.code, reason.detail});
+  for (const internal::Reason& reservation : verdict.qualifications)
+    to.warnings.push_back(reservation.code + ": " + reservation.detail);
   const bool other_end = to.ended != "time" && to.ended != "still";
   if (engine->scene().until_still && !other_end && !engine->rests())
     to.reasons.push_back({std::string(internal::reason::static_equilibrium), "it is not at rest yet"});

@@ -9,7 +9,9 @@
 //
 //   m = |u_a - u_b| + e_a + e_b + xi        u, e  mean displacement, and the largest deviation of a corner from it
 //   |c_a - c_b| > R_a + R_b + m             cannot meet;  c, R  centre and radius at the start
-//   all corners of one farther than m from the plane of the other, on one side:  cannot meet either
+//
+// and then along three directions, the normals of both and the line between the centres: triangles of which one lies farther than 1.3 xi beyond the
+// other before and after the motion are so all the way (contact/ccd.hpp), and none of their pairs is an impact.
 //
 // Easily got wrong: cloth that is through the body at the start would be kept there; the caller exempts it.
 #pragma once

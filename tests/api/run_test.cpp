@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 namespace toile {
@@ -105,6 +106,24 @@ TEST(Scene, EndsWithTheSameBitsByProgramLibraryAndLoop) {
   std::ifstream report(scratch / "library/report.json");
   const std::string text((std::istreambuf_iterator<char>(report)), {});
   EXPECT_NE(text.find('"' + hash + '"'), std::string::npos);
+}
+
+// A sleeve on an elbow that is bent until the arm is in itself.
+TEST(Scene, ClothThatTheBodyPinchesIsAWarning) {
+  const Scratch scratch;
+  std::ifstream file(TOILE_SOURCE_DIR "/scenes/torture/18-elbow.json");
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  for (const auto& [from, to] :
+       {std::pair{R"("length_m": 0.44, "edge_m": 0.012)", R"("length_m": 0.44, "edge_m": 0.018)"},
+        std::pair{R"("seconds": 3)", R"("seconds": 0.7)"}}) {
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    text.replace(text.find(from), std::string_view(from).size(), to);
+  }
+  const DressReport report = Simulation::from_scene(scratch.put("elbow.json", text)).run();
+  for (const Reason& reason : report.reasons) EXPECT_NE(reason.code, "cloth_body_intersection");
+  EXPECT_TRUE(std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& warning) {
+    return warning.starts_with("pinched_cloth: ");
+  })) << report.explain();
 }
 
 // A plate goes up under a sheet: run() leaves it on the way of a motion, and a state of then goes on here and elsewhere.
