@@ -41,8 +41,12 @@ elseif(TOILE_SANITIZE)
   message(FATAL_ERROR "TOILE_SANITIZE is `${TOILE_SANITIZE}`; expected `address`, `thread` or nothing")
 endif()
 
-# The modules; tests are always built so (tests/CMakeLists.txt).  Off where ccache is to find the objects again in another folder.
-option(TOILE_PRECOMPILE "parse the headers of others once, for all modules" OFF)
+# Sources of a module are compiled eight at a time: most of a source's time is that of the headers of others.  So what stands in an unnamed
+# namespace has a name that no other source of its module gives to something else.
+option(TOILE_UNITY "compile several sources of a module at once" OFF)
+function(toile_unity target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${TOILE_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
 
 find_program(TOILE_CCACHE ccache)
 if(TOILE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

@@ -12,8 +12,6 @@ namespace toile::internal {
 namespace {
 
 constexpr int cg_particles = 6000;  // 18,000 variables
-constexpr int state_frame = 30;     // of the drape: the cloth touches itself, and still moves
-constexpr int most_iterations = 5000;
 constexpr int explicit_particles = 2602;
 constexpr int explicit_steps = 200;
 

@@ -16,9 +16,9 @@
 namespace toile::internal {
 namespace {
 
-constexpr double h_s = 1.0 / 60;
+constexpr double limit_step_s = 1.0 / 60;
 constexpr double noise_m = 1e-3;
-constexpr int iterations = 49;                  // of a solve; the next one would recompute the residual
+constexpr int solve_iterations = 49;            // of a solve; the next one would recompute the residual
 constexpr double bytes_per_measurement = 64e6;  // some milliseconds
 
 // The system of a flat sheet with noise: without contacts, so that the sum of bytes is that of the mesh alone.
@@ -41,11 +41,11 @@ class SheetSystem {
     for (Index i = 0; i < A_.rows(); ++i)
       A_.grounded(i) = model_.mass_kg[static_cast<std::size_t>(i)] * Mat3::Identity();
     elements_.evaluate(model_, state);
-    elements_.assemble(h_s, A_);
+    elements_.assemble(limit_step_s, A_);
     elements_.forces(b_);
     for (std::size_t i = 0; i < b_.size(); ++i) {
-      reference_[i] = h_s * model_.mass_kg[i] * model_.gravity_m_per_s2;
-      b_[i] = h_s * b_[i] + reference_[i];
+      reference_[i] = limit_step_s * model_.mass_kg[i] * model_.gravity_m_per_s2;
+      b_[i] = limit_step_s * b_[i] + reference_[i];
     }
     system_.update({}, constraints_);
   }
@@ -148,7 +148,7 @@ double time_iteration(const SheetSystem& sheet, Preconditioner kind) {
   PcgOptions options;
   options.preconditioner = kind;
   options.loosen = 0;  // never converges
-  options.max_iterations = iterations;
+  options.max_iterations = solve_iterations;
   // A new solver for every measurement: one that waited too long for its threads goes on alone for a hundred solves.
   ModifiedPcg<float> pcg(sheet.mesh());
   pcg.prepare(sheet.system(), options);
@@ -156,8 +156,8 @@ double time_iteration(const SheetSystem& sheet, Preconditioner kind) {
   const Stopwatch watch;
   const PcgReport report = pcg.solve(sheet.system(), sheet.b(), sheet.reference(), options, dv);
   const double seconds = watch.seconds();
-  if (report.iterations != iterations) throw Error(ErrorKind::internal, "bench limits: " + report.explain());
-  return seconds / iterations;
+  if (report.iterations != solve_iterations) throw Error(ErrorKind::internal, "bench limits: " + report.explain());
+  return seconds / solve_iterations;
 }
 
 // The time in which the machine only reads as many bytes from the same caches.

@@ -18,8 +18,8 @@
 namespace toile::internal {
 namespace {
 
-constexpr int state_frame = 45;
-constexpr double h_s = 1.0 / 60;
+constexpr int landed_frame = 45;
+constexpr double micro_step_s = 1.0 / 60;
 constexpr int pcg_iterations = 50;
 constexpr double query_range_m = 5e-3, ccd_separation_m = 1e-4;
 
@@ -62,7 +62,7 @@ void measure_solver(Stopwatches& time, Drape& drape, StepSystem& system) {
   time.add("evaluate elements", "triangle or hinge", elements,
            [&] { system.elements().evaluate(model, drape.state()); });
   const double blocks = system.A().pattern().block_count() + static_cast<double>(system.A().rows());
-  time.add("assemble", "block", blocks, [&] { system.elements().assemble(h_s, system.A()); });
+  time.add("assemble", "block", blocks, [&] { system.elements().assemble(micro_step_s, system.A()); });
   std::vector<Lane<float>> x(drape.state().x.size(), to_lane<float>(Vec3(1, 2, 3))), y(x.size());
   time.add("matrix product", "block", blocks,
            [&] { system.A().multiply(std::span<const Lane<float>>(x), std::span<Lane<float>>(y)); });
@@ -112,7 +112,7 @@ void measure_contact(Stopwatches& time, Drape& drape) {
            [&] { find_cloth_contacts(topology, tree, state.x, options, workspace, contacts); });
 
   Vec3s next = state.x;
-  for (std::size_t i = 0; i < next.size(); ++i) next[i] += h_s * state.v[i];
+  for (std::size_t i = 0; i < next.size(); ++i) next[i] += micro_step_s * state.v[i];
   const std::vector<double> contact_m(state.x.size(), 1e-3);
   ImpactWorkspace impact_workspace;
   std::vector<Impact> impacts;
@@ -144,8 +144,8 @@ BenchResult bench_micro(BenchRuns& runs) {
   grid.edge_m = edge_for(grid, runs.line().sizes.front());
   runs.say("state", 0);
   Drape drape(scene);
-  if (!drape.advance(state_frame)) throw Error(ErrorKind::simulation_failed, "bench micro: the drape failed");
-  StepSystem system(drape, h_s);
+  if (!drape.advance(landed_frame)) throw Error(ErrorKind::simulation_failed, "bench micro: the drape failed");
+  StepSystem system(drape, micro_step_s);
   result.facts.add("particles", "particles", static_cast<long>(system.model().particle_count()));
   result.facts.add("constrained", "constrained particles", static_cast<long>(system.constrained()));
   result.facts.add("contact_rows", "rows of contact and friction", static_cast<long>(system.rows()));

@@ -12,6 +12,9 @@
 
 namespace toile::internal {
 
+inline constexpr int state_frame = 30;  // of the drape: the cloth touches itself, and still moves
+inline constexpr int most_iterations = 5000;
+
 // A scene of grids, without motion.
 class Drape {
  public:

@@ -17,7 +17,7 @@ struct Time1998 {
   double seconds_per_frame;
 };
 constexpr std::array<Time1998, 4> times_1998 = {{{500, 0.23}, {899, 0.46}, {2602, 2.23}, {7359, 10.3}}};
-constexpr int drape_frames = 75;
+constexpr int frames_per_size = 75;
 
 struct Point {
   double n, t;
@@ -48,7 +48,7 @@ void add_exponent(BenchRow& facts, std::string_view key, std::string_view title,
 
 BenchResult bench_scaling(BenchRuns& runs) {
   BenchResult result{"scaling", {{"rows", {}, false}}, {}, {}, true};
-  const int frames = runs.line().bench_frames.value_or(drape_frames);
+  const int frames = runs.line().bench_frames.value_or(frames_per_size);
   std::vector<Point> points;
   for (const int size : runs.line().sizes) {
     Scene scene = embedded_scene("cylinder");
@@ -85,8 +85,8 @@ BenchResult bench_scaling(BenchRuns& runs) {
   std::vector<Point> then;
   for (const Time1998& time : times_1998) then.push_back({static_cast<double>(time.particles), time.seconds_per_frame});
   add_exponent(result.facts, "exponent_1998", "exponent of 1998's four times", then);
-  if (frames != drape_frames)
-    result.notes.push_back(std::to_string(frames) + " of " + std::to_string(drape_frames) +
+  if (frames != frames_per_size)
+    result.notes.push_back(std::to_string(frames) + " of " + std::to_string(frames_per_size) +
                            " frames: the cloth hardly meets itself in the first ones.");
   return result;
 }

@@ -20,11 +20,9 @@ namespace toile::internal {
 namespace {
 
 constexpr int drape_frames = 75;
-constexpr int state_frame = 30;  // the cloth touches itself, and still moves
 // It lands, folds (state_frame lies here), swings out and hangs.
 constexpr std::array<int, 6> other_state_frames = {5, 15, 25, 45, 60, 75};
 constexpr double state_h_s = 1.0 / 60;
-constexpr int most_iterations = 5000;
 
 struct Multiple {
   std::string_view of;  // "bend" or "stretch"

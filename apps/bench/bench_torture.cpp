@@ -24,7 +24,7 @@ struct Size {
 };
 constexpr std::array<Size, 3> sizes = {{{"S", 1}, {"M", 0.34}, {"L", 0.17}}};
 
-constexpr std::string_view folder = "scenes/torture/";
+constexpr std::string_view torture_folder = "scenes/torture/";
 
 struct Impossible {
   std::string_view scene, diagnosis;
@@ -35,8 +35,8 @@ std::vector<std::string> torture_scenes(const std::vector<std::string>& wanted) 
   std::vector<std::string> names, numbers;
   std::string known;
   for (const EmbeddedFile& file : embedded_files()) {
-    if (!file.path.starts_with(folder)) continue;
-    std::string name(file.path.substr(folder.size()));
+    if (!file.path.starts_with(torture_folder)) continue;
+    std::string name(file.path.substr(torture_folder.size()));
     name.resize(name.size() - std::string_view(".json").size());
     const std::string number = name.substr(0, name.find('-'));
     if (wanted.empty() || std::find(wanted.begin(), wanted.end(), number) != wanted.end())

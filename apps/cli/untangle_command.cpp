@@ -152,7 +152,7 @@ std::string out_path(const CommandLine& line, bool resolved) {
 }
 
 // The output must not overwrite an input.
-void refuse_inputs(const CommandLine& line) {
+void refuse_what_would_be_lost(const CommandLine& line) {
   std::error_code ignored;
   for (const bool resolved : {true, false})
     for (const std::string& input : {line.inputs.front(), line.body})
@@ -198,7 +198,7 @@ void write(const ClothFile& cloth, const SolidMesh& solid, const CommandLine& li
 }  // namespace
 
 ExitCode untangle_command(const CommandLine& line) {
-  refuse_inputs(line);
+  refuse_what_would_be_lost(line);
   ClothFile cloth = load_cloth_file(line.inputs.front());
   if (!cloth.is_obj && mesh_writer_for(out_path(line, true)) == nullptr)
     throw Error(ErrorKind::usage,

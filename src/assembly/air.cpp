@@ -8,7 +8,7 @@
 namespace toile::internal {
 namespace {
 
-constexpr std::size_t grain = 512;  // triangles per block of work
+constexpr std::size_t air_grain = 512;  // triangles per block of work
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void Air::prepare(const ClothModel& model, const BlockPattern& pattern) {
 
 void Air::evaluate(const ClothState& state, double end_s) {
   const Vec3 wind_m_per_s = wind_ ? wind_(end_s) : options_.wind_m_per_s;
-  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
+  parallel_for(triangles_.size(), air_grain, [&](std::size_t t) {
     force_[t].setZero();
     B_[t].setZero();
     const Triangle& corner = triangles_[t];
@@ -69,13 +69,13 @@ void Air::add_damping(std::span<const Vec3> u, std::span<Vec3> f) const {
 template <class T>
 void Air::add_to(BlockMatrix<T>& A, double h_s) const {
   const double ninth = h_s / 9;
-  parallel_for(A.blocks().size(), grain, [&](std::size_t s) {
+  parallel_for(A.blocks().size(), air_grain, [&](std::size_t s) {
     for (const Index side : at_slots_.bucket(s)) {
       Block<T>& block = A.below(static_cast<Slot>(s));  // B is symmetric
       block = Block<T>::from(block.to_mat3() + ninth * B_[at(side / 3)]);
     }
   });
-  parallel_for(static_cast<std::size_t>(A.rows()), grain, [&](std::size_t i) {
+  parallel_for(static_cast<std::size_t>(A.rows()), air_grain, [&](std::size_t i) {
     for (const Index corner : at_particles_.bucket(i))  // the sum of a row: block_matrix.hpp
       A.grounded(static_cast<Index>(i)) += 3 * (ninth * B_[at(corner / 3)]);
   });

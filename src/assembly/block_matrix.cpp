@@ -11,7 +11,7 @@
 namespace toile::internal {
 namespace {
 
-constexpr std::size_t grain = 512;  // rows
+constexpr std::size_t row_grain = 512;  // rows
 
 std::uint64_t next_version() {
   static std::atomic<std::uint64_t> last{0};
@@ -55,7 +55,7 @@ void BlockMatrix<T>::update_diagonal() {
       }
     }
   };
-  parallel_blocks(grounded_.size(), grain, std::cref(rows));  // by reference: no copy of the lambda on the heap
+  parallel_blocks(grounded_.size(), row_grain, std::cref(rows));  // by reference: no copy of the lambda on the heap
 }
 
 template <class T>
@@ -86,7 +86,7 @@ void BlockMatrix<T>::multiply(std::span<const Vec3> x, std::span<Vec3> y) const 
   const auto rows = [&](std::size_t begin, std::size_t end) {
     multiply_rows(static_cast<Index>(begin), static_cast<Index>(end), x, y);
   };
-  parallel_blocks(grounded_.size(), grain, std::cref(rows));  // by reference: no copy of the lambda on the heap
+  parallel_blocks(grounded_.size(), row_grain, std::cref(rows));  // by reference: no copy of the lambda on the heap
 }
 
 template <class T>

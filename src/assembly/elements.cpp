@@ -10,8 +10,8 @@
 namespace toile::internal {
 namespace {
 
-constexpr std::size_t grain = 512;  // elements per block of work
-constexpr std::size_t batch_grain = grain / batch_size;
+constexpr std::size_t element_grain = 512;  // elements per block of work
+constexpr std::size_t batch_grain = element_grain / batch_size;
 
 template <class Parts>
 std::vector<std::int32_t> offsets(const Parts& keyed, std::size_t key_count) {
@@ -104,7 +104,7 @@ void Elements::evaluate(const ClothModel& model, const ClothState& state) {
   for_batches(rest_.size(), [&](std::size_t begin, std::size_t end) {
     evaluate_membranes(rest_.data(), begin, end, x.data(), v.data(), state_.data());
   });
-  parallel_for(hinges_.size(), grain, [&](std::size_t h) {
+  parallel_for(hinges_.size(), element_grain, [&](std::size_t h) {
     std::array<Vec3, 4> corner_x, corner_v;
     for (std::size_t c = 0; c < 4; ++c) {
       corner_x[c] = x[static_cast<std::size_t>(hinges_[h].particle[c])];
@@ -127,7 +127,7 @@ int Elements::degenerate_hinges() const {
 }
 
 void Elements::gather(std::span<Vec3> f, double sign) const {
-  parallel_for(f.size(), grain, [&](std::size_t i) {
+  parallel_for(f.size(), element_grain, [&](std::size_t i) {
     Vec3 sum = Vec3::Zero();
     for (auto k = particle_triangle_begin_[i]; k < particle_triangle_begin_[i + 1]; ++k) {
       const auto [t, corner] = particle_triangles_[static_cast<std::size_t>(k)];
@@ -144,7 +144,8 @@ void Elements::gather(std::span<Vec3> f, double sign) const {
 void Elements::forces(std::span<Vec3> f) const {
   for_batches(rest_.size(),
               [&](std::size_t begin, std::size_t end) { membrane_forces(batches(begin, end), of_triangles_.data()); });
-  parallel_for(hinges_.size(), grain, [&](std::size_t h) { of_hinges_[h] = bend_[h].moment + bend_[h].damping; });
+  parallel_for(hinges_.size(), element_grain,
+               [&](std::size_t h) { of_hinges_[h] = bend_[h].moment + bend_[h].damping; });
   std::fill(f.begin(), f.end(), Vec3::Zero());
   gather(f, -1);
 }
@@ -155,7 +156,7 @@ void Elements::subtract_stiffness(std::span<const Vec3> displacement, std::span<
   for_batches(rest_.size(), [&](std::size_t begin, std::size_t end) {
     membrane_stiffness_times(batches(begin, end), displacement.data(), moving, of_triangles_.data());
   });
-  parallel_for(hinges_.size(), grain, [&](std::size_t h) {
+  parallel_for(hinges_.size(), element_grain, [&](std::size_t h) {
     double angle = 0, rate = 0;
     for (std::size_t c = 0; c < 4; ++c) {
       const auto i = static_cast<std::size_t>(hinges_[h].particle[c]);
@@ -196,7 +197,7 @@ void Elements::assemble(double h_s, BlockMatrix<T>& A) {
       }
     }
   };
-  parallel_blocks(static_cast<std::size_t>(pattern_->block_count()), grain, std::cref(slots));
+  parallel_blocks(static_cast<std::size_t>(pattern_->block_count()), element_grain, std::cref(slots));
   A.update_diagonal();
 }
 

@@ -8,7 +8,7 @@
 namespace toile::internal {
 namespace {
 
-constexpr std::size_t grain = 512;  // triangles per block of work
+constexpr std::size_t pressure_grain = 512;  // triangles per block of work
 
 }  // namespace
 
@@ -25,7 +25,7 @@ void Pressure::prepare(const ClothModel& model, const BlockPattern&) {
 }
 
 void Pressure::evaluate(const ClothState& state, double) {
-  parallel_for(triangles_.size(), grain, [&](std::size_t t) {
+  parallel_for(triangles_.size(), pressure_grain, [&](std::size_t t) {
     const auto& [i, j, k] = triangles_[t];
     const Vec3& x = state.x[at(i)];
     at_corner_[t] = (panel_Pa_[at(panel_[t])] / 6) * (state.x[at(j)] - x).cross(state.x[at(k)] - x);

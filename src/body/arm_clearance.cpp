@@ -14,13 +14,13 @@
 namespace toile::internal {
 namespace {
 
-constexpr double whole = 0.999, none = 0.001;  // shares of a vertex's weights: rounding apart
-constexpr double wedge = 0.15;                 // an arm at 45 degrees at rest, hanging at 6
-constexpr double deepest = 0.1;                // of the height: farther within it no surface of a body is
+constexpr double whole_weight = 0.999, no_weight = 0.001;  // shares of a vertex's weights: rounding apart
+constexpr double wedge = 0.15;                             // an arm at 45 degrees at rest, hanging at 6
+constexpr double deepest_share = 0.1;                      // of the height: farther within it no surface of a body is
 constexpr double step_deg = 2, exact_deg = 0.05, largest_deg = 40;
 constexpr double smooth_s = 0.2;  // T: a fifth of a swing of the arm
 constexpr double told_deg = 0.1;
-constexpr std::array<std::string_view, 2> sides = {"left", "right"};
+constexpr std::array<std::string_view, 2> side_names = {"left", "right"};
 
 struct Point {
   Vec3 x{0, 0, 0};
@@ -49,7 +49,7 @@ class Clearing {
       low = std::min(low, p.y());
       high = std::max(high, p.y());
     }
-    reach_ = deepest * (high - low);
+    reach_ = deepest_share * (high - low);
     for (std::size_t side = 0; side < 2; ++side) {
       take_arm(side);
       for (std::size_t k = 0; k < arm_[side].size(); ++k) {
@@ -122,7 +122,8 @@ class Clearing {
     std::vector<Index> number(x_.size(), -1);
     std::vector<Triangle> triangles;
     for (const Triangle& t : body_->triangles) {
-      if (std::any_of(t.begin(), t.end(), [&](Index i) { return share_[0][at(i)] > none || share_[1][at(i)] > none; }))
+      if (std::any_of(t.begin(), t.end(),
+                      [&](Index i) { return share_[0][at(i)] > no_weight || share_[1][at(i)] > no_weight; }))
         continue;
       Triangle own{};
       for (std::size_t k = 0; k < 3; ++k) {
@@ -147,7 +148,7 @@ class Clearing {
   // Vertices, and middles of triangles.
   void take_arm(std::size_t side) {
     const auto all = [&](Index i) {
-      return share_[side][at(i)] >= whole && !(stage_.upper_arm_alone && beyond_[side][at(i)] > none);
+      return share_[side][at(i)] >= whole_weight && !(stage_.upper_arm_alone && beyond_[side][at(i)] > no_weight);
     };
     for (std::size_t i = 0; i < x_.size(); ++i)
       if (const auto v = static_cast<Index>(i); all(v)) arm_[side].push_back({v, v, v});
@@ -271,7 +272,7 @@ void keep_arms_clear(const PosedBody& body, const PersonBones& bones, double roo
     if (*most < told_deg) continue;
     notes.push_back(fmt::sprintf(
         "the %s arm is turned away from the body by up to %.1f degrees (at %.3f s), to leave %.0f mm for cloth",
-        std::string(sides[side]), *most, static_cast<double>(most - turned[side].begin()) / track.rate_hz,
+        std::string(side_names[side]), *most, static_cast<double>(most - turned[side].begin()) / track.rate_hz,
         1000 * room_m));
   }
 }

@@ -12,12 +12,12 @@ namespace {
 
 // Shares of the height, by human proportions: a hand is 0.11 long, an arm with it 0.44.
 constexpr double ring_step = 0.01, first_ring = 0.06;
-constexpr double wrist = 0.12, elbow = 0.28;  // rings between them give the girth of the arm
-constexpr double longest_arm = 0.6;           // a ring that has not run out by then is not an arm's
-constexpr double least_reach = 0.08;          // of a hand, sideways from the feet's middle
-constexpr double thickest = 0.3;              // an arm has a girth of 0.16; anything thicker than this is not an arm
-constexpr double runs_out = 1.6;              // of the arm's own girth; rings beyond a shoulder have twice that
-constexpr double least_whole = 0.5;           // share of the vertices in the person's component
+constexpr double wrist_share = 0.12, elbow_share = 0.28;  // rings between them give the girth of the arm
+constexpr double longest_arm = 0.6;                       // a ring that has not run out by then is not an arm's
+constexpr double least_reach = 0.08;                      // of a hand, sideways from the feet's middle
+constexpr double thickest = 0.3;     // an arm has a girth of 0.16; anything thicker than this is not an arm
+constexpr double runs_out = 1.6;     // of the arm's own girth; rings beyond a shoulder have twice that
+constexpr double least_whole = 0.5;  // share of the vertices in the person's component
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -103,7 +103,7 @@ std::optional<Arm> arm_from(const Surface& surface, Index tip, double height_m) 
   for (int k = 0; first_ring + k * ring_step <= longest_arm; ++k) {
     const double share = first_ring + k * ring_step;
     rings.push_back(surface.ring(arm.past, share * height_m));
-    if (share >= wrist && share <= elbow) girths.push_back(rings.back().girth_m);
+    if (share >= wrist_share && share <= elbow_share) girths.push_back(rings.back().girth_m);
   }
   std::nth_element(girths.begin(), girths.begin() + static_cast<std::ptrdiff_t>(girths.size() / 2), girths.end());
   const double usual_m = girths[girths.size() / 2];
@@ -111,12 +111,12 @@ std::optional<Arm> arm_from(const Surface& surface, Index tip, double height_m) 
   const auto ring_at = [](double share) {
     return static_cast<std::size_t>(std::lround((share - first_ring) / ring_step));
   };
-  std::size_t root = ring_at(elbow);
+  std::size_t root = ring_at(elbow_share);
   while (root < rings.size() && rings[root].girth_m > 0 && rings[root].girth_m <= runs_out * usual_m) ++root;
-  if (root >= rings.size() || rings[root].girth_m == 0 || root <= ring_at(elbow)) return std::nullopt;
+  if (root >= rings.size() || rings[root].girth_m == 0 || root <= ring_at(elbow_share)) return std::nullopt;
   --root;
   arm.root = rings[root].middle;
-  arm.direction = (rings[ring_at(wrist)].middle - arm.root).normalized();
+  arm.direction = (rings[ring_at(wrist_share)].middle - arm.root).normalized();
   arm.length_m = (first_ring + static_cast<double>(root) * ring_step) * height_m;
   for (double& d : arm.past) d = std::isfinite(d) ? arm.length_m - d : -infinite;
   return arm;

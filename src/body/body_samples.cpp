@@ -24,8 +24,6 @@ constexpr double height_ratio = 4.0;  // first sample to body
 constexpr double longer_ratio = 3.0, longer_share = 0.05;  // an edge to the body's, and beyond it of the height
 constexpr double fits_better = 0.5;                        // distance from the body's pose with other axes
 
-std::size_t z(Index i) { return static_cast<std::size_t>(i); }
-
 void check_range(std::string_view file, std::string_view place, double value, double low, double high) {
   if (value >= low && value <= high) return;
   throw InputError(file, place, fmt::sprintf("%g", low) + " to " + fmt::sprintf("%g", high), fmt::sprintf("%g", value));
@@ -64,7 +62,7 @@ void BodySamples::append(std::string_view file, std::span<const Vec3> positions)
   Vec3s x;
   x.reserve(drape_.size());
   for (std::size_t i = 0; i < drape_.size(); ++i) {
-    const std::size_t from = whole ? z(source_vertex_[i]) : i;
+    const std::size_t from = whole ? at(source_vertex_[i]) : i;
     const Vec3 p = unit * positions[from];
     const auto place = [&] { return frame + ", vertex " + std::to_string(from); };
     if (!p.allFinite()) throw InputError(file, place(), "finite coordinates", "infinity or not a number");
@@ -136,7 +134,7 @@ void BodySamples::check_edges(std::string_view file, const Vec3s& frame) const {
   const double beyond = longer_share * box.sizes().maxCoeff();
   for (const Triangle& t : triangles_)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t a = z(t[k]), b = z(t[(k + 1) % 3]);
+      const std::size_t a = at(t[k]), b = at(t[(k + 1) % 3]);
       const double body = (drape_[a] - drape_[b]).norm(), first = (frame[a] - frame[b]).norm();
       if (first <= longer_ratio * body + beyond) continue;
       throw InputError(file,
@@ -152,7 +150,7 @@ void BodySamples::check_speed(std::string_view file, const Vec3s& frame) const {
   Vec3s before(frame.size());
   for (std::size_t i = 0; i < before.size(); ++i) before[i] = sample(frames_ - 1, i);
   check_step_speed(file, "frame " + std::to_string(frames_), before, frame, {options_.rate_hz, options_.fastest_m_s},
-                   [&](std::size_t i) { return source_count_ == drape_.size() ? i : z(source_vertex_[i]); });
+                   [&](std::size_t i) { return source_count_ == drape_.size() ? i : at(source_vertex_[i]); });
 }
 
 void BodySamples::finish(std::string_view file) {

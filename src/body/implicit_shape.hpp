@@ -18,6 +18,11 @@
 
 namespace toile::internal {
 
+// The axes of a body: to its left, up, to its front.
+inline const Vec3 x_axis(1, 0, 0), y_axis(0, 1, 0), z_axis(0, 0, 1);
+// Left for right.
+inline Vec3 image(const Vec3& p) { return {-p.x(), p.y(), p.z()}; }
+
 // One cross-section of a loft; all lengths in metres.
 struct LoftSection {
   double t = 0;                       // along the axis; sections are given in ascending t

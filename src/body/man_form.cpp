@@ -7,7 +7,7 @@ namespace {
 
 // The columns of every table.
 //  t      cu  cv      half   front  back   square
-const std::vector<LoftSection> trunk = {
+const std::vector<LoftSection> man_trunk = {
     {0.840, 0, -0.010, 0.138, 0.074, 0.080, 0.30},  //
     {0.890, 0, -0.012, 0.158, 0.086, 0.090, 0.38},  //
     {0.940, 0, -0.012, 0.163, 0.092, 0.095, 0.42},  // hips
@@ -23,7 +23,7 @@ const std::vector<LoftSection> trunk = {
     {1.505, 0, -0.032, 0.082, 0.060, 0.064, 0.22},
 };
 
-const std::vector<LoftSection> neck = {
+const std::vector<LoftSection> man_neck = {
     {1.440, 0, -0.036, 0.074, 0.070, 0.066, 0},  //
     {1.505, 0, -0.034, 0.065, 0.063, 0.064, 0},  //
     {1.550, 0, -0.024, 0.060, 0.060, 0.061, 0},  //
@@ -31,7 +31,7 @@ const std::vector<LoftSection> neck = {
     {1.650, 0, -0.010, 0.057, 0.058, 0.062, 0},
 };
 
-const std::vector<LoftSection> face = {
+const std::vector<LoftSection> man_face = {
     {1.564, 0, 0.050, 0.027, 0.024, 0.043, 0.15},   //
     {1.579, 0, 0.044, 0.039, 0.040, 0.064, 0.22},   // chin
     {1.602, 0, 0.024, 0.053, 0.063, 0.079, 0.32},   //
@@ -41,7 +41,7 @@ const std::vector<LoftSection> face = {
     {1.758, 0, -0.006, 0.047, 0.061, 0.063, 0.2},
 };
 
-const std::vector<LoftSection> leg = {
+const std::vector<LoftSection> man_leg = {
     {0.073, 0.126, -0.030, 0.033, 0.038, 0.038, 0},  //
     {0.105, 0.125, -0.029, 0.034, 0.035, 0.038, 0},  // ankle
     {0.158, 0.123, -0.027, 0.036, 0.036, 0.039, 0},  //
@@ -59,7 +59,7 @@ const std::vector<LoftSection> leg = {
     {0.972, 0.074, -0.017, 0.040, 0.038, 0.042, 0},
 };
 
-const std::vector<LoftSection> foot = {
+const std::vector<LoftSection> man_foot = {
     {-0.094, 0.125, 0.034, 0.024, 0.026, 0.054, 0.3},  // heel
     {-0.066, 0.125, 0.036, 0.031, 0.041, 0.056, 0.3},  //
     {-0.022, 0.127, 0.036, 0.035, 0.058, 0.056, 0.3},  //
@@ -70,7 +70,7 @@ const std::vector<LoftSection> foot = {
     {0.176, 0.137, 0.019, 0.038, 0.011, 0.039, 0.4},
 };
 
-const std::vector<LoftSection> arm = {
+const std::vector<LoftSection> man_arm = {
     {-0.049, 0.000, 0.000, 0.0255, 0.0275, 0.0275, 0},      // fades out inside the shoulder
     {-0.022, 0.000, 0.000, 0.045, 0.0485, 0.0485, 0},       //
     {0.022, 0.002, 0.000, 0.0545, 0.059, 0.059, 0},         //
@@ -95,12 +95,12 @@ const std::vector<LoftSection> arm = {
 
 const MannequinForm& man_form() {
   static const MannequinForm form = {
-      .trunk = trunk,
-      .neck = neck,
-      .face = face,
-      .leg = leg,
-      .foot = foot,
-      .arm = arm,
+      .trunk = man_trunk,
+      .neck = man_neck,
+      .face = man_face,
+      .leg = man_leg,
+      .foot = man_foot,
+      .arm = man_arm,
       .shoulder_m = Vec3(0.190, 1.432, -0.024),
       .elbow_m = 0.314,
       .wrist_m = 0.585,

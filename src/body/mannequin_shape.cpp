@@ -9,13 +9,7 @@
 
 namespace toile::internal {
 
-namespace {
-
-const Vec3 x_axis(1, 0, 0), y_axis(0, 1, 0), z_axis(0, 0, 1);
-
-Vec3 image(const Vec3& p) { return {-p.x(), p.y(), p.z()}; }
-
-}  // namespace
+namespace {}  // namespace
 
 ArmAxis left_arm_axis(const MannequinForm& form) {
   const double r = std::sqrt(0.5);

@@ -11,8 +11,6 @@ namespace toile::internal {
 
 namespace {
 
-std::size_t z(Index i) { return static_cast<std::size_t>(i); }
-
 double cross2(const Vec2& o, const Vec2& a, const Vec2& b) {
   return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
 }
@@ -32,7 +30,7 @@ std::vector<std::vector<Vec3>> section(std::span<const Vec3> positions, std::spa
     bool crossed = false;
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = t[k], b = t[(k + 1) % 3];
-      const bool above_a = height[z(a)] >= 0, above_b = height[z(b)] >= 0;
+      const bool above_a = height[at(a)] >= 0, above_b = height[at(b)] >= 0;
       if (above_a == above_b) continue;
       crossed = true;
       (above_a ? down : up) = std::minmax(a, b);
@@ -42,13 +40,13 @@ std::vector<std::vector<Vec3>> section(std::span<const Vec3> positions, std::spa
   std::vector<std::vector<Vec3>> curves;
   while (!next.empty()) {
     std::vector<Vec3> curve;
-    for (auto at = next.begin(); at != next.end();) {
-      const auto [a, b] = at->first;
-      const double t = height[z(a)] / (height[z(a)] - height[z(b)]);
-      curve.push_back(positions[z(a)] + t * (positions[z(b)] - positions[z(a)]));
-      const EdgeKey following = at->second;
-      next.erase(at);
-      at = next.find(following);
+    for (auto entry = next.begin(); entry != next.end();) {
+      const auto [a, b] = entry->first;
+      const double t = height[at(a)] / (height[at(a)] - height[at(b)]);
+      curve.push_back(positions[at(a)] + t * (positions[at(b)] - positions[at(a)]));
+      const EdgeKey following = entry->second;
+      next.erase(entry);
+      entry = next.find(following);
     }
     curves.push_back(std::move(curve));
   }

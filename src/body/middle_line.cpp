@@ -15,14 +15,13 @@ namespace toile::internal {
 namespace {
 
 // Shares of the height, by human proportions [Winter, Biomechanics and Motor Control of Human Movement, 4th ed. 2009, fig. 4.1].
-constexpr double ankles = 0.04, knees = 0.285, shoulders = 0.82, head = 0.88;
+constexpr double ankle_level = 0.04, knee_level = 0.285, shoulder_level = 0.82, head_level = 0.88;
 constexpr double ribs_below_arms = 0.07;  // armpits are some 0.04 below the middle of an arm's root
 constexpr double hand_over = 0.04;        // the transition from the shoulder's slices to the arm's
 constexpr double legs_begin_to_lean = 0.1;
 constexpr double least_spine = 0.1;     // between hips and ribs; people have 0.2
 constexpr double written_for_m = 1.72;  // the height that a posture's metres refer to
-constexpr double degree = 0.017453292519943295769;
-constexpr std::size_t nodes = 128;  // nodes of the bent line, 1 % of the height apart or less
+constexpr std::size_t nodes = 128;      // nodes of the bent line, 1 % of the height apart or less
 
 double step(double u, double from, double to) {
   const double w = std::clamp((u - from) / (to - from), 0.0, 1.0);
@@ -69,12 +68,12 @@ MiddleLine::MiddleLine(std::string_view file, std::span<const Vec3> standing, st
   const double roots_m = 0.5 * ((*arms)[0].root.y() + (*arms)[1].root.y()) - floor_m;
   const Level widest = hips(standing, triangles);
   levels_ = {height,
-             ankles * height,
-             knees * height,
+             ankle_level * height,
+             knee_level * height,
              widest.height_m - floor_m,
              roots_m - ribs_below_arms * height,
-             shoulders * height,
-             head * height};
+             shoulder_level * height,
+             head_level * height};
   if (!(widest.girth_m > 0)) no_person(file, "no hips");
   if (!(levels_.ribs_m - levels_.hips_m >= least_spine * height && roots_m < levels_.shoulders_m))
     no_person(file, fmt::sprintf("hips at %.2f and the roots of the arms at %.2f of the height",

@@ -15,15 +15,15 @@ namespace toile::internal {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> names = {"stand", "sway", "walk", "twist", "crouch", "dance"};
+constexpr std::array<std::string_view, 6> known_motions = {"stand", "sway", "walk", "twist", "crouch", "dance"};
 constexpr std::array<std::string_view, 3> without_skeleton = {"stand", "sway", "twist"};
-constexpr double longest_lead_in_s = 10, two_pi = 6.283185307179586;
+constexpr double longest_lead_in_s = 10, full_turn = 6.283185307179586;
 // The smooth minimum over six points lies below the lowest one; the sole is so much less deep in the floor.
 constexpr double soles_above_m = 0.004;
 
 }  // namespace
 
-std::span<const std::string_view> motion_names() { return names; }
+std::span<const std::string_view> motion_names() { return known_motions; }
 
 std::span<const std::string_view> motion_names_without_skeleton() { return without_skeleton; }
 
@@ -50,7 +50,7 @@ Motion Motion::named(std::string_view name, MannequinKind kind) {
   } else {
     throw InputError("", "motion",
                      "stand, sway, walk, twist, crouch or dance (did you mean " +
-                         std::string(nearest_name(name, names.data(), names.size())) + "?)",
+                         std::string(nearest_name(name, known_motions.data(), known_motions.size())) + "?)",
                      printable(name));
   }
   m.name_ = name;
@@ -92,7 +92,7 @@ void Motion::blend(Posture& p, double share) const {
 void Motion::level_pelvis() {
   constexpr int samples = 96;
   for (int k = 0; k < samples; ++k) {
-    const double share = static_cast<double>(k) / samples, angle = 2 * two_pi * share;
+    const double share = static_cast<double>(k) / samples, angle = 2 * full_turn * share;
     const double y = make_pose(motion_(share * period_s_), legs_, joints_).root_m.y();
     height_[0] += y / samples;
     height_[1] += 2 * y * ieee_cos(angle) / samples;
@@ -103,7 +103,7 @@ void Motion::level_pelvis() {
 }
 
 double Motion::level_height(double t_s) const {
-  const double angle = 2 * two_pi * (t_s / period_s_ - std::floor(t_s / period_s_));
+  const double angle = 2 * full_turn * (t_s / period_s_ - std::floor(t_s / period_s_));
   return height_[0] + height_[1] * ieee_cos(angle) + height_[2] * ieee_sin(angle);
 }
 

@@ -40,7 +40,7 @@ struct Series {
 
 // Degrees against the phase of the stride, which starts with the heel's strike.
 constexpr Series<5> hip_flexion{9.83, {{{19.81, -6.09}, {-3.68, -1.26}, {-1.48, 0.63}, {-0.58, 0.05}, {-0.26, 0.11}}}};
-constexpr Series<5> knee_flexion{23.98,
+constexpr Series<5> knee_in_gait{23.98,
                                  {{{-3.84, -21.21}, {-11.95, 6.90}, {-1.52, 3.23}, {-0.18, 0.34}, {-0.17, -0.02}}}};
 constexpr Series<5> ankle_dorsiflexion{0.13,
                                        {{{-2.70, 5.90}, {2.53, -7.22}, {-2.92, 0.27}, {2.29, -0.34}, {0.10, -1.35}}}};
@@ -97,7 +97,7 @@ Posture walk_posture(double t_s) {
     const double own = s == Side::left ? phase : phase + 0.5;
     const double sign = s == Side::left ? 1.0 : -1.0;
     p(Channel::leg_forward, s) = hip_flexion(own) + 2.0;  // the pelvis tilts forwards
-    p(Channel::knee, s) = knee_flexion(own);
+    p(Channel::knee, s) = knee_in_gait(own);
     p(Channel::ankle, s) = ankle_dorsiflexion(own);
     p(Channel::toes, s) = toe_extension(own);
     // The leg stays upright seen from the front and points ahead while the pelvis lists, turns and sways.

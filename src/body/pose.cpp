@@ -10,8 +10,6 @@ namespace toile::internal {
 
 namespace {
 
-std::size_t z(Index i) { return static_cast<std::size_t>(i); }
-
 // real + eps dual, with dual = (0, shift) real / 2.
 struct DualQuaternion {
   Quaternion real, dual{0, Vec3::Zero()};
@@ -41,7 +39,7 @@ std::vector<RigidTransform> joint_transforms(std::span<const Joint> joints, cons
     Vec3 moved = centre + pose.root_m;
     t.turn = pose.turns[j];
     if (joints[j].parent >= 0) {
-      const RigidTransform& parent = transforms[z(joints[j].parent)];
+      const RigidTransform& parent = transforms[at(joints[j].parent)];
       moved = parent(centre);
       t.turn = parent.turn * pose.turns[j];
     }
@@ -60,10 +58,10 @@ void SkinnedBody::positions(const Pose& pose, std::span<Vec3> x) const {
   for (const RigidTransform& t : joint_transforms(joints_, pose)) bones.push_back(dual_quaternion(t));
   parallel_for(rest_.size(), 1024, [&](std::size_t i) {
     const SkinWeights& skin = skin_[i];
-    const DualQuaternion& first = bones[z(skin.joint[0])];
+    const DualQuaternion& first = bones[at(skin.joint[0])];
     Quaternion real{0, Vec3::Zero()}, dual{0, Vec3::Zero()};
     for (std::size_t k = 0; k < 4 && skin.weight[k] > 0; ++k) {
-      const DualQuaternion& bone = bones[z(skin.joint[k])];
+      const DualQuaternion& bone = bones[at(skin.joint[k])];
       const double w = bone.real.dot(first.real) < 0 ? -skin.weight[k] : skin.weight[k];  // the shorter way
       add(real, w, bone.real);
       add(dual, w, bone.dual);

@@ -12,8 +12,6 @@ namespace toile::internal {
 
 namespace {
 
-const Vec3 x_axis(1, 0, 0), y_axis(0, 1, 0), z_axis(0, 0, 1);
-constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double touch_m = 0.011;  // width of the smooth minimum over the soles
 constexpr double heel_m = 0.050;   // how far the sole's rear edge stands behind the ankle
 
@@ -25,8 +23,6 @@ std::size_t find(std::span<const Joint> joints, std::string_view name, Side side
     if (joints[j].name == full || joints[j].name == name) return j;
   throw InputError("", "skeleton", "a joint " + full, "none");
 }
-
-Vec3 image(const Vec3& p) { return {-p.x(), p.y(), p.z()}; }
 
 // The knee's flexion, rad, at which hip and ankle stand `distance` apart; `thigh` and `shank` are the bones in the
 // A-pose.  v . Rx(k) w = A cos k + B sin k + C.

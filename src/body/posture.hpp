@@ -14,8 +14,11 @@
 
 #include <array>
 #include <cstddef>
+#include <numbers>
 
 namespace toile::internal {
+
+inline constexpr double degree = std::numbers::pi / 180;  // in radians
 
 enum class Channel : std::size_t {
   turn,  // of the whole figure about the vertical through the origin, to its left

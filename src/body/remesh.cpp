@@ -15,8 +15,6 @@ namespace toile::internal {
 
 namespace {
 
-std::size_t z(Index i) { return static_cast<std::size_t>(i); }
-
 class Remesher {
  public:
   Remesher(HalfSurface& surface, const ScalarField& field, const ScalarField& edge_m)
@@ -25,7 +23,7 @@ class Remesher {
     border_.resize(x_.size());
     for (std::size_t i = 0; i < x_.size(); ++i) border_[i] = x_[i].x() == 0;
     for (Index i = 0; i < static_cast<Index>(t_.size()); ++i)
-      for (Index v : t_[z(i)]) ring_[z(v)].push_back(i);
+      for (Index v : t_[at(i)]) ring_[at(v)].push_back(i);
   }
 
   void sweep() {
@@ -50,7 +48,7 @@ class Remesher {
         out.positions.push_back(x_[i]);
       }
     for (const Triangle& t : t_)
-      if (t[0] >= 0) out.triangles.push_back({map[z(t[0])], map[z(t[1])], map[z(t[2])]});
+      if (t[0] >= 0) out.triangles.push_back({map[at(t[0])], map[at(t[1])], map[at(t[2])]});
     return out;
   }
 
@@ -84,15 +82,15 @@ class Remesher {
   std::array<Index, 2> triangles_of(Index a, Index b) const {
     std::array<Index, 2> found{-1, -1};
     std::size_t n = 0;
-    for (Index i : ring_[z(a)])
-      if (has(t_[z(i)], b) && n < 2) found[n++] = i;
+    for (Index i : ring_[at(a)])
+      if (has(t_[at(i)], b) && n < 2) found[n++] = i;
     return found;
   }
 
   std::vector<Index> neighbours(Index v) const {
     std::vector<Index> list;
-    for (Index i : ring_[z(v)])
-      for (Index w : t_[z(i)])
+    for (Index i : ring_[at(v)])
+      for (Index w : t_[at(i)])
         if (w != v) list.push_back(w);
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -100,18 +98,18 @@ class Remesher {
   }
 
   void unlink(Index vertex, Index triangle) {
-    auto& ring = ring_[z(vertex)];
+    auto& ring = ring_[at(vertex)];
     ring.erase(std::find(ring.begin(), ring.end(), triangle));
   }
   void replace(Index triangle, Index from, Index to) {
-    for (Index& v : t_[z(triangle)])
+    for (Index& v : t_[at(triangle)])
       if (v == from) v = to;
     unlink(from, triangle);
-    ring_[z(to)].push_back(triangle);
+    ring_[at(to)].push_back(triangle);
   }
   void kill(Index triangle) {
-    for (Index v : t_[z(triangle)]) unlink(v, triangle);
-    t_[z(triangle)] = {-1, -1, -1};
+    for (Index v : t_[at(triangle)]) unlink(v, triangle);
+    t_[at(triangle)] = {-1, -1, -1};
   }
 
   static Vec3 normal(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a); }
@@ -142,11 +140,11 @@ class Remesher {
     return p;
   }
 
-  double length2(Index a, Index b) const { return (x_[z(a)] - x_[z(b)]).squaredNorm(); }
+  double length2(Index a, Index b) const { return (x_[at(a)] - x_[at(b)]).squaredNorm(); }
 
   void split_long() {
     for (const auto& [a, b] : edges()) {
-      const Vec3 middle = 0.5 * (x_[z(a)] + x_[z(b)]);
+      const Vec3 middle = 0.5 * (x_[at(a)] + x_[at(b)]);
       const double limit = 4.0 / 3.0 * edge_m_(middle);
       if (length2(a, b) <= limit * limit) continue;
       const auto pair = triangles_of(a, b);
@@ -157,25 +155,25 @@ class Remesher {
       ring_.emplace_back();
       for (Index i : pair) {
         if (i < 0) continue;
-        Triangle half = t_[z(i)];
+        Triangle half = t_[at(i)];
         for (Index& v : half)
           if (v == a) v = m;
         replace(i, b, m);  // keeps (a, m, c); the new one is (m, b, c)
         const Index added = static_cast<Index>(t_.size());
         t_.push_back(half);
-        for (Index v : half) ring_[z(v)].push_back(added);
+        for (Index v : half) ring_[at(v)].push_back(added);
       }
     }
   }
 
   // Whether moving `moved` to `to` turns or squashes one of its triangles that do not also contain `other`.
   bool spoils(Index moved, Index other, const Vec3& to) const {
-    for (Index i : ring_[z(moved)]) {
-      const Triangle& t = t_[z(i)];
+    for (Index i : ring_[at(moved)]) {
+      const Triangle& t = t_[at(i)];
       if (has(t, other)) continue;
       std::array<Vec3, 3> p;
-      for (std::size_t k = 0; k < 3; ++k) p[k] = t[k] == moved ? to : x_[z(t[k])];
-      const Vec3 before = normal(x_[z(t[0])], x_[z(t[1])], x_[z(t[2])]), after = normal(p[0], p[1], p[2]);
+      for (std::size_t k = 0; k < 3; ++k) p[k] = t[k] == moved ? to : x_[at(t[k])];
+      const Vec3 before = normal(x_[at(t[0])], x_[at(t[1])], x_[at(t[2])]), after = normal(p[0], p[1], p[2]);
       const double cosine = before.dot(after), b2 = before.dot(before), a2 = after.dot(after);
       if (cosine <= 0 || cosine * cosine < 0.5 * b2 * a2) return true;
       const double longest =
@@ -188,7 +186,7 @@ class Remesher {
   void collapse_short() {
     std::vector<std::tuple<double, Index, Index>> order;
     for (const auto& [a, b] : edges()) {
-      const double limit = 0.8 * edge_m_(0.5 * (x_[z(a)] + x_[z(b)]));
+      const double limit = 0.8 * edge_m_(0.5 * (x_[at(a)] + x_[at(b)]));
       const double d2 = length2(a, b);
       if (d2 < limit * limit) order.emplace_back(d2, a, b);
     }
@@ -198,8 +196,8 @@ class Remesher {
       const auto pair = triangles_of(a, b);
       if (pair[0] < 0) continue;  // gone meanwhile
       const bool border_edge = pair[1] < 0;
-      if (border_[z(a)] && border_[z(b)] && !border_edge) continue;  // would pinch the border
-      const double limit = 0.8 * edge_m_(0.5 * (x_[z(a)] + x_[z(b)]));
+      if (border_[at(a)] && border_[at(b)] && !border_edge) continue;  // would pinch the border
+      const double limit = 0.8 * edge_m_(0.5 * (x_[at(a)] + x_[at(b)]));
       if (length2(a, b) >= limit * limit) continue;
 
       const std::vector<Index> na = neighbours(a), nb = neighbours(b);
@@ -207,37 +205,37 @@ class Remesher {
       std::set_intersection(na.begin(), na.end(), nb.begin(), nb.end(), std::back_inserter(common));
       if (common.size() != (border_edge ? 1U : 2U)) continue;  // the link condition: the surface stays a surface
       // Opposite vertices lose a triangle; one left with two would join two triangles of the same corners.
-      const auto exhausted = [&](Index v) { return ring_[z(v)].size() <= (border_[z(v)] ? 1U : 3U); };
+      const auto exhausted = [&](Index v) { return ring_[at(v)].size() <= (border_[at(v)] ? 1U : 3U); };
       if (std::any_of(common.begin(), common.end(), exhausted)) continue;
 
-      if (border_[z(b)] && !border_[z(a)]) std::swap(a, b);  // b goes, a stays; a border vertex stays where it is
-      const bool fixed = border_[z(a)] && !border_edge;
+      if (border_[at(b)] && !border_[at(a)]) std::swap(a, b);  // b goes, a stays; a border vertex stays where it is
+      const bool fixed = border_[at(a)] && !border_edge;
       // The neighbours of b become those of a: two border vertices may be joined along the border only.
       const auto pinches = [&](Index v) {
-        return v != a && border_[z(v)] && !std::binary_search(common.begin(), common.end(), v);
+        return v != a && border_[at(v)] && !std::binary_search(common.begin(), common.end(), v);
       };
       const std::vector<Index>& gained = b == std::get<2>(entry) ? nb : na;
       if (fixed && std::any_of(gained.begin(), gained.end(), pinches)) continue;
-      const Vec3 to = fixed ? x_[z(a)] : project(0.5 * (x_[z(a)] + x_[z(b)]), border_edge, 1);
+      const Vec3 to = fixed ? x_[at(a)] : project(0.5 * (x_[at(a)] + x_[at(b)]), border_edge, 1);
       if (spoils(a, b, to) || spoils(b, a, to)) continue;
       bool too_long = false;
       for (const auto* ring : {&na, &nb})
         for (Index v : *ring) {
-          const double most = 4.0 / 3.0 * edge_m_(0.5 * (to + x_[z(v)]));
-          too_long = too_long || (to - x_[z(v)]).squaredNorm() > most * most;
+          const double most = 4.0 / 3.0 * edge_m_(0.5 * (to + x_[at(v)]));
+          too_long = too_long || (to - x_[at(v)]).squaredNorm() > most * most;
         }
       if (too_long) continue;
-      x_[z(a)] = to;
+      x_[at(a)] = to;
       for (Index i : pair)
         if (i >= 0) kill(i);
-      const std::vector<Index> moved = ring_[z(b)];
+      const std::vector<Index> moved = ring_[at(b)];
       for (Index i : moved) replace(i, b, a);
     }
   }
 
   int valence_error(Index v, int change) const {
-    const int triangles = static_cast<int>(ring_[z(v)].size()), edges = triangles + (border_[z(v)] ? 1 : 0);
-    const int error = edges + change - (border_[z(v)] ? 4 : 6);
+    const int triangles = static_cast<int>(ring_[at(v)].size()), edges = triangles + (border_[at(v)] ? 1 : 0);
+    const int error = edges + change - (border_[at(v)] ? 4 : 6);
     return error * error;
   }
   // How much flipping edge ab to cd lowers the sum of squared valence errors.
@@ -246,8 +244,8 @@ class Remesher {
            valence_error(a, -1) - valence_error(b, -1) - valence_error(c, 1) - valence_error(d, 1);
   }
 
-  double cosine_at(Index at, Index p, Index q) const {
-    const Vec3 u = x_[z(p)] - x_[z(at)], v = x_[z(q)] - x_[z(at)];
+  double cosine_at(Index corner, Index p, Index q) const {
+    const Vec3 u = x_[at(p)] - x_[at(corner)], v = x_[at(q)] - x_[at(corner)];
     return u.dot(v) / std::sqrt(u.dot(u) * v.dot(v));
   }
   // Negative when the angles at c and d, opposite to the edge ab, sum to more than 180 degrees: not Delaunay.
@@ -260,26 +258,26 @@ class Remesher {
       const auto pair = triangles_of(a, b);
       if (pair[0] < 0 || pair[1] < 0) continue;
       Index left = pair[0], right = pair[1];
-      if (!walks(t_[z(left)], a, b)) std::swap(left, right);
-      const Index c = third(t_[z(left)], a, b), d = third(t_[z(right)], a, b);
-      if (ring_[z(a)].size() <= 3 || ring_[z(b)].size() <= 3) continue;
-      if (border_[z(c)] && border_[z(d)]) continue;  // an edge inside may not join two border vertices
+      if (!walks(t_[at(left)], a, b)) std::swap(left, right);
+      const Index c = third(t_[at(left)], a, b), d = third(t_[at(right)], a, b);
+      if (ring_[at(a)].size() <= 3 || ring_[at(b)].size() <= 3) continue;
+      if (border_[at(c)] && border_[at(d)]) continue;  // an edge inside may not join two border vertices
       if (!wanted(a, b, c, d) || triangles_of(c, d)[0] >= 0) continue;
       // (a, b, c) and (b, a, d) become (a, d, c) and (d, b, c).
-      const Vec3 n0 = normal(x_[z(a)], x_[z(b)], x_[z(c)]), n1 = normal(x_[z(b)], x_[z(a)], x_[z(d)]);
-      const Vec3 m0 = normal(x_[z(a)], x_[z(d)], x_[z(c)]), m1 = normal(x_[z(d)], x_[z(b)], x_[z(c)]);
+      const Vec3 n0 = normal(x_[at(a)], x_[at(b)], x_[at(c)]), n1 = normal(x_[at(b)], x_[at(a)], x_[at(d)]);
+      const Vec3 m0 = normal(x_[at(a)], x_[at(d)], x_[at(c)]), m1 = normal(x_[at(d)], x_[at(b)], x_[at(c)]);
       const Vec3 n = n0 + n1;
       const double n2 = n.dot(n);
       const auto good = [&](const Vec3& m) { return n.dot(m) > 0 && n.dot(m) * n.dot(m) > 0.6 * n2 * m.dot(m); };
       if (!good(m0) || !good(m1)) continue;
       const double diagonal = length2(c, d);
       if (std::min(m0.dot(m0), m1.dot(m1)) < 0.02 * diagonal * diagonal) continue;
-      t_[z(left)] = {a, d, c};
-      t_[z(right)] = {d, b, c};
+      t_[at(left)] = {a, d, c};
+      t_[at(right)] = {d, b, c};
       unlink(b, left);
       unlink(a, right);
-      ring_[z(d)].push_back(left);
-      ring_[z(c)].push_back(right);
+      ring_[at(d)].push_back(left);
+      ring_[at(c)].push_back(right);
     }
   }
 
@@ -293,9 +291,9 @@ class Remesher {
       Vec3 sum = Vec3::Zero();
       double weights = 0;
       for (Index k : ring_[i]) {
-        const Triangle& t = t_[z(k)];
-        const Vec3 centroid = (x_[z(t[0])] + x_[z(t[1])] + x_[z(t[2])]) / 3.0;
-        const Vec3 n = normal(x_[z(t[0])], x_[z(t[1])], x_[z(t[2])]);
+        const Triangle& t = t_[at(k)];
+        const Vec3 centroid = (x_[at(t[0])] + x_[at(t[1])] + x_[at(t[2])]) / 3.0;
+        const Vec3 n = normal(x_[at(t[0])], x_[at(t[1])], x_[at(t[2])]);
         const double size = edge_m_(centroid), weight = std::sqrt(n.dot(n)) / (size * size);
         sum += weight * centroid;
         weights += weight;

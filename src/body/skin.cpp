@@ -15,8 +15,6 @@ namespace {
 constexpr double fade_m = 0.08;
 constexpr int softening_sweeps = 12;
 
-std::size_t z(Index i) { return static_cast<std::size_t>(i); }
-
 // 0 for the other side's limbs, 1 for the own side's, smooth across the middle: thighs that are close do not share
 // bones.
 double same_side(const Joint& joint, const Vec3& p) {
@@ -70,13 +68,13 @@ void soften(Weights& weights, std::size_t width, std::span<const Triangle> trian
   const std::size_t count = weights.size() / width;
   std::vector<std::vector<Index>> next(count);  // on a closed mesh each neighbour follows exactly once
   for (const Triangle& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k) next[z(t[k])].push_back(t[(k + 1) % 3]);
+    for (std::size_t k = 0; k < 3; ++k) next[at(t[k])].push_back(t[(k + 1) % 3]);
   Weights softer(weights.size());
   for (int sweep = 0; sweep < softening_sweeps; ++sweep) {
     parallel_for(count, 512, [&](std::size_t i) {
       for (std::size_t j = 0; j < width; ++j) {
         double sum = 0;
-        for (Index n : next[i]) sum += weights[z(n) * width + j];
+        for (Index n : next[i]) sum += weights[at(n) * width + j];
         softer[i * width + j] = 0.5 * weights[i * width + j] + 0.5 * sum / static_cast<double>(next[i].size());
       }
     });
@@ -120,7 +118,7 @@ std::vector<SkinWeights> skin_weights(std::span<const Vec3> positions, std::span
     if (i < on_plane) continue;
     skin[i + beside] = skin[i];
     for (std::size_t k = 0; k < 4; ++k)
-      if (skin[i].weight[k] > 0) skin[i + beside].joint[k] = partner[z(skin[i].joint[k])];
+      if (skin[i].weight[k] > 0) skin[i + beside].joint[k] = partner[at(skin[i].joint[k])];
   }
   return skin;
 }

@@ -7,7 +7,7 @@ namespace {
 
 // The columns of every table.
 //  t      cu  cv      half   front  back   square
-const std::vector<LoftSection> trunk = {
+const std::vector<LoftSection> woman_trunk = {
     {0.800, 0, -0.012, 0.142, 0.070, 0.080, 0.30},  //
     {0.850, 0, -0.014, 0.163, 0.081, 0.090, 0.38},  //
     {0.900, 0, -0.014, 0.168, 0.089, 0.096, 0.42},  // hips
@@ -23,7 +23,7 @@ const std::vector<LoftSection> trunk = {
     {1.440, 0, -0.032, 0.072, 0.055, 0.058, 0.20},
 };
 
-const std::vector<LoftSection> neck = {
+const std::vector<LoftSection> woman_neck = {
     {1.380, 0, -0.034, 0.066, 0.062, 0.060, 0},  //
     {1.440, 0, -0.032, 0.056, 0.056, 0.056, 0},  //
     {1.480, 0, -0.024, 0.051, 0.051, 0.053, 0},  //
@@ -31,7 +31,7 @@ const std::vector<LoftSection> neck = {
     {1.580, 0, -0.010, 0.050, 0.050, 0.056, 0},
 };
 
-const std::vector<LoftSection> face = {
+const std::vector<LoftSection> woman_face = {
     {1.494, 0, 0.048, 0.022, 0.022, 0.040, 0.1},    //
     {1.508, 0, 0.042, 0.033, 0.037, 0.060, 0.15},   // chin
     {1.530, 0, 0.022, 0.047, 0.060, 0.075, 0.25},   //
@@ -41,7 +41,7 @@ const std::vector<LoftSection> face = {
     {1.680, 0, -0.006, 0.045, 0.058, 0.060, 0.2},
 };
 
-const std::vector<LoftSection> leg = {
+const std::vector<LoftSection> woman_leg = {
     {0.070, 0.129, -0.030, 0.029, 0.034, 0.035, 0},  //
     {0.100, 0.128, -0.029, 0.030, 0.031, 0.034, 0},  // ankle
     {0.150, 0.126, -0.027, 0.032, 0.032, 0.035, 0},  //
@@ -59,7 +59,7 @@ const std::vector<LoftSection> leg = {
     {0.930, 0.072, -0.018, 0.040, 0.036, 0.040, 0},
 };
 
-const std::vector<LoftSection> foot = {
+const std::vector<LoftSection> woman_foot = {
     {-0.085, 0.128, 0.032, 0.021, 0.024, 0.050, 0.3},  // heel
     {-0.060, 0.128, 0.034, 0.028, 0.038, 0.052, 0.3},  //
     {-0.020, 0.130, 0.034, 0.031, 0.054, 0.052, 0.3},  //
@@ -70,7 +70,7 @@ const std::vector<LoftSection> foot = {
     {0.160, 0.140, 0.018, 0.034, 0.010, 0.036, 0.4},
 };
 
-const std::vector<LoftSection> arm = {
+const std::vector<LoftSection> woman_arm = {
     {-0.045, 0.000, 0.000, 0.022, 0.024, 0.024, 0},       // fades out inside the shoulder
     {-0.020, 0.000, 0.000, 0.039, 0.042, 0.042, 0},       //
     {0.020, 0.002, 0.000, 0.047, 0.050, 0.050, 0},        //
@@ -95,12 +95,12 @@ const std::vector<LoftSection> arm = {
 
 const MannequinForm& woman_form() {
   static const MannequinForm form = {
-      .trunk = trunk,
-      .neck = neck,
-      .face = face,
-      .leg = leg,
-      .foot = foot,
-      .arm = arm,
+      .trunk = woman_trunk,
+      .neck = woman_neck,
+      .face = woman_face,
+      .leg = woman_leg,
+      .foot = woman_foot,
+      .arm = woman_arm,
       .shoulder_m = Vec3(0.170, 1.367, -0.024),
       .elbow_m = 0.29,
       .wrist_m = 0.54,

@@ -14,14 +14,13 @@ namespace {
 
 using Mover = BodyImpactWorkspace::Mover;
 
-constexpr double separation_share = 0.1;  // of r: the largest xi
-constexpr std::size_t grain = 512;
+constexpr std::size_t mover_grain = 512;
 
 template <class Triangles>
 void move_triangles(const Triangles& triangles, std::span<const Vec3> start, std::span<const Vec3> end,
                     std::vector<Mover>& movers) {
   movers.resize(triangles.size());
-  parallel_for(triangles.size(), grain, [&](std::size_t t) {
+  parallel_for(triangles.size(), mover_grain, [&](std::size_t t) {
     Mover& mover = movers[t];
     mover.centre = mover.displacement = Vec3::Zero();
     for (const Index i : triangles[t]) {

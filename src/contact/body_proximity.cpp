@@ -9,7 +9,7 @@ namespace toile::internal {
 namespace {
 
 constexpr std::size_t triangle_grain = 1024, feature_grain = 1024;
-constexpr double touching_m = 1e-9;  // nearer than this the body's own normal is the direction
+constexpr double body_touching_m = 1e-9;  // nearer than this the body's own normal is the direction
 
 using Memory = ProximityWorkspace::Memory;
 
@@ -52,7 +52,7 @@ class BodyQuery {
   // neither side.
   bool set_gap(BodyContact& record, const Vec3& between, const Vec3& out) const {
     const double distance = between.norm();
-    if (!(distance > touching_m)) {
+    if (!(distance > body_touching_m)) {
       record.normal = out;
       record.gap_m = between.dot(out);
       return out.squaredNorm() > 0;
@@ -67,7 +67,7 @@ class BodyQuery {
 
   // Is the cloth's point inside the body, with its nearest way out on the side of this normal?
   bool confirmed(const BodyContact& record, const Vec3& cloth_point) const {
-    if (!(record.gap_m < -touching_m)) return true;
+    if (!(record.gap_m < -body_touching_m)) return true;
     const BodyPoint nearest = body_.nearest(cloth_point, 2 * options_.depth_m);
     return nearest.triangle >= 0 && nearest.gap_m < 0 && nearest.normal.dot(record.normal) > 0;
   }

@@ -42,11 +42,6 @@ class Nearest {
   Index triangle_ = -1;  // nothing at the reach itself is taken
 };
 
-Vec3 unit_or_zero(const Vec3& v) {
-  const double length = v.norm();
-  return length > 0 ? Vec3(v / length) : Vec3::Zero();
-}
-
 // arccos to 2e-8 rad, from + - * / sqrt only: the C library's differs between processors, and a weight needs no more.
 // [Abramowitz & Stegun 4.4.46]
 double arc_cosine(double x) {

@@ -12,8 +12,8 @@
 namespace toile::internal {
 namespace {
 
-constexpr std::size_t query_grain = 512, triangle_grain = 1024;
-constexpr double touching_m = 1e-12;  // nearer than this the direction between two points is rounding
+constexpr std::size_t query_grain = 512, cloth_triangle_grain = 1024;
+constexpr double cloth_touching_m = 1e-12;  // nearer than this the direction between two points is rounding
 
 using Memory = ProximityWorkspace::Memory;
 
@@ -172,7 +172,7 @@ class ClothQuery {
   template <class Instead>
   static bool set_direction(ClothContact& record, const Vec3& between, Instead&& instead) {
     record.gap_m = between.norm();
-    if (record.gap_m > touching_m) {
+    if (record.gap_m > cloth_touching_m) {
       record.normal = between / record.gap_m;
       return true;
     }
@@ -235,7 +235,7 @@ class ClothQuery {
 void mark_flat_edges(const ClothTopology& cloth, std::span<const std::array<Index, 2>> bent, Memory& memory) {
   const double flat_cosine = std::sqrt(1 - flat_edge_sine * flat_edge_sine);
   memory.flat.resize(cloth.triangles().size());
-  parallel_for(cloth.triangles().size(), triangle_grain, [&](std::size_t t) {
+  parallel_for(cloth.triangles().size(), cloth_triangle_grain, [&](std::size_t t) {
     unsigned bits = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const Edge& edge = cloth.edge(cloth.triangle_edges(static_cast<Index>(t))[k]);
@@ -286,7 +286,7 @@ void ProximityWorkspace::Memory::check(const ClothTopology& cloth, [[maybe_unuse
 
 void ProximityWorkspace::Memory::set_face_normals(const ClothTopology& cloth, std::span<const Vec3> x) {
   face_normals.resize(cloth.triangles().size());
-  parallel_for(face_normals.size(), triangle_grain, [&](std::size_t t) {
+  parallel_for(face_normals.size(), cloth_triangle_grain, [&](std::size_t t) {
     const Triangle& c = cloth.triangles()[t];
     const Vec3& a = x[static_cast<std::size_t>(c[0])];
     const Vec3 n = (x[static_cast<std::size_t>(c[1])] - a).cross(x[static_cast<std::size_t>(c[2])] - a);

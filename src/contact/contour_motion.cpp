@@ -10,11 +10,6 @@
 namespace toile::internal {
 namespace {
 
-Vec3 unit_or_zero(const Vec3& v) {
-  const double length = v.norm();
-  return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());
-}
-
 Vec3 normal_of(const Triangle& t, std::span<const Vec3> x) {
   return unit_or_zero((x[at(t[1])] - x[at(t[0])]).cross(x[at(t[2])] - x[at(t[0])]));
 }

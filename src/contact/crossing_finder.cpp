@@ -15,7 +15,7 @@
 namespace toile::internal {
 namespace {
 
-constexpr std::size_t grain = 4096;
+constexpr std::size_t particle_grain = 4096;
 constexpr int least_exponent = -960;  // of a coordinate; 2^(whole_bits + 960) is still a double
 
 void check_finite(std::span<const Vec3> x) {
@@ -48,7 +48,7 @@ void round_to_whole(std::span<const Vec3> x, double largest, Vec3s& whole) {
   const int exponent = std::max(largest > 0 ? std::ilogb(largest) + 1 : least_exponent, least_exponent);
   const double steps = std::ldexp(1.0, whole_bits - exponent);  // per metre
   whole.resize(x.size());
-  parallel_for(x.size(), grain, [&](std::size_t i) {
+  parallel_for(x.size(), particle_grain, [&](std::size_t i) {
     for (Eigen::Index k = 0; k < 3; ++k) whole[i][k] = std::rint(steps * x[i][k]);
   });
 }

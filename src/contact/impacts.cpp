@@ -11,12 +11,11 @@ namespace toile::internal {
 namespace {
 
 constexpr std::size_t list_grain = 512;
-constexpr double separation_share = 0.1;  // of r
-constexpr double gap_share = 0.5;         // of d_0
-constexpr double floor_m = 1e-6;          // float32 files can tell the two sides of such a gap within 8 m of the origin
-constexpr double floor_share = 0.999;     // of d_0, where that is not above it
-constexpr double no_floor_m = 1e-7;       // a smaller gap at the start was not made by contact
-constexpr double no_gap_m = 1e-12;        // pairs that coincide have no side to be kept on
+constexpr double gap_share = 0.5;      // of d_0
+constexpr double floor_m = 1e-6;       // float32 files can tell the two sides of such a gap within 8 m of the origin
+constexpr double floor_share = 0.999;  // of d_0, where that is not above it
+constexpr double no_floor_m = 1e-7;    // a smaller gap at the start was not made by contact
+constexpr double no_gap_m = 1e-12;     // pairs that coincide have no side to be kept on
 
 std::array<Vec3, 4> gather(const std::array<Index, 4>& particle, std::span<const Vec3> x) {
   return {x[at(particle[0])], x[at(particle[1])], x[at(particle[2])], x[at(particle[3])]};

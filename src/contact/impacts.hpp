@@ -63,6 +63,8 @@ inline std::size_t most_impacts_of_a_task(std::size_t particles) {
                                 ImpactWorkspace& workspace, std::vector<Impact>& impacts,
                                 std::span<const Pinched> pinched = {}, const FeaturePairs* pairs = nullptr);
 
+inline constexpr double separation_share = 0.1;  // of r: the largest xi
+
 // Finds the impact of one pair whose corners x move by u.  Particle, kind and contact_m are those of `impact`; the rest
 // is filled in.  Returns false if there is none.  A pair that coincides at the start has no side to be kept on, and
 // none.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Index task_size = 512;    // a task's nodes hold at most this many triangles
 constexpr Index refit_size = 1024;  // likewise, when boxes are made anew
-constexpr std::size_t box_grain = 1024;
+constexpr std::size_t triangle_box_grain = 1024;
 
 // Replaces every task with a node above task_size by its children, with `descend`.
 template <class Big, class Split>
@@ -152,7 +152,7 @@ void TriangleTree::for_nodes_upwards(const Work& work) {
 }
 
 void TriangleTree::refit_triangles() {
-  parallel_for(triangle_boxes_.size(), box_grain,
+  parallel_for(triangle_boxes_.size(), triangle_box_grain,
                [&](std::size_t t) { triangle_boxes_[t] = particle_boxes_.triangle((*triangles_)[t]); });
   for_nodes_upwards([&](std::size_t i) {
     Node& at = nodes_[i];
@@ -166,7 +166,7 @@ void TriangleTree::refit(std::span<const Vec3> start, std::span<const Vec3> end,
                          std::span<const std::uint8_t> moved) {
   particle_boxes_.set(start, end, margin_m, moved);
   triangle_moved_.resize(triangle_boxes_.size());
-  parallel_for(triangle_boxes_.size(), box_grain, [&](std::size_t t) {
+  parallel_for(triangle_boxes_.size(), triangle_box_grain, [&](std::size_t t) {
     const Triangle& corners = (*triangles_)[t];
     std::uint8_t any = 0;
     for (const Index i : corners) any |= moved[static_cast<std::size_t>(i)];

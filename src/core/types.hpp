@@ -25,4 +25,10 @@ using Vec3s = std::vector<Vec3>;
 
 using Triangle = std::array<Index, 3>;  // counter-clockwise seen from outside
 
+// v / |v|; zero where |v| is.
+inline Vec3 unit_or_zero(const Vec3& v) {
+  const double length = v.norm();
+  return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());
+}
+
 }  // namespace toile::internal

@@ -8,14 +8,14 @@ namespace toile::internal {
 namespace {
 
 constexpr double guarded_again = 0.1;                   // from here the thickness grows
-constexpr int unguarded_rings = 2;                      // of particles around a crossing
+constexpr int unguarded_while_worn = 2;                 // of particles around a crossing
 constexpr int looks_per_ring = 4, most_more_rings = 6;  // without progress
 constexpr double largest_part = 0.1;     // of a surface that may be swept: a larger part did not pass through
 constexpr double drag_N_s_per_m = 5;     // per point of a contour; as much again per look without progress, up to
 constexpr int most_drag = 20;            // times as much: the last creases are held shut by their threads
 constexpr double moves_in_s = 1.0 / 30;  // the time for a move: it goes no faster
 constexpr int patience = 20;             // looks without progress until contours are pushed another way
-constexpr int ways = 3;
+constexpr int ways_while_worn = 3;
 
 }  // namespace
 
@@ -50,11 +50,11 @@ void Tangles::find(const Vec3s& x) {
   for (const SurfaceCrossing& crossing : crossings) mark_particles(crossing, triangles_, unguarded_);
   for (const IntersectionContour& contour : trace_contours(*topology_, triangles_, crossings))
     push(contour, crossings, x);
-  push_->regions().grow(unguarded_, unguarded_rings + std::min(waited_ / looks_per_ring, most_more_rings));
+  push_->regions().grow(unguarded_, unguarded_while_worn + std::min(waited_ / looks_per_ring, most_more_rings));
 }
 
 void Tangles::push(const IntersectionContour& contour, std::span<const SurfaceCrossing> crossings, const Vec3s& x) {
-  const auto way = static_cast<ContourPush::Way>(waited_ / patience % ways);
+  const auto way = static_cast<ContourPush::Way>(waited_ / patience % ways_while_worn);
   (*push_)(contour, crossings, x, way, edge_m_, largest_part, unguarded_,
            [&](const ContourPull& point, const Vec3& move_m) {
              const double length_m = move_m.norm();

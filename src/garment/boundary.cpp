@@ -17,7 +17,7 @@ struct Partner {
   bool right_wrong;
 };
 
-struct Box {
+struct PieceBox {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   void add(const Vec3& p) {
     low = low.cwiseMin(p);
@@ -25,14 +25,14 @@ struct Box {
   }
 };
 
-constexpr int samples = 16;  // of an edge, for middles, boxes and areas: to some per mille
+constexpr int edge_samples = 16;  // of an edge, for middles, boxes and areas: to some per mille
 
 using Partners = std::map<Side, Partner>;
 
 // Pieces that no stitch connects, into boundary.pieces.  Returns the piece of each panel.
 std::vector<Index> find_pieces(const Pattern& pattern, std::span<const Index> representative, Boundary& boundary) {
   std::vector<Index> piece(pattern.panels.size(), -1);
-  std::vector<Box> boxes;
+  std::vector<PieceBox> boxes;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     const std::size_t first = at(representative[p]);
     if (first == p) {
@@ -48,7 +48,7 @@ std::vector<Index> find_pieces(const Pattern& pattern, std::span<const Index> re
     Vec2 moment{0, 0};
     const Vec2 origin = panel.corners.front();  // moments about a point far away would lose digits
     for (const PanelEdge& edge : panel.edges) {
-      const std::vector<Vec2> points = sample_edge(panel, edge, edge.kind == CurveKind::line ? 1 : samples);
+      const std::vector<Vec2> points = sample_edge(panel, edge, edge.kind == CurveKind::line ? 1 : edge_samples);
       for (std::size_t k = 0; k + 1 < points.size(); ++k) {
         const Vec2 u = points[k] - origin, v = points[k + 1] - origin;
         const double cross = u.x() * v.y() - u.y() * v.x();
@@ -76,7 +76,7 @@ std::vector<Index> find_pieces(const Pattern& pattern, std::span<const Index> re
 Opening walk_along(const Pattern& pattern, const Partners& partner, std::size_t edges, Side side,
                    std::map<Side, char>& passed) {
   Opening opening;
-  Box box;
+  PieceBox box;
   bool forward = true;
   while (passed.try_emplace(side, 1).second) {
     const Panel& panel = pattern.panels[at(side.first)];
@@ -85,11 +85,11 @@ Opening walk_along(const Pattern& pattern, const Partners& partner, std::size_t 
     opening.edges.push_back({side.first, side.second});
     opening.girth_m += length;
     Vec3 middle = Vec3::Zero();
-    const std::vector<Vec2> points = sample_edge(panel, edge, samples);
+    const std::vector<Vec2> points = sample_edge(panel, edge, edge_samples);
     for (std::size_t k = 0; k < points.size(); ++k) {
       const Vec3 placed = panel.place(points[k]);
       box.add(placed);
-      middle += (k == 0 || k + 1 == points.size() ? 0.5 : 1.0) / samples * placed;
+      middle += (k == 0 || k + 1 == points.size() ? 0.5 : 1.0) / edge_samples * placed;
     }
     opening.middle_m += length * middle;
     const auto step = [&](const Side& from) {

@@ -20,13 +20,13 @@ constexpr double pi = std::numbers::pi;
 constexpr double flared_rad = 200.0 / 180 * pi;
 constexpr double spread_rad = 60.0 / 180 * pi;  // between the lines from the centre and the vertical, in the mean
 constexpr int waves = 3;
-constexpr double flat_m = 1e-3;  // panels that are folded or bent already are left alone,
-constexpr double upright = 0.3;  // and so are those whose normal leans by more than 17 degrees
-constexpr double round = 0.1;    // of the radius: how far the inner side may be from a circle
-constexpr double like = 0.1;     // of their angles: rings that can be one cone
+constexpr double flat_m = 1e-3;       // panels that are folded or bent already are left alone,
+constexpr double upright = 0.3;       // and so are those whose normal leans by more than 17 degrees
+constexpr double round_within = 0.1;  // of the radius: how far the inner side may be from a circle
+constexpr double like = 0.1;          // of their angles: rings that can be one cone
 constexpr double arc_share =
     0.85;  // a notch turns by half of what its three points are apart about their centre, an arc of seven edges by 6/7
-constexpr int samples = 2000;  // of the line on the sphere: no edge gets longer by more than 1e-4
+constexpr int arc_samples = 2000;  // of the line on the sphere: no edge gets longer by more than 1e-4
 
 struct Ring {
   Index panel = -1;
@@ -130,7 +130,7 @@ std::optional<Ring> ring_of(const GarmentMesh& garment, Index panel, std::span<c
   const Vec2 centre = centre_of(arc);
   for (const Vec2& p : arc) ring.inner_m += (p - centre).norm() / static_cast<double>(arc.size());
   for (const Vec2& p : arc)
-    if (std::abs((p - centre).norm() - ring.inner_m) > round * ring.inner_m) return std::nullopt;
+    if (std::abs((p - centre).norm() - ring.inner_m) > round_within * ring.inner_m) return std::nullopt;
   double along = 0;
   std::vector<double> angle{0};
   for (std::size_t k = 0; k + 1 < arc.size(); ++k) angle.push_back(along += turn(arc[k] - centre, arc[k + 1] - centre));
@@ -171,7 +171,7 @@ class Wave {
   }
 
  private:
-  static double psi(double k) { return -0.5 * pi + pi * k / samples; }
+  static double psi(double k) { return -0.5 * pi + pi * k / arc_samples; }
   Vec3 point(double psi) const {
     const double theta = spread_rad - height_rad_ * ieee_cos(2 * waves * (psi + 0.5 * pi));
     const double s = ieee_sin(theta);
@@ -179,7 +179,8 @@ class Wave {
   }
   void measure() {
     length_.assign(1, 0);
-    for (int k = 1; k <= samples; ++k) length_.push_back(length_.back() + (point(psi(k)) - point(psi(k - 1))).norm());
+    for (int k = 1; k <= arc_samples; ++k)
+      length_.push_back(length_.back() + (point(psi(k)) - point(psi(k - 1))).norm());
   }
 
   double height_rad_ = 0;

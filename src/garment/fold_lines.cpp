@@ -9,9 +9,9 @@
 namespace toile::internal {
 namespace {
 
-using Ring = std::vector<Index>;  // a piece's outline, as numbers of points
+using PieceOutline = std::vector<Index>;  // a piece's outline, as numbers of points
 
-double signed_area(const Ring& ring, const std::vector<Vec2>& points) {
+double signed_area(const PieceOutline& ring, const std::vector<Vec2>& points) {
   double twice = 0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec2 &p = points[at(ring[k])], &q = points[at(ring[(k + 1) % ring.size()])];
@@ -21,16 +21,16 @@ double signed_area(const Ring& ring, const std::vector<Vec2>& points) {
 }
 
 // Cuts the piece that has both ends of the line.  False for a line that runs outside: it leaves pieces of opposite orientation.
-bool cut(std::vector<Ring>& pieces, const FoldLine& line, const Ring& between, const std::vector<Vec2>& points,
-         const std::string& name) {
+bool cut(std::vector<PieceOutline>& pieces, const FoldLine& line, const PieceOutline& between,
+         const std::vector<Vec2>& points, const std::string& name) {
   if (line.from == line.to) throw FoldError(name, line, "two ends", "a line that ends where it begins");
-  for (Ring& piece : pieces) {
+  for (PieceOutline& piece : pieces) {
     auto from = std::find(piece.begin(), piece.end(), line.from);
     if (from == piece.end() || std::find(piece.begin(), piece.end(), line.to) == piece.end()) continue;
     std::rotate(piece.begin(), from, piece.end());
     const auto to = std::find(piece.begin(), piece.end(), line.to);
     // piece: from ... to ... ; the line goes from `from` to `to` through `between`.
-    Ring left(piece.begin(), to + 1), right(to, piece.end());
+    PieceOutline left(piece.begin(), to + 1), right(to, piece.end());
     left.insert(left.end(), between.rbegin(), between.rend());
     right.push_back(line.from);
     right.insert(right.end(), between.begin(), between.end());
@@ -55,11 +55,11 @@ FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<con
   }
   std::vector<Vec2>& points = folded.mesh.points;
   points.assign(outline.begin(), outline.end());
-  std::vector<Ring> pieces(1);
+  std::vector<PieceOutline> pieces(1);
   for (std::size_t i = 0; i < outline.size(); ++i) pieces[0].push_back(static_cast<Index>(i));
   std::optional<FoldError> outside;
   for (const FoldLine& line : lines) {
-    Ring between;
+    PieceOutline between;
     for (const Vec2& p : line.between) {
       between.push_back(static_cast<Index>(points.size()));
       points.push_back(p);
@@ -76,7 +76,7 @@ FoldedPlanarMesh triangulate_folded(std::span<const Vec2> outline, std::span<con
     edges.push_back({last, line.to});
     folded.line.push_back(std::move(edges));
   }
-  for (const Ring& piece : pieces) {
+  for (const PieceOutline& piece : pieces) {
     std::vector<Vec2> ring;
     for (const Index i : piece) ring.push_back(points[at(i)]);
     PlanarMesh mesh;

@@ -15,7 +15,7 @@ namespace {
 // of digitising by hand on a large panel.  But never half of the shorter edge that ends there.
 constexpr double gap_m = 0.002, gap_of_outline = 0.01, gap_of_edge = 0.5;
 // A choice is taken when it makes the seams fit this much better than the next best one.
-constexpr double clearly = 1.2;
+constexpr double clearly_dearer = 1.2;
 
 class OutlineLint {
  public:
@@ -234,7 +234,7 @@ class OutlineLint {
     bool known = along != against;
     if (!known) {  // the seams determine the direction
       const double cost = twist_cost(way, 1), other = twist_cost(way, -1);
-      known = std::max(cost, other) > clearly * std::min(cost, other);
+      known = std::max(cost, other) > clearly_dearer * std::min(cost, other);
       right_way = cost < other ? 1 : -1;
     }
     std::vector<Index> reversed;
@@ -362,7 +362,7 @@ class OutlineLint {
         }
       }
     }
-    if (swapped.first < 0 || !(next > clearly * best)) return;
+    if (swapped.first < 0 || !(next > clearly_dearer * best)) return;
     problem.finding.repair =
         "corners " + std::to_string(swapped.first) + " and " + std::to_string(swapped.second) + " change places";
     problem.mend = [panel = panel_.name, swapped](PatternRepair& repair) {

@@ -19,9 +19,9 @@ constexpr double other_length = 1.05;  // of one that does not fit
 constexpr double cheaper_by = 0.3;
 constexpr double misspelt_ratio =
     1.25;  // longer / shorter edge, where only the panel's name is wrong by at most half of its letters
-constexpr double clearly = 1.5;  // cost of the next best choice / of the best
+constexpr double clearly_worse = 1.5;  // cost of the next best choice / of the best
 // One of two seams that mirror each other is gathered and the other is not.
-constexpr double gathered = 1.5, mirrored_ratio = 1.06;
+constexpr double gathered_from = 1.5, mirrored_ratio = 1.06;
 // How far from the mirrored place one of a twin's edges may lie, and the other, which may have another length.
 constexpr double mirror_near_m = 0.03, mirror_reach_m = 0.15;
 constexpr std::size_t most_turned = 500;  // stitches, each turned in turn: the time goes with the square
@@ -128,7 +128,7 @@ class SeamLint {
         next = std::min(next, costs);
       }
     }
-    return next > clearly * best ? found : -1;
+    return next > clearly_worse * best ? found : -1;
   }
 
   void mend_side(LintProblem& problem, Index s, int side, Index panel, Index edge) const {
@@ -232,7 +232,7 @@ class SeamLint {
     if (of_later.edge < 0 || of_earlier.edge < 0) return;
     const double cost_later = cost(edge, of_later, later.right_wrong);
     const double cost_earlier = cost(edge, of_earlier, earlier.right_wrong);
-    if (std::max(cost_later, cost_earlier) < clearly * std::min(cost_later, cost_earlier)) return;
+    if (std::max(cost_later, cost_earlier) < clearly_worse * std::min(cost_later, cost_earlier)) return;
     const bool later_wrong = cost_later > cost_earlier;
     const Index wrong = later_wrong ? fault.index : fault.other;
     const Index free = fitting_edge(edge.panel, later_wrong ? of_later : of_earlier, stitch(wrong).right_wrong,
@@ -317,7 +317,7 @@ class SeamLint {
         next_gain = std::max(next_gain, gain);
       }
     }
-    const bool sure = best >= 0 && best_gain > clearly * next_gain;
+    const bool sure = best >= 0 && best_gain > clearly_worse * next_gain;
     const Index s = sure ? best : conflict;
     if (!context_.fitted[at(s)]) return;  // reported already
     LintProblem& problem = add(reason::seam_twisted, Severity::error, s, "seams that give the garment one right side",
@@ -379,7 +379,7 @@ class SeamLint {
   void check_twin(Index s) {
     if (!context_.fitted[at(s)] || is_dart(pattern_, stitch(s))) return;
     const double own = ratio(stitch(s).a, stitch(s).b);
-    if (own < gathered) return;
+    if (own < gathered_from) return;
     const auto& [a, b] = middles_[at(s)];
     const Vec3 mirrored_a(-a.x(), a.y(), a.z()), mirrored_b(-b.x(), b.y(), b.z());
     Index twin = -1;

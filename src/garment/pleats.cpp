@@ -64,10 +64,10 @@ std::optional<Pleat> pleat_of(const Pattern& pattern, const std::vector<std::siz
 }
 
 void lay_pleats(const ClothMesh& mesh, Index panel, std::span<Vec3> x) {
-  using Edge = std::pair<Index, Index>;
-  std::map<Edge, double> angle_of;
+  using PieceEdge = std::pair<Index, Index>;
+  std::map<PieceEdge, double> angle_of;
   for (const FoldedEdge& fold : mesh.folds) angle_of[std::minmax(fold.a, fold.b)] = fold.angle_rad;
-  std::map<Edge, std::vector<std::size_t>> beside;
+  std::map<PieceEdge, std::vector<std::size_t>> beside;
   std::vector<std::size_t> triangles;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (mesh.panel[t] != panel) continue;

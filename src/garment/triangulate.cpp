@@ -171,12 +171,12 @@ PlanarMesh equilateral_sheet(double width_m, double height_m, double edge_m) {
 PlanarQuality planar_quality(const PlanarMesh& mesh) {
   PlanarQuality quality;
   std::vector<double> angles;
-  struct Edge {
+  struct PlanarEdge {
     Index a, b;
-    bool operator<(const Edge& other) const { return a != other.a ? a < other.a : b < other.b; }
-    bool operator==(const Edge&) const = default;
+    bool operator<(const PlanarEdge& other) const { return a != other.a ? a < other.a : b < other.b; }
+    bool operator==(const PlanarEdge&) const = default;
   };
-  std::vector<Edge> edges;
+  std::vector<PlanarEdge> edges;
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Index i = t[k], j = t[(k + 1) % 3];
@@ -193,7 +193,7 @@ PlanarQuality planar_quality(const PlanarMesh& mesh) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   double sum = 0;
   quality.min_edge_m = std::numeric_limits<double>::infinity();
-  for (const Edge& e : edges) {
+  for (const PlanarEdge& e : edges) {
     const double length = (mesh.points[at(e.a)] - mesh.points[at(e.b)]).norm();
     sum += length;
     quality.min_edge_m = std::min(quality.min_edge_m, length);

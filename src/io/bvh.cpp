@@ -14,7 +14,7 @@
 namespace toile::internal {
 namespace {
 
-constexpr std::size_t most_joints = 10'000, most_channels = 6, file_limit = std::size_t{1} << 30;
+constexpr std::size_t most_joints = 10'000, most_channels = 6, bvh_limit = std::size_t{1} << 30;
 constexpr double longest_frame_s = 10, shortest_frame_s = 1e-4;
 constexpr double farthest = 1e9;  // of an offset or a position: no unit makes that a body
 constexpr double most_degrees = 1e6;
@@ -26,9 +26,9 @@ bool same_word(std::string_view a, std::string_view b) {
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f' || c == '\v'; }
 
 // The words of the text, with their lines.
-class Words {
+class BvhWords {
  public:
-  Words(std::string_view text, std::string_view file) : text_(text), file_(file) {
+  BvhWords(std::string_view text, std::string_view file) : text_(text), file_(file) {
     if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
   }
 
@@ -199,7 +199,7 @@ class BvhReader {
     return pose;
   }
 
-  Words words_;
+  BvhWords words_;
   std::string_view file_;
   BvhMotion motion_;
   std::vector<Channel> channels_;
@@ -210,7 +210,7 @@ class BvhReader {
 BvhMotion parse_bvh(std::string_view text, std::string_view file) { return BvhReader(text, file).read(); }
 
 BvhMotion load_bvh(const std::string& path, std::string& text) {
-  text = read_file(path, file_limit);
+  text = read_file(path, bvh_limit);
   return parse_bvh(text, printable(path));
 }
 

@@ -10,9 +10,9 @@
 namespace toile::internal {
 namespace {
 
-constexpr int most_sets = 8;                // of four joints and weights a vertex
-constexpr double sum_agrees = 1e-2;         // of weights that a byte each holds: 4 / 255 at worst, half of it usually
-constexpr std::size_t most_joints = 65536;  // what an index of two bytes reaches
+constexpr int most_sets = 8;         // of four joints and weights a vertex
+constexpr double sum_agrees = 1e-2;  // of weights that a byte each holds: 4 / 255 at worst, half of it usually
+constexpr std::size_t most_gltf_joints = 65536;  // what an index of two bytes reaches
 
 int attribute(const std::map<std::string, int>& attributes, const std::string& name) {
   const auto found = attributes.find(name);
@@ -32,8 +32,9 @@ Index GltfSkins::skin(int number, const std::string& place, Figure& figure) {
   if (!is_new) return known->second;
   const tinygltf::Skin& skin = model_->skins[at(number)];
   const std::string own = "/skins/" + std::to_string(number);
-  if (skin.joints.empty() || skin.joints.size() > most_joints)
-    throw InputError(file_, own + "/joints", "1 to " + std::to_string(most_joints), std::to_string(skin.joints.size()));
+  if (skin.joints.empty() || skin.joints.size() > most_gltf_joints)
+    throw InputError(file_, own + "/joints", "1 to " + std::to_string(most_gltf_joints),
+                     std::to_string(skin.joints.size()));
   FigureSkin read;
   for (const int joint : skin.joints) {
     if (joint < 0 || at(joint) >= figure.nodes.size())
@@ -45,7 +46,7 @@ Index GltfSkins::skin(int number, const std::string& place, Figure& figure) {
   unmoved.leftCols<3>().setIdentity();
   read.to_joint.assign(read.joints.size(), unmoved);
   if (skin.inverseBindMatrices >= 0) {
-    const std::vector<double> m = numbers_->read(skin.inverseBindMatrices, TINYGLTF_TYPE_MAT4, most_joints);
+    const std::vector<double> m = numbers_->read(skin.inverseBindMatrices, TINYGLTF_TYPE_MAT4, most_gltf_joints);
     if (m.size() / 16 < read.joints.size())
       throw InputError(file_, own + "/inverseBindMatrices", std::to_string(read.joints.size()) + ", one for each joint",
                        std::to_string(m.size() / 16));

@@ -9,6 +9,29 @@
 #include "io/json_line.hpp"
 
 namespace toile::internal {
+// Line and column of places in a text, asked for in increasing order.
+class LineCounter {
+ public:
+  LineCounter(const char* begin, int first_line) : at_(begin), line_(first_line) {}
+
+  void advance(const char* to) {
+    for (; at_ < to; ++at_) {
+      if (*at_ == '\n') {
+        ++line_;
+        column_ = 1;
+      } else if ((static_cast<unsigned char>(*at_) & 0xc0) != 0x80) {  // not a continuation byte of UTF-8
+        ++column_;
+      }
+    }
+  }
+  int line() const { return line_; }
+  int column() const { return column_; }
+
+ private:
+  const char* at_;
+  int line_, column_ = 1;
+};
+
 namespace {
 
 // How far the parser has read, shared by all copies of the iterator that it makes.
@@ -37,29 +60,6 @@ class ReadingIterator {
  private:
   const char* at_;
   const char** read_;
-};
-
-// Line and column of places in a text, asked for in increasing order.
-class LineCounter {
- public:
-  LineCounter(const char* begin, int first_line) : at_(begin), line_(first_line) {}
-
-  void advance(const char* to) {
-    for (; at_ < to; ++at_) {
-      if (*at_ == '\n') {
-        ++line_;
-        column_ = 1;
-      } else if ((static_cast<unsigned char>(*at_) & 0xc0) != 0x80) {  // not a continuation byte of UTF-8
-        ++column_;
-      }
-    }
-  }
-  int line() const { return line_; }
-  int column() const { return column_; }
-
- private:
-  const char* at_;
-  int line_, column_ = 1;
 };
 
 std::string place_in(std::string_view file, int line, int column) {

@@ -14,8 +14,8 @@
 namespace toile::internal {
 namespace {
 
-constexpr double sum_agrees = 1e-2;  // of a vertex' weights
-constexpr double farthest = 1e6;     // of a target's shift
+constexpr double weights_agree = 1e-2;  // of a vertex' weights
+constexpr double farthest_shift = 1e6;  // of a target's shift
 constexpr std::size_t most_bones = 10'000;
 
 // The bones of a rig; newer files have them under a key.
@@ -122,7 +122,7 @@ std::vector<std::vector<Influence>> read_weights(const Json& file, const RigRead
       const double weight = pair.array()[1].number();
       if (vertex < 0 || static_cast<std::size_t>(vertex) >= vertices)
         pair.fail("a vertex below " + std::to_string(vertices), std::to_string(vertex));
-      if (!(weight >= 0 && weight <= farthest)) pair.fail("a weight of 0 or more", pair.array()[1].describe());
+      if (!(weight >= 0 && weight <= farthest_shift)) pair.fail("a weight of 0 or more", pair.array()[1].describe());
       if (weight > 0) of[static_cast<std::size_t>(vertex)].push_back({bone, weight});
     }
   }
@@ -137,7 +137,7 @@ void add_weights(const std::vector<std::vector<Influence>>& of, Index first_bone
     double sum = 0;
     for (const Influence& one : own) sum += one.weight;
     if (own.empty()) figure.influences.push_back({first_bone, 1});
-    if (!own.empty() && std::abs(sum - 1) > sum_agrees) ++divided;
+    if (!own.empty() && std::abs(sum - 1) > weights_agree) ++divided;
     for (const Influence& one : own) figure.influences.push_back({one.joint, one.weight / sum});
     figure.first_influence.push_back(figure.influences.size());
   }
@@ -172,7 +172,7 @@ void apply_target(std::string_view text, std::string_view file, double share, Su
     for (Eigen::Index k = 0; k < 3; ++k) {
       skip();
       const auto [stop, wrong] = std::from_chars(line.data(), line.data() + line.size(), shift[k]);
-      if (wrong != std::errc() || !(std::abs(shift[k]) <= farthest)) fail("three numbers after the vertex");
+      if (wrong != std::errc() || !(std::abs(shift[k]) <= farthest_shift)) fail("three numbers after the vertex");
       line.remove_prefix(static_cast<std::size_t>(stop - line.data()));
     }
     skip();

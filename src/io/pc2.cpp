@@ -26,14 +26,14 @@ struct Header {
 };
 static_assert(sizeof(Header) == 32 && offsetof(Header, samples) == 28);
 
-constexpr char magic[12] = "POINTCACHE2";
+constexpr char pc2_magic[12] = "POINTCACHE2";
 
 // Bytes of one frame; fits, as points < 2^31.
 std::uint64_t frame_bytes(Index points) { return static_cast<std::uint64_t>(points) * 3 * sizeof(float); }
 
 Header header_of(Index points, float start, float rate, std::int32_t samples) {
   Header header{};
-  std::memcpy(header.magic, magic, sizeof magic);
+  std::memcpy(header.magic, pc2_magic, sizeof pc2_magic);
   header.version = 1;
   header.points = points;
   header.start = start;
@@ -131,8 +131,8 @@ void Pc2Reader::read_header(std::uint64_t size_bytes) {
   Header header{};
   if (size_bytes < sizeof header) refuse("header", "32 bytes", std::to_string(size_bytes));
   if (std::fread(&header, sizeof header, 1, file_) != 1) throw IoError(path_, "cannot read the header");
-  if (std::memcmp(header.magic, magic, sizeof magic) != 0) {
-    refuse("header", "\"POINTCACHE2\"", '"' + printable(std::string_view(header.magic, sizeof magic)) + '"');
+  if (std::memcmp(header.magic, pc2_magic, sizeof pc2_magic) != 0) {
+    refuse("header", "\"POINTCACHE2\"", '"' + printable(std::string_view(header.magic, sizeof pc2_magic)) + '"');
   }
   if (header.version != 1) refuse("version", "1", std::to_string(header.version));
   if (header.points < 0) refuse("points", "a number >= 0", std::to_string(header.points));

@@ -34,7 +34,7 @@ std::string identifier(std::string_view name, std::set<std::string>& taken) {
   return unique;
 }
 
-std::string in_quotes(std::string_view name) {
+std::string usd_string(std::string_view name) {
   std::string text = "\"";
   for (const char c : name_on_one_line(name)) {
     if (c == '"' || c == '\\') text += '\\';
@@ -199,7 +199,7 @@ class UsdText {
   }
 
   bool write_mesh(const SurfaceSequence& surface, const UsdMesh& mesh) {
-    text_ += "    def Mesh \"" + mesh.identifier + "\" (\n        displayName = " + in_quotes(mesh.name) +
+    text_ += "    def Mesh \"" + mesh.identifier + "\" (\n        displayName = " + usd_string(mesh.name) +
              "\n    )\n    {\n";
     text_ += "        uniform bool doubleSided = 1\n        uniform token subdivisionScheme = \"none\"\n";
     text_ += "        int[] faceVertexCounts = ";
@@ -273,7 +273,7 @@ class UsdText {
     for (const Subset& subset : mesh.subsets) {
       text_ += "\n        def GeomSubset \"" + subset.identifier +
                "\" (\n            prepend apiSchemas = [\"MaterialBindingAPI\"]\n            displayName = " +
-               in_quotes(subset.name) +
+               usd_string(subset.name) +
                "\n        )\n        {\n            uniform token elementType = \"face\"\n"
                "            uniform token familyName = \"materialBind\"\n            int[] indices = ";
       add_indices(text_, subset.faces);

@@ -39,6 +39,8 @@ float shoulder(float x) {
 // IEC 61966-2-1.
 float srgb_encoded(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f; }
 
+}  // namespace
+
 // The two curves above in a table: three powers per channel and pixel cost more than the smoothing.
 class ToneCurve {
  public:
@@ -62,8 +64,6 @@ class ToneCurve {
   static constexpr float exposure = 1.06f;
   std::array<float, steps + 1> table_{};
 };
-
-}  // namespace
 
 std::array<Vec3, 2> bounds(const PreviewScene& scene) {
   constexpr double inf = std::numeric_limits<double>::infinity();

@@ -15,7 +15,7 @@ struct PartNames {
   std::array<std::string_view, 6> words;  // the better first
 };
 
-constexpr std::array<PartNames, body_parts> known = {
+constexpr std::array<PartNames, body_part_count> known = {
     {{BodyPart::hips, false, {"hips", "pelvis", "hip", "root"}},
      {BodyPart::spine, false, {"spine", "lowerback", "torso", "chest", "abdomen", "upperchest"}},
      {BodyPart::neck, false, {"neck"}},
@@ -110,7 +110,7 @@ class Finder {
 }  // namespace
 
 std::string_view to_string(BodyPart part) {
-  static constexpr std::array<std::string_view, body_parts> names = {
+  static constexpr std::array<std::string_view, body_part_count> names = {
       "hips", "spine", "neck", "head", "collar", "upper arm", "forearm", "hand", "thigh", "shank", "foot", "toes"};
   return names[static_cast<std::size_t>(part)];
 }

@@ -16,12 +16,12 @@
 namespace toile::internal {
 
 enum class BodyPart { hips, spine, neck, head, collar, upper_arm, forearm, hand, thigh, shank, foot, toes };
-inline constexpr std::size_t body_parts = 12;
+inline constexpr std::size_t body_part_count = 12;
 std::string_view to_string(BodyPart part);
 
 struct PersonBones {
   // [part][0: left or in the middle, 1: right]; -1: not found.  Of several that fit, the one nearest to the root.
-  std::array<std::array<Index, 2>, body_parts> node{};
+  std::array<std::array<Index, 2>, body_part_count> node{};
   std::vector<Index> spine;  // from the hips up
 
   Index of(BodyPart part, std::size_t side = 0) const { return node[static_cast<std::size_t>(part)][side]; }

@@ -149,7 +149,7 @@ class Retargeting {
   void pair_bones() {
     pair_.assign(target_.figure().nodes.size(), -1);
     std::vector<char> has_part(target_.figure().nodes.size(), 0), source_has(source_.figure().nodes.size(), 0);
-    for (std::size_t k = 0; k < body_parts; ++k)
+    for (std::size_t k = 0; k < body_part_count; ++k)
       for (std::size_t side = 0; side < 2; ++side) pair(static_cast<BodyPart>(k), side, has_part, source_has);
     const std::vector<Index>&own = target_.bones().spine, &given = source_.bones().spine;
     for (std::size_t i = 0; i < own.size(); ++i) {
@@ -256,7 +256,7 @@ class Retargeting {
       difference_[at(node)] = turn;
       given[at(node)] = 1;
     };
-    for (std::size_t k = 0; k < body_parts; ++k)
+    for (std::size_t k = 0; k < body_part_count; ++k)
       for (std::size_t side = 0; side < 2; ++side) set(static_cast<BodyPart>(k), side, {});
     for (const Index node : target_.bones().spine) given[at(node)] = 1;
     for (std::size_t side = 0; side < 2; ++side) {

@@ -47,7 +47,7 @@ void check_length(std::string_view key, std::string_view what, double length_m) 
                    fmt::sprintf("%.4g m", length_m));
 }
 
-Vec2 upright(const Vec2& p) { return {p.y(), -p.x()}; }
+Vec2 warp_upright(const Vec2& p) { return {p.y(), -p.x()}; }
 
 MeshedCloth drawn(const ClothRectangle& rectangle, const SceneCloth& whole,
                   const std::function<Vec2(const Vec2&)>& grain, const std::function<Vec3(const Vec2&)>& where) {

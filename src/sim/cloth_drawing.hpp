@@ -24,7 +24,7 @@ struct ClothRectangle {
   bool joined = false;  // the side at the largest x is the one at x = 0
 };
 // Grain up, as in panels.
-Vec2 upright(const Vec2& p);
+Vec2 warp_upright(const Vec2& p);
 // The rectangle in triangles: `where` places a point of it, and `grain` is its (u, v).  Throws InputError if it has no area once placed.
 MeshedCloth drawn(const ClothRectangle& rectangle, const SceneCloth& whole,
                   const std::function<Vec2(const Vec2&)>& grain, const std::function<Vec3(const Vec2&)>& where);

@@ -24,7 +24,7 @@ namespace {
 // A drawing in metres has the surface's area, but for ease and gathers; a texture's is off with the size of the garment.
 constexpr double metric_ratio = 1.5;
 // Relative to a triangle's longer sides; below this it has no area in the drawing.
-constexpr double flat = 1e-9;
+constexpr double flat_share = 1e-9;
 
 using Corners = std::array<Vec2, 3>;
 
@@ -35,7 +35,7 @@ double twice_area(const Corners& uv) {
 
 bool has_area(const Corners& uv) {
   const double longest = std::max((uv[1] - uv[0]).squaredNorm(), (uv[2] - uv[0]).squaredNorm());
-  return std::abs(twice_area(uv)) > flat * longest;
+  return std::abs(twice_area(uv)) > flat_share * longest;
 }
 
 // [triangle] (u, v) of the drawing; empty when a face has no vt.

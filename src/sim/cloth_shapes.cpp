@@ -21,7 +21,7 @@ ClothSize size_of(const SceneTube& tube) {
 
 MeshedCloth load(const SceneGrid& grid, const SceneCloth& whole, const TextSource&) {
   const Vec2 middle(0.5 * grid.width_m, 0.5 * grid.height_m);
-  return drawn({grid.width_m, grid.height_m, grid.edge_m}, whole, upright, [&](const Vec2& p) {
+  return drawn({grid.width_m, grid.height_m, grid.edge_m}, whole, warp_upright, [&](const Vec2& p) {
     const Vec2 q = p - middle;
     return Vec3(q.x(), q.y(), 0);
   });
@@ -30,7 +30,7 @@ MeshedCloth load(const SceneGrid& grid, const SceneCloth& whole, const TextSourc
 MeshedCloth load(const SceneTube& tube, const SceneCloth& whole, const TextSource&) {
   const double around_m = 2 * std::numbers::pi * tube.radius_m;
   check_length("radius_m", "around it", around_m);
-  return drawn({around_m, tube.length_m, tube.edge_m, true}, whole, upright, [&](const Vec2& p) {
+  return drawn({around_m, tube.length_m, tube.edge_m, true}, whole, warp_upright, [&](const Vec2& p) {
     const double angle = p.x() / tube.radius_m;  // from z to x: to the right, seen from outside
     return Vec3(tube.radius_m * ieee_sin(angle), p.y() - 0.5 * tube.length_m, tube.radius_m * ieee_cos(angle));
   });

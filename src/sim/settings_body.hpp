@@ -76,7 +76,7 @@ void describe(V& v, SceneCollider& collider) {
   v.number({"edge_m", "edge length of curved shapes"}, {5e-4, 10}, collider.edge_m);
   if (!collider.worn) {
     v.flag({"inside_out", "a room"}, collider.inside_out);
-    Placement placement{collider.translation_m, collider.rotation_deg};
+    PlacementSettings placement{collider.translation_m, collider.rotation_deg};
     v.object({"placement", "where it stands", "around the origin"}, placement);
     v.list({"moves", "how it moves, about its `translation_m`: [below](#moves)", "it stands still"},
            collider.moves.keys(), 1);

@@ -22,13 +22,13 @@ void describe_times_and_place(V& row, double& t_s, Vec3& x_m) {
 }
 inline constexpr auto path_row = [](auto& row, VectorKey& key) { describe_times_and_place(row, key.t_s, key.x); };
 
-struct Placement {  // of a cloth or a solid
+struct PlacementSettings {  // of a cloth or a solid
   Vec3 &translation_m, &rotation_deg;
 };
 template <>
-inline constexpr std::string_view shared_name<Placement> = "placement";
+inline constexpr std::string_view shared_name<PlacementSettings> = "placement";
 template <class V>
-void describe(V& v, Placement& placement) {
+void describe(V& v, PlacementSettings& placement) {
   v.vector({"translation_m", "where its origin goes"}, anywhere, placement.translation_m);
   v.vector({"rotation_deg", "turned first, R = Rz Ry Rx; [-90, 0, 0] lays a grid down, right side up"}, {-1e4, 1e4},
            placement.rotation_deg);
@@ -182,7 +182,7 @@ void describe(V& v, SceneCloth& cloth) {
       {"panels", "what some panels have of their own, by their names ([extension](pattern-format.md#the-extension))",
        "the pattern's"},
       cloth.panels, &ScenePanel::name);
-  Placement placement{cloth.translation_m, cloth.rotation_deg};
+  PlacementSettings placement{cloth.translation_m, cloth.rotation_deg};
   v.object({"placement", "where the drawing goes", "as drawn"}, placement);
   v.heights({"label_heights_m",
              "y at which edges with a label are held, from the end of the sewing until half a second after the weld",

@@ -26,7 +26,7 @@ constexpr double farthest_drawing_m =
     0.02;  // a point of the drawing may lie outside the other mesh by a curve's sagitta
 constexpr double farthest_body_m = 1e-3;
 
-Vec3 flat(const Vec2& p) { return {p.x(), p.y(), 0}; }
+Vec3 in_plane(const Vec2& p) { return {p.x(), p.y(), 0}; }
 
 // Finds the triangle of a point of the drawing in one panel of the run.
 class PanelDrawing {
@@ -82,7 +82,8 @@ class PanelDrawing {
   }
   void try_triangle(std::size_t t, const Vec2& p, Place& best) const {
     const double distance = std::sqrt(
-        closest_vertex_triangle(flat(p), flat(corner(t, 0)), flat(corner(t, 1)), flat(corner(t, 2))).distance2);
+        closest_vertex_triangle(in_plane(p), in_plane(corner(t, 0)), in_plane(corner(t, 1)), in_plane(corner(t, 2)))
+            .distance2);
     if (!(distance < best.distance_m)) return;
     best.triangle = t;
     best.distance_m = distance;

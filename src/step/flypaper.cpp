@@ -13,7 +13,7 @@ constexpr double ends_above = 2.2;                    // r
 constexpr double parts_above = 1;                     // r
 constexpr double room_above = 0.5, room_again = 0.6;  // r
 constexpr double closes_by = 1e-3;                    // r per step: less is rounding, or a narrow place that turns
-constexpr std::size_t grain = 256;
+constexpr std::size_t flypaper_grain = 256;
 
 }  // namespace
 
@@ -79,7 +79,7 @@ void Flypaper::detect(const ClothState& state, std::span<const BodyPoint> neares
       candidates_.push_back({static_cast<Index>(i), {nearest[i], {}}});
     }
     begun_.assign(candidates_.size(), 0);
-    parallel_for(candidates_.size(), grain, [&](std::size_t k) {
+    parallel_for(candidates_.size(), flypaper_grain, [&](std::size_t k) {
       begun_[k] = begins(candidates_[k], state.x[at(candidates_[k].particle)]) ? 1 : 0;
     });
     for (std::size_t k = 0; k < candidates_.size(); ++k)

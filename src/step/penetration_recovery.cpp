@@ -10,7 +10,7 @@ namespace {
 constexpr double farthest_in_m = 0.3;  // deeper than any limb
 constexpr double out_in_s = 0.25, slowest_m_per_s = 0.1, fastest_m_per_s = 0.5;
 constexpr double drag_per_s = 500;
-constexpr std::size_t grain = 64;
+constexpr std::size_t particle_grain = 64;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ void PenetrationRecovery::detect(std::span<const Vec3> x, const BodyConstraints&
   const std::span<const BodyPoint> known = constraints.points();
   nearest_.resize(x.size());
   has_way_out_.assign(x.size(), 0);
-  parallel_for(x.size(), grain, [&](std::size_t i) {
+  parallel_for(x.size(), particle_grain, [&](std::size_t i) {
     BodyPoint& near = nearest_[i];
     near = known[i].triangle < 0 ? body_->nearest(x[i], farthest_in_m) : known[i];
     if (near.triangle < 0 || !constraints.too_deep(near)) return;
@@ -41,7 +41,7 @@ void PenetrationRecovery::detect(std::span<const Vec3> x, const BodyConstraints&
   if (any_) return;
   // A particle in front of one part and within another: the nearest point does not show it.
   std::vector<char>& within = has_way_out_;
-  parallel_for(x.size(), grain, [&](std::size_t i) { within[i] = body_->winding_number(x[i]) > 0 ? 1 : 0; });
+  parallel_for(x.size(), particle_grain, [&](std::size_t i) { within[i] = body_->winding_number(x[i]) > 0 ? 1 : 0; });
   any_ = std::find(within.begin(), within.end(), 1) != within.end();
 }
 

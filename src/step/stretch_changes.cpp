@@ -8,7 +8,7 @@
 namespace toile::internal {
 namespace {
 
-constexpr std::size_t grain = 1024;
+constexpr std::size_t element_grain = 1024;
 
 }  // namespace
 
@@ -17,14 +17,16 @@ StretchChanges::StretchChanges(const ClothModel& model, const Elements& elements
       elements_(&elements),
       start_(model.mesh.triangles.size()),
       end_(start_.size()),
-      of_blocks_((start_.size() + grain - 1) / grain) {}
+      of_blocks_((start_.size() + element_grain - 1) / element_grain) {}
 
 void StretchChanges::begin(std::span<const Vec3> x) { elements_->stretch(x, start_); }
 
 StretchChange StretchChanges::largest(std::span<const Vec3> x) {
   elements_->stretch(x, end_);
-  const auto block = [&](std::size_t begin, std::size_t end) { of_blocks_[begin / grain] = largest_of(begin, end); };
-  parallel_blocks(start_.size(), grain, std::cref(block));  // by reference: no copy of the lambda on the heap
+  const auto block = [&](std::size_t begin, std::size_t end) {
+    of_blocks_[begin / element_grain] = largest_of(begin, end);
+  };
+  parallel_blocks(start_.size(), element_grain, std::cref(block));  // by reference: no copy of the lambda on the heap
   StretchChange largest;
   for (const StretchChange& of_block : of_blocks_) {
     if (of_block.farthest > largest.farthest) {

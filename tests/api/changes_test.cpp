@@ -14,17 +14,17 @@ namespace {
 
 using test::Arrays;
 
-constexpr double radians = std::numbers::pi / 180, angle_deg = 20;
+constexpr double slope_radians = std::numbers::pi / 180, slope_deg = 20;
 
 Body slope() {
   Body solid = Body::box({4, 0.2, 0.4});
-  solid.place({0, 0, 0}, {0, 0, angle_deg}).set_friction(0.6);
+  solid.place({0, 0, 0}, {0, 0, slope_deg}).set_friction(0.6);
   return solid;
 }
 
 Cloth on_slope() {
   Arrays arrays = test::level_sheet(6, 0.02, 0.1 + 2.5e-3);
-  const double c = std::cos(angle_deg * radians), s = std::sin(angle_deg * radians);
+  const double c = std::cos(slope_deg * slope_radians), s = std::sin(slope_deg * slope_radians);
   for (Point& p : arrays.vertices_m) p = {c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]};
   return Cloth::from_arrays({.vertices_m = arrays.vertices_m, .faces = arrays.faces});
 }
@@ -41,14 +41,14 @@ TEST(Changes, ASheetBeginsToSlideWhenItsFrictionIsGone) {
   Simulation sim(std::span(&cloth, 1), Body::none(), std::span(&solid, 1), {.air_density_kg_per_m3 = 0});
   for (int k = 0; k < 20; ++k) ASSERT_TRUE(sim.advance(1.0 / 60).ok());
   const double stuck = mean_x(sim);
-  EXPECT_NEAR(stuck, -0.1025 * std::sin(angle_deg * radians), 1e-3);
+  EXPECT_NEAR(stuck, -0.1025 * std::sin(slope_deg * slope_radians), 1e-3);
   sim.set_friction(0, 0.1);
   const State changed = sim.state();
   const auto slide = [](Simulation& one) {
     for (int k = 0; k < 20; ++k) ASSERT_TRUE(one.advance(1.0 / 60).ok());
   };
   slide(sim);
-  const double t_s = 20 / 60.0, c = std::cos(angle_deg * radians), s = std::sin(angle_deg * radians);
+  const double t_s = 20 / 60.0, c = std::cos(slope_deg * slope_radians), s = std::sin(slope_deg * slope_radians);
   EXPECT_NEAR((stuck - mean_x(sim)) / (0.5 * 9.81 * (s - 0.1 * c) * t_s * t_s * c), 1, 0.1);
   Simulation other(std::span(&cloth, 1), Body::none(), std::span(&solid, 1), {.air_density_kg_per_m3 = 0});
   other.set_state(changed);

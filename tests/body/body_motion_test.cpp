@@ -84,7 +84,7 @@ void write_objs(const Folder& folder, int first, int frames, const Path& path) {
 
 Vec3 along_z(int f) { return {0, 0, 0.02 * f}; }
 
-std::vector<Vec3> at(const BodyMotion& motion, double t) {
+std::vector<Vec3> positions_at(const BodyMotion& motion, double t) {
   std::vector<Vec3> x(motion.vertex_count());
   motion.positions(t, x);
   return x;
@@ -115,7 +115,7 @@ TEST(BodyMotion, GoesExactlyThroughSamplesAndStraightBetweenThoseOfAnEvenPath) {
   EXPECT_EQ(motion.lead_in_s(), 0);      // the first sample is the drape pose
   EXPECT_NEAR(motion.duration_s(), 5 / 30.0, 1e-12);
   for (const double frame : {0.0, 1.0, 2.4, 3.0, 4.9, 5.0, 7.0}) {
-    const auto x = at(motion, frame / 30);
+    const auto x = positions_at(motion, frame / 30);
     for (std::size_t i = 0; i < 8; ++i)
       EXPECT_LT((x[i] - body.positions[i] - Vec3(0, 0, 0.02 * std::min(frame, 5.0))).norm(), 1e-6) << frame;
   }
@@ -129,16 +129,19 @@ TEST(BodyMotion, HasContinuousVelocityThroughSamplesOfACrookedPath) {
   const double h = 1e-5;
   for (int f = 1; f < 8; ++f) {
     const double t = f / 30.0;
-    const Vec3 before = (at(motion, t)[3] - at(motion, t - h)[3]) / h,
-               after = (at(motion, t + h)[3] - at(motion, t)[3]) / h;
+    const Vec3 before = (positions_at(motion, t)[3] - positions_at(motion, t - h)[3]) / h,
+               after = (positions_at(motion, t + h)[3] - positions_at(motion, t)[3]) / h;
     EXPECT_LT((after - before).norm(), 0.02) << f;
     const Vec3 slope = (crooked(f + 1) - crooked(f - 1)) * 15;
     EXPECT_LT((after - slope).norm(), 0.02) << f;
   }
   // One-sided at the ends.
-  EXPECT_LT(((at(motion, h)[0] - at(motion, 0)[0]) / h - 30 * (crooked(1) - crooked(0))).norm(), 0.02);
-  EXPECT_LT(((at(motion, 8 / 30.0)[0] - at(motion, 8 / 30.0 - h)[0]) / h - 30 * (crooked(8) - crooked(7))).norm(),
+  EXPECT_LT(((positions_at(motion, h)[0] - positions_at(motion, 0)[0]) / h - 30 * (crooked(1) - crooked(0))).norm(),
             0.02);
+  EXPECT_LT(
+      ((positions_at(motion, 8 / 30.0)[0] - positions_at(motion, 8 / 30.0 - h)[0]) / h - 30 * (crooked(8) - crooked(7)))
+          .norm(),
+      0.02);
 }
 
 TEST(BodyMotion, LeadsInFromTheDrapePoseAtRestAndMeetsTheSamplesOnTime) {
@@ -151,16 +154,19 @@ TEST(BodyMotion, LeadsInFromTheDrapePoseAtRestAndMeetsTheSamplesOnTime) {
   const CollisionBody body = figure_body();
   EXPECT_EQ(motion.lead_in_s(), 0.8);
   EXPECT_NEAR(motion.duration_s(), 0.8 + 39 / 30.0, 1e-12);
-  EXPECT_EQ(at(motion, 0)[5], body.positions[5]);
-  EXPECT_EQ(at(motion, -1)[5], body.positions[5]);
+  EXPECT_EQ(positions_at(motion, 0)[5], body.positions[5]);
+  EXPECT_EQ(positions_at(motion, -1)[5], body.positions[5]);
   for (const int f : {5, 6, 20, 39})
-    EXPECT_LT((at(motion, 0.8 + f / 30.0)[5] - body.positions[5] - elsewhere(f)).norm(), 1e-6) << f;
+    EXPECT_LT((positions_at(motion, 0.8 + f / 30.0)[5] - body.positions[5] - elsewhere(f)).norm(), 1e-6) << f;
   // At rest first, then no jump of velocity anywhere until the end: accelerations stay near those of the blend.
   const double h = 1e-3;
-  EXPECT_LT((at(motion, h)[5] - at(motion, 0)[5]).norm() / h, 1e-3);
+  EXPECT_LT((positions_at(motion, h)[5] - positions_at(motion, 0)[5]).norm() / h, 1e-3);
   double hardest = 0;
   for (double t = h; t < motion.duration_s() - 2 * h; t += h)
-    hardest = std::max(hardest, (at(motion, t + h)[5] - 2 * at(motion, t)[5] + at(motion, t - h)[5]).norm() / (h * h));
+    hardest = std::max(
+        hardest,
+        (positions_at(motion, t + h)[5] - 2 * positions_at(motion, t)[5] + positions_at(motion, t - h)[5]).norm() /
+            (h * h));
   EXPECT_LT(hardest, 15);
 }
 
@@ -172,7 +178,7 @@ TEST(BodyMotion, ReadsNumberedObjFilesFromAFolderAndByPattern) {
     const BodyMotion motion = BodyMotion::from_files(path, body, {});
     EXPECT_NEAR(motion.duration_s(), 4 / 30.0, 1e-12) << path;
     EXPECT_EQ(std::vector<Triangle>(motion.triangles().begin(), motion.triangles().end()), body.triangles);
-    EXPECT_LT((at(motion, 3 / 30.0)[2] - body.positions[2] - along_z(3)).norm(), 1e-6) << path;
+    EXPECT_LT((positions_at(motion, 3 / 30.0)[2] - body.positions[2] - along_z(3)).norm(), 1e-6) << path;
   }
 }
 
@@ -262,7 +268,7 @@ TEST(BodyMotion, ConvertsUnitsAndSuspectsAForgottenOne) {
   SampleOptions options;
   options.unit = LengthUnit::cm;
   const BodyMotion motion = BodyMotion::from_pc2(folder / "walk.pc2", figure_body(), options);
-  EXPECT_LT((at(motion, 1 / 15.0)[0] - figure_body().positions[0] - Vec3(0.04, 0, 0)).norm(), 1e-6);
+  EXPECT_LT((positions_at(motion, 1 / 15.0)[0] - figure_body().positions[0] - Vec3(0.04, 0, 0)).norm(), 1e-6);
 }
 
 TEST(BodyMotion, ReadsMdd) {
@@ -271,7 +277,7 @@ TEST(BodyMotion, ReadsMdd) {
   for (int f = 0; f < 3; ++f) writer.append(moved(figure(), along_z(f)).positions);
   writer.commit();
   const BodyMotion motion = BodyMotion::from_files(folder / "walk.mdd", figure_body(), {});
-  EXPECT_LT((at(motion, 1 / 30.0)[4] - figure_body().positions[4] - along_z(1)).norm(), 1e-6);
+  EXPECT_LT((positions_at(motion, 1 / 30.0)[4] - figure_body().positions[4] - along_z(1)).norm(), 1e-6);
 }
 
 TEST(BodyMotion, ABodyMayBeCarriedFasterThanItsLimbsMove) {
@@ -290,7 +296,7 @@ TEST(BodyMotion, TurnsSamplesWithOtherAxesThanTheBody) {
   for (const Vec3& p : figure().positions) z_up.emplace_back(p.x(), -p.z(), p.y());
   write_pc2(folder / "z_up.pc2", z_up, 3, [](int f) { return Vec3(0, 0, 0.01 * f); });
   const BodyMotion motion = BodyMotion::from_pc2(folder / "z_up.pc2", figure_body(), {});
-  EXPECT_LT((at(motion, 2 / 30.0)[4] - figure_body().positions[4] - Vec3(0, 0.02, 0)).norm(), 1e-6);
+  EXPECT_LT((positions_at(motion, 2 / 30.0)[4] - figure_body().positions[4] - Vec3(0, 0.02, 0)).norm(), 1e-6);
   ASSERT_EQ(motion.notes().size(), 1u);
   EXPECT_TRUE(says(motion.notes()[0], {"z_up.pc2: z is up in it", "(x, z, -y)"}));
   // And those of a file that is turned itself: the whole file as it is, or upright already, as Toile writes it.
@@ -301,7 +307,7 @@ TEST(BodyMotion, TurnsSamplesWithOtherAxesThanTheBody) {
   EXPECT_TRUE(BodyMotion::from_pc2(folder / "z_up.pc2", body, {}).notes().empty());
   write_pc2(folder / "upright.pc2", body.positions, 3, along_z);
   const BodyMotion upright = BodyMotion::from_pc2(folder / "upright.pc2", body, {});
-  EXPECT_LT((at(upright, 1 / 30.0)[4] - body.positions[4] - along_z(1)).norm(), 1e-6);
+  EXPECT_LT((positions_at(upright, 1 / 30.0)[4] - body.positions[4] - along_z(1)).norm(), 1e-6);
   EXPECT_EQ(upright.notes().size(), 1u);
 }
 
@@ -322,7 +328,7 @@ TEST(BodyMotion, TakesSamplesOfTheBodyAlone) {
   const Folder folder;
   write_pc2(folder / "walk.pc2", figure_body().positions, 3, along_z);
   const BodyMotion motion = BodyMotion::from_pc2(folder / "walk.pc2", figure_body(), {});
-  EXPECT_LT((at(motion, 1 / 30.0)[4] - figure_body().positions[4] - along_z(1)).norm(), 1e-6);
+  EXPECT_LT((positions_at(motion, 1 / 30.0)[4] - figure_body().positions[4] - along_z(1)).norm(), 1e-6);
 }
 
 TEST(BodyMotion, RefusesOptionsOutOfRange) {
@@ -369,11 +375,11 @@ TEST(BodyMotion, OfAMannequinIsItsMotion) {
   const BodyMotion motion = BodyMotion::of_mannequin(m, walk);
   EXPECT_TRUE(std::isinf(motion.duration_s()));
   EXPECT_EQ(motion.triangles().size(), m.triangles.size());
-  const auto start = at(motion, 0);
+  const auto start = positions_at(motion, 0);
   for (std::size_t i = 0; i < start.size(); ++i) ASSERT_EQ(start[i], m.positions[i]);
   std::vector<Vec3> expected(m.positions.size());
   SkinnedBody(m).positions(walk.at(1.37), expected);
-  EXPECT_EQ(at(motion, 1.37), expected);
+  EXPECT_EQ(positions_at(motion, 1.37), expected);
   EXPECT_TRUE(says(complaint([&] { BodyMotion::of_mannequin(m, Motion::named("walk", MannequinKind::man)); }),
                    {"one for the man"}));
   std::vector<Vec3> few(3);
@@ -387,7 +393,7 @@ TEST(BodyMotion, AWalkSampledAt60HzIsTheWalk) {
   const BodyMotion walk = BodyMotion::of_mannequin(m, Motion::named("walk", MannequinKind::dancer));
   std::filesystem::remove(folder / "walk.pc2");
   Pc2Writer writer(folder / "walk.pc2", static_cast<Index>(m.positions.size()), 0, 1);
-  for (int f = 0; f <= 120; ++f) writer.append(at(walk, f / 60.0));
+  for (int f = 0; f <= 120; ++f) writer.append(positions_at(walk, f / 60.0));
 
   SampleOptions options;
   options.rate_hz = 60;
@@ -395,7 +401,7 @@ TEST(BodyMotion, AWalkSampledAt60HzIsTheWalk) {
   EXPECT_EQ(sampled.lead_in_s(), 0);
   double apart = 0;
   for (const double t : {0.4123, 0.9, 1.3777, 1.7}) {
-    const auto x = at(sampled, t), y = at(walk, t);
+    const auto x = positions_at(sampled, t), y = positions_at(walk, t);
     for (std::size_t i = 0; i < x.size(); ++i) apart = std::max(apart, (x[i] - y[i]).norm());
   }
   EXPECT_LT(apart, 1e-3);
@@ -405,8 +411,8 @@ TEST(BodyMotion, IsTheSameOnOneThreadAndOnMany) {
   const Folder folder;
   write_objs(folder, 0, 5, [](int f) { return Vec3(0.1 * (f % 2), 0, 0.03 * f); });
   const BodyMotion motion = BodyMotion::from_files(folder.path(), figure_body(), {});
-  const auto many = at(motion, 0.071);
-  with_threads(1, [&] { EXPECT_EQ(at(motion, 0.071), many); });
+  const auto many = positions_at(motion, 0.071);
+  with_threads(1, [&] { EXPECT_EQ(positions_at(motion, 0.071), many); });
 }
 
 // A real body: MakeHuman's base mesh with its helpers, in decimetres, as a sequence of its own file.
@@ -420,7 +426,7 @@ TEST(BodyMotion, SelectsTheBodyOfMakeHumansBaseMeshFromEachSample) {
   SampleOptions options;
   options.unit = LengthUnit::dm;
   const BodyMotion motion = BodyMotion::from_pc2(folder / "base.pc2", body, options);
-  const auto x = at(motion, 1 / 30.0);
+  const auto x = positions_at(motion, 1 / 30.0);
   ASSERT_EQ(x.size(), 13380U);
   for (std::size_t i = 0; i < x.size(); ++i) ASSERT_LT((x[i] - body.positions[i] - Vec3(0, 0, 0.05)).norm(), 1e-5);
 }

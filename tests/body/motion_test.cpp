@@ -18,11 +18,11 @@ namespace {
 using test::joint;
 using test::mannequin_of;
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double half_turn = 3.14159265358979323846;
 
-using Case = std::pair<MannequinKind, const char*>;
+using KindAndMotion = std::pair<MannequinKind, const char*>;
 
-class EachMotion : public testing::TestWithParam<Case> {
+class EachMotion : public testing::TestWithParam<KindAndMotion> {
  protected:
   MannequinKind kind() const { return GetParam().first; }
   std::string name() const { return GetParam().second; }
@@ -106,18 +106,19 @@ TEST_P(EachMotion, StaysOnTheFloorAndOutOfItself) {
   }
 }
 
-std::string case_name(const testing::TestParamInfo<Case>& info) {
+std::string case_name(const testing::TestParamInfo<KindAndMotion>& info) {
   return std::string(to_string(info.param.first)) + "_" + info.param.second;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EachMotion,
-                         testing::Values(Case{MannequinKind::dancer, "stand"}, Case{MannequinKind::dancer, "sway"},
-                                         Case{MannequinKind::dancer, "walk"}, Case{MannequinKind::dancer, "twist"},
-                                         Case{MannequinKind::dancer, "dance"}, Case{MannequinKind::man, "sway"},
-                                         Case{MannequinKind::man, "walk"}, Case{MannequinKind::man, "twist"},
-                                         Case{MannequinKind::man, "dance"}, Case{MannequinKind::dancer, "crouch"},
-                                         Case{MannequinKind::man, "crouch"}),
-                         case_name);
+INSTANTIATE_TEST_SUITE_P(
+    All, EachMotion,
+    testing::Values(KindAndMotion{MannequinKind::dancer, "stand"}, KindAndMotion{MannequinKind::dancer, "sway"},
+                    KindAndMotion{MannequinKind::dancer, "walk"}, KindAndMotion{MannequinKind::dancer, "twist"},
+                    KindAndMotion{MannequinKind::dancer, "dance"}, KindAndMotion{MannequinKind::man, "sway"},
+                    KindAndMotion{MannequinKind::man, "walk"}, KindAndMotion{MannequinKind::man, "twist"},
+                    KindAndMotion{MannequinKind::man, "dance"}, KindAndMotion{MannequinKind::dancer, "crouch"},
+                    KindAndMotion{MannequinKind::man, "crouch"}),
+    case_name);
 
 // What the crouch is for: flesh in flesh at elbows, hips and knees, at its lowest alone.
 TEST(Motion, CrouchFoldsTheBodyIntoItselfAndOutAgain) {
@@ -163,7 +164,7 @@ TEST(Motion, WithoutALeadInStartsInTheMiddleOfThings) {
   EXPECT_GT(farthest(bone_ends(m, 0), bone_ends(m, -1)), 0.1);
 }
 
-double angle(const Quaternion& q) { return 2 * ieee_atan2(std::sqrt(q.v.dot(q.v)), q.w) * 180 / pi; }
+double angle(const Quaternion& q) { return 2 * ieee_atan2(std::sqrt(q.v.dot(q.v)), q.w) * 180 / half_turn; }
 
 // Winter 2009; Perry & Burnfield 2010: peaks of level walking, and when in the stride.
 TEST(Motion, WalkBendsHipKneeAndAnkleAsPublished) {
@@ -304,7 +305,7 @@ TEST(Motion, TwistTurnsTheChestByFortyDegreesWithArmsOutAndFeetStill) {
     EXPECT_LT((transforms[toes](w.joints[toes].end_m) - w.joints[toes].end_m).norm(), 1e-9);
     const Vec3 arm =
         transforms[wrist](w.joints[wrist].position_m) - transforms[shoulder](w.joints[shoulder].position_m);
-    const double out = ieee_atan2(std::sqrt(arm.x() * arm.x() + arm.z() * arm.z()), -arm.y()) * 180 / pi;
+    const double out = ieee_atan2(std::sqrt(arm.x() * arm.x() + arm.z() * arm.z()), -arm.y()) * 180 / half_turn;
     EXPECT_NEAR(out, 80, 8);
   }
   EXPECT_NEAR(most, 40, 1);

@@ -19,7 +19,7 @@
 namespace toile::internal {
 namespace {
 
-struct Side {
+struct DraftSide {
   std::string panel;
   std::size_t edge;
 };
@@ -42,11 +42,11 @@ struct DraftPanel {
 };
 struct Draft {
   std::map<std::string, DraftPanel> panels;
-  std::vector<std::pair<Side, Side>> stitches;
-  const DraftPanel& panel(const Side& s) const { return panels.at(s.panel); }
-  double length(const Side& s) const { return panel(s).length.at(s.edge); }
+  std::vector<std::pair<DraftSide, DraftSide>> stitches;
+  const DraftPanel& panel(const DraftSide& s) const { return panels.at(s.panel); }
+  double length(const DraftSide& s) const { return panel(s).length.at(s.edge); }
   // The points of a stitch's two sides in the order in which they are sewn: end of the first with start of the second.
-  std::pair<Vec3s, Vec3s> sewn(const std::pair<Side, Side>& stitch) const {
+  std::pair<Vec3s, Vec3s> sewn(const std::pair<DraftSide, DraftSide>& stitch) const {
     std::pair<Vec3s, Vec3s> out;
     for (const Vec2& p : panel(stitch.first).edges[stitch.first.edge])
       out.first.push_back(panel(stitch.first).place(p));
@@ -111,14 +111,14 @@ Draft load(const std::string& name) {
     EXPECT_EQ(s.array().size(), 2U);
     const auto side = [&](std::size_t k) {
       const Json& j = s.array().at(k);
-      return Side{j.at("panel").string(), static_cast<std::size_t>(j.at("edge").integer())};
+      return DraftSide{j.at("panel").string(), static_cast<std::size_t>(j.at("edge").integer())};
     };
     draft.stitches.emplace_back(side(0), side(1));
   }
   return draft;
 }
 
-const Mannequin& mannequin() {
+const Mannequin& woman_of_ours() {
   static const Mannequin m = test::mannequin_of(MannequinKind::woman);
   return m;
 }
@@ -163,7 +163,7 @@ TEST_P(OwnPattern, SewsTheEndsThatLieNearEachOther) {
 
 TEST_P(OwnPattern, StartsClearOfTheBodyWithThreadsThatPassBesideIt) {
   const Draft draft = load(GetParam());
-  const test::Obstacle body(mannequin().positions, mannequin().triangles);
+  const test::Obstacle body(woman_of_ours().positions, woman_of_ours().triangles);
   for (const auto& [name, panel] : draft.panels) {
     Vec2 low(1e9, 1e9), high(-1e9, -1e9);
     for (const auto& e : panel.edges)
@@ -199,7 +199,7 @@ double width_at(const DraftPanel& panel, double y_cm) {
 
 TEST(Tshirt, HasEaseAtBustHipsArmAndNeck) {
   const Draft shirt = load("tshirt.json");
-  const auto& m = mannequin().measurements_m;
+  const auto& m = woman_of_ours().measurements_m;
   const double chest = width_at(shirt.panels.at("front"), 121.9) + width_at(shirt.panels.at("back"), 121.9);
   EXPECT_GE(chest, 100 * m.bust + 6);
   EXPECT_LE(chest, 100 * m.bust + 10);
@@ -211,7 +211,8 @@ TEST(Tshirt, HasEaseAtBustHipsArmAndNeck) {
 
   const ArmAxis arm = left_arm_axis();
   const auto girth = [&](double t) {
-    return 100 * girth_at_m(mannequin().positions, mannequin().triangles, arm.shoulder + t * arm.along, arm.along);
+    return 100 *
+           girth_at_m(woman_of_ours().positions, woman_of_ours().triangles, arm.shoulder + t * arm.along, arm.along);
   };
   const auto& front = shirt.panels.at("left_sleeve_front");
   const auto& back = shirt.panels.at("left_sleeve_back");
@@ -239,7 +240,7 @@ TEST(Tshirt, SleeveCapsFitTheirArmholes) {
 
 TEST(Skirt, SitsOnTheWaistAndCannotPassTheHips) {
   const Draft skirt = load("skirt.json");
-  const auto& m = mannequin().measurements_m;
+  const auto& m = woman_of_ours().measurements_m;
   double waist = 0;
   for (const auto& [name, panel] : skirt.panels)
     for (std::size_t k = 0; k < panel.edges.size(); ++k)

@@ -207,9 +207,9 @@ struct Worst {
   }
 };
 
-class PosedBody : public testing::TestWithParam<MannequinKind> {};
+class BodyInPose : public testing::TestWithParam<MannequinKind> {};
 
-TEST_P(PosedBody, KeepsGirthsAndVolumeThroughAllMotions) {
+TEST_P(BodyInPose, KeepsGirthsAndVolumeThroughAllMotions) {
   const Mannequin& m = mannequin_of(GetParam());
   const SkinnedBody body(m);
   const Tape tapes[] = {{"elbow_left", "shoulder_left", 0},
@@ -255,7 +255,7 @@ TEST_P(PosedBody, KeepsGirthsAndVolumeThroughAllMotions) {
   EXPECT_LT(volumes.most, 1.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, PosedBody, testing::Values(MannequinKind::dancer, MannequinKind::man),
+INSTANTIATE_TEST_SUITE_P(Kinds, BodyInPose, testing::Values(MannequinKind::dancer, MannequinKind::man),
                          [](const auto& kind) { return std::string(to_string(kind.param)); });
 
 }  // namespace

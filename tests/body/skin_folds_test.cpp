@@ -11,7 +11,7 @@
 namespace toile::internal {
 namespace {
 
-constexpr double room_m = 0.006, radius_m = 0.05;
+constexpr double fold_room_m = 0.006, radius_m = 0.05;
 constexpr int rings = 81, around = 32;
 
 // A tube along y with a joint in its middle, blended over 8 cm; caps of one vertex.
@@ -90,13 +90,13 @@ PoseTrack bending(const Limb& limb, double to_degrees) {
 TEST(SkinFolds, SkinThatPassesIntoItselfMakesRoom) {
   const Limb limb;
   const PoseTrack track = bending(limb, 65);
-  const SkinFolds folds(limb.body(), room_m, track);
+  const SkinFolds folds(limb.body(), fold_room_m, track);
   std::vector<Vec3> x = all_vertices(limb.figure, track.poses.back());
   const int before = limb.within_itself(x);
   EXPECT_GT(before, 20);
   folds.yield(1, 1, x);
   EXPECT_LE(10 * limb.within_itself(x), before);  // at the bottom of the crease some may stay
-  EXPECT_GT(folds.deepest_m(), 0.5 * room_m);
+  EXPECT_GT(folds.deepest_m(), 0.5 * fold_room_m);
   EXPECT_LE(folds.deepest_m(), 0.008);  // 1 % of the height
 }
 
@@ -104,32 +104,33 @@ TEST(SkinFolds, SkinThatPassesIntoItselfMakesRoom) {
 TEST(SkinFolds, SkinThatFacesSkinKeepsItsRoom) {
   const Limb limb;
   const PoseTrack track = bending(limb, 54);
-  const SkinFolds folds(limb.body(), room_m, track);
+  const SkinFolds folds(limb.body(), fold_room_m, track);
   const auto narrowest = [&](const std::vector<Vec3>& x) {
     const BodySurface surface(x, limb.triangles);
-    double gap = room_m;
+    double gap = fold_room_m;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const BodyPoint before = surface.nearest_opposite(x[i], surface.vertex_normal(static_cast<Index>(i)), room_m);
+      const BodyPoint before =
+          surface.nearest_opposite(x[i], surface.vertex_normal(static_cast<Index>(i)), fold_room_m);
       if (before.triangle >= 0) gap = std::min(gap, before.gap_m);
     }
     return gap;
   };
   std::vector<Vec3> x = all_vertices(limb.figure, track.poses.back());
-  EXPECT_LT(narrowest(x), 0.5 * room_m);
+  EXPECT_LT(narrowest(x), 0.5 * fold_room_m);
   folds.yield(1, 1, x);
-  EXPECT_GT(narrowest(x), 0.8 * room_m);
+  EXPECT_GT(narrowest(x), 0.8 * fold_room_m);
 }
 
 TEST(SkinFolds, WhatIsNotFoldedStaysToTheBit) {
   const Limb limb;
   const PoseTrack track = bending(limb, 30);
-  const SkinFolds folds(limb.body(), room_m, track);
+  const SkinFolds folds(limb.body(), fold_room_m, track);
   EXPECT_EQ(folds.deepest_m(), 0);
   const std::vector<Vec3> was = all_vertices(limb.figure, track.poses.back());
   std::vector<Vec3> x = was;
   folds.yield(1, 1, x);
   EXPECT_EQ(x, was);
-  const SkinFolds deep(limb.body(), room_m, bending(limb, 65));
+  const SkinFolds deep(limb.body(), fold_room_m, bending(limb, 65));
   x = limb.figure.modelled;
   deep.yield(0, 1, x);
   EXPECT_EQ(x, limb.figure.modelled);
@@ -141,7 +142,7 @@ TEST(SkinFolds, WhatIsNotFoldedStaysToTheBit) {
 TEST(SkinFolds, YieldsWithoutAJumpInSpeed) {
   const Limb limb;
   const PoseTrack track = bending(limb, 65);
-  const SkinFolds folds(limb.body(), room_m, track);
+  const SkinFolds folds(limb.body(), fold_room_m, track);
   const std::vector<Vec3> still = all_vertices(limb.figure, track.poses.back());
   const auto yielded = [&](double t) {
     std::vector<Vec3> x = still;

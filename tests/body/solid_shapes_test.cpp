@@ -72,13 +72,13 @@ TEST(SolidShapes, ABlockIsItsSize) {
 }
 
 TEST(SolidShapes, WhatIsRevolvedIsClosedEitherWayRound) {
-  struct Case {
+  struct Revolved {
     std::vector<Vec2> profile;
     double volume;
   };
-  const Case cone{{{0, 0}, {0.1, 0}, {0, 0.3}}, pi / 3 * 0.01 * 0.3};
-  const Case washer{{{0.1, 0}, {0.2, 0}, {0.2, 0.05}, {0.1, 0.05}}, pi * (0.04 - 0.01) * 0.05};  // a closed curve
-  for (const Case& one : {cone, washer})
+  const Revolved cone{{{0, 0}, {0.1, 0}, {0, 0.3}}, pi / 3 * 0.01 * 0.3};
+  const Revolved washer{{{0.1, 0}, {0.2, 0}, {0.2, 0.05}, {0.1, 0.05}}, pi * (0.04 - 0.01) * 0.05};  // a closed curve
+  for (const Revolved& one : {cone, washer})
     for (const bool reversed : {false, true}) {
       std::vector<Vec2> profile = one.profile;
       if (reversed) std::reverse(profile.begin(), profile.end());

@@ -85,8 +85,8 @@ TEST(StateArchive, RefusesWhatEndsTooEarlyOrTooLate) {
 
 TEST(StateArchive, BelievesNoCount) {
   StateWriter writer;
-  std::uint64_t huge = std::uint64_t{1} << 60;
-  writer(huge);
+  std::uint64_t huge_size = std::uint64_t{1} << 60;
+  writer(huge_size);
   Vec3s many;
   std::vector<Inner> inner;
   std::string text;

@@ -14,7 +14,7 @@
 namespace toile::internal {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double half_turn = 3.14159265358979323846;
 
 // A rectangle that faces +z, with a corner in the middle of its left and right sides and a fold between the two.
 Panel folded_panel(double width, double height, double angle_rad, bool clockwise = false) {
@@ -142,7 +142,7 @@ TEST(Fold, PanelsAreSewnFlat) {
 
 TEST(Fold, ClothFoldsItselfToTheAngleAndRestsThere) {
   for (const double degrees : {60.0, -100.0}) {
-    const GarmentMesh garment = mesh_garment(pattern_of({folded_panel(0.12, 0.06, degrees * pi / 180)}), 0.015);
+    const GarmentMesh garment = mesh_garment(pattern_of({folded_panel(0.12, 0.06, degrees * half_turn / 180)}), 0.015);
     const Fabric fabric;
     ModelOptions options;
     options.gravity_m_per_s2.setZero();
@@ -159,7 +159,8 @@ TEST(Fold, ClothFoldsItselfToTheAngleAndRestsThere) {
     double fastest = 0;
     for (const Vec3& v : state.v) fastest = std::max(fastest, v.norm());
     EXPECT_LT(fastest, 5e-3);
-    for (const std::size_t h : bent_hinges(model)) EXPECT_NEAR(angle_at(model, h, state.x) * 180 / pi, degrees, 3);
+    for (const std::size_t h : bent_hinges(model))
+      EXPECT_NEAR(angle_at(model, h, state.x) * 180 / half_turn, degrees, 3);
   }
 }
 

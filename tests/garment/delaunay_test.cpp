@@ -9,9 +9,9 @@
 namespace toile::internal {
 namespace {
 
-class Random {
+class RandomGrid {
  public:
-  explicit Random(std::uint64_t seed) : bits_(seed) {}
+  explicit RandomGrid(std::uint64_t seed) : bits_(seed) {}
   std::int32_t operator()(std::int32_t low, std::int32_t high) {
     return low + static_cast<std::int32_t>(bits_() % static_cast<std::uint64_t>(high - low + 1));
   }
@@ -93,7 +93,7 @@ TEST(Delaunay, TriangulatesEitherOrientationOfAnOutline) {
 }
 
 TEST(Delaunay, StaysWholeThroughInsertionsMovesAndRemovals) {
-  Random random(3);
+  RandomGrid random(3);
   Delaunay mesh(ell);
   std::vector<Index> inner;
   int refused = 0, stopped = 0;
@@ -142,7 +142,7 @@ TEST(Delaunay, StaysWholeThroughInsertionsMovesAndRemovals) {
 }
 
 TEST(Delaunay, LeavesNoTraceOfATrialRolledBack) {
-  Random random(4);
+  RandomGrid random(4);
   Delaunay mesh(ell);
   std::vector<Index> inner;
   for (int i = 0; i < 60; ++i) {

@@ -10,23 +10,26 @@
 namespace toile::internal {
 namespace {
 
-constexpr std::int32_t end = (1 << 25) - 1;
+constexpr std::int32_t last_coordinate = (1 << 25) - 1;
 
 TEST(ExactPredicates, SeeOneGridStepAcrossThirtyTwoMetres) {
-  const GridPoint a{-end, -end}, b{end, end};
+  const GridPoint a{-last_coordinate, -last_coordinate}, b{last_coordinate, last_coordinate};
   EXPECT_EQ(orient2d(a, b, {0, 0}), 0);
-  EXPECT_EQ(orient2d(a, b, {0, 1}), 2 * std::int64_t{end});
-  EXPECT_EQ(orient2d(a, b, {1, 0}), -2 * std::int64_t{end});
-  EXPECT_EQ(orient2d({-end, -end}, {end, -end}, {-end, end}), 4 * std::int64_t{end} * end);
+  EXPECT_EQ(orient2d(a, b, {0, 1}), 2 * std::int64_t{last_coordinate});
+  EXPECT_EQ(orient2d(a, b, {1, 0}), -2 * std::int64_t{last_coordinate});
+  EXPECT_EQ(orient2d({-last_coordinate, -last_coordinate}, {last_coordinate, -last_coordinate},
+                     {-last_coordinate, last_coordinate}),
+            4 * std::int64_t{last_coordinate} * last_coordinate);
 }
 
 TEST(ExactPredicates, CallFourPointsOfOneCircleCocircularAndOneGridStepOffIt) {
-  const GridPoint a{-end, -end}, b{end, -end}, c{end, end};
-  EXPECT_EQ(incircle(a, b, c, {-end, end}), 0);
-  EXPECT_EQ(incircle(a, b, c, {-end + 1, end}), 1);
-  EXPECT_EQ(incircle(a, b, c, {-end, end - 1}), 1);
-  EXPECT_EQ(incircle(a, b, c, {-end, end + 1}), -1);
-  EXPECT_EQ(incircle(a, b, c, {-end - 1, end}), -1);
+  const GridPoint a{-last_coordinate, -last_coordinate}, b{last_coordinate, -last_coordinate},
+      c{last_coordinate, last_coordinate};
+  EXPECT_EQ(incircle(a, b, c, {-last_coordinate, last_coordinate}), 0);
+  EXPECT_EQ(incircle(a, b, c, {-last_coordinate + 1, last_coordinate}), 1);
+  EXPECT_EQ(incircle(a, b, c, {-last_coordinate, last_coordinate - 1}), 1);
+  EXPECT_EQ(incircle(a, b, c, {-last_coordinate, last_coordinate + 1}), -1);
+  EXPECT_EQ(incircle(a, b, c, {-last_coordinate - 1, last_coordinate}), -1);
 }
 
 TEST(ExactPredicates, CallTheWholeLatticeCircleOfALargePythagoreanRadiusCocircular) {

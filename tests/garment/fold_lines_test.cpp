@@ -11,16 +11,16 @@
 namespace toile::internal {
 namespace {
 
-constexpr double side_m = 0.2, edge_m = 0.02;
-constexpr int pieces = 10;  // of each side
+constexpr double side_m = 0.2, folded_edge_m = 0.02;
+constexpr int side_pieces = 10;  // of each side
 
 // Counter-clockwise; point k * pieces is a corner.
 std::vector<Vec2> square() {
   std::vector<Vec2> outline;
   const Vec2 corners[] = {{0, 0}, {side_m, 0}, {side_m, side_m}, {0, side_m}};
   for (int c = 0; c < 4; ++c) {
-    for (int k = 0; k < pieces; ++k)
-      outline.push_back(corners[c] + (corners[(c + 1) % 4] - corners[c]) * k / static_cast<double>(pieces));
+    for (int k = 0; k < side_pieces; ++k)
+      outline.push_back(corners[c] + (corners[(c + 1) % 4] - corners[c]) * k / static_cast<double>(side_pieces));
   }
   return outline;
 }
@@ -29,7 +29,7 @@ std::vector<Vec2> square() {
 FoldLine straight(const std::vector<Vec2>& outline, Index from, Index to) {
   FoldLine line{from, to, {}};
   const Vec2 a = outline[at(from)], b = outline[at(to)];
-  const int count = static_cast<int>(std::ceil((b - a).norm() / edge_m - 1e-9));
+  const int count = static_cast<int>(std::ceil((b - a).norm() / folded_edge_m - 1e-9));
   for (int k = 1; k < count; ++k) line.between.push_back(a + (b - a) * k / static_cast<double>(count));
   return line;
 }
@@ -70,7 +70,7 @@ void expect_followed(const FoldedPlanarMesh& folded, std::size_t line, const Fol
 
 std::string complaint(const std::vector<FoldLine>& lines) {
   try {
-    triangulate_folded(square(), lines, edge_m);
+    triangulate_folded(square(), lines, folded_edge_m);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -78,8 +78,8 @@ std::string complaint(const std::vector<FoldLine>& lines) {
 }
 
 TEST(FoldLines, WithoutAnyThePanelIsMeshedAsEver) {
-  const PlanarMesh plain = triangulate(square(), edge_m);
-  const FoldedPlanarMesh folded = triangulate_folded(square(), {}, edge_m);
+  const PlanarMesh plain = triangulate(square(), folded_edge_m);
+  const FoldedPlanarMesh folded = triangulate_folded(square(), {}, folded_edge_m);
   ASSERT_EQ(folded.mesh.points.size(), plain.points.size());
   EXPECT_EQ(std::memcmp(folded.mesh.points.data(), plain.points.data(), plain.points.size() * sizeof(Vec2)), 0);
   EXPECT_EQ(folded.mesh.triangles, plain.triangles);
@@ -93,7 +93,7 @@ TEST(FoldLines, MeshEdgesFollowAStraightLineACurveAndLinesThatShareACorner) {
   ASSERT_LT(curve.between.front().x(), curve.between.back().x());
   for (const std::vector<FoldLine>& lines :
        {std::vector{slanted}, std::vector{slanted, across}, std::vector{across, slanted}, std::vector{curve}}) {
-    const FoldedPlanarMesh folded = triangulate_folded(outline, lines, edge_m);
+    const FoldedPlanarMesh folded = triangulate_folded(outline, lines, folded_edge_m);
     ASSERT_EQ(folded.line.size(), lines.size());
     for (std::size_t k = 0; k < lines.size(); ++k) expect_followed(folded, k, lines[k]);
     EXPECT_NEAR(area(folded.mesh), side_m * side_m, 1e-6);
@@ -106,16 +106,16 @@ TEST(FoldLines, MeshEdgesFollowAStraightLineACurveAndLinesThatShareACorner) {
 TEST(FoldLines, TheTrianglesBesideALineAreAsGoodAsElsewhere) {
   const std::vector<Vec2> outline = square();
   const std::vector<FoldLine> lines{straight(outline, 5, 25)};
-  const PlanarQuality quality = planar_quality(triangulate_folded(outline, lines, edge_m).mesh);
+  const PlanarQuality quality = planar_quality(triangulate_folded(outline, lines, folded_edge_m).mesh);
   EXPECT_GT(quality.min_angle_deg, 30);
-  EXPECT_LT(quality.max_edge_m, 1.5 * edge_m);
+  EXPECT_LT(quality.max_edge_m, 1.5 * folded_edge_m);
 }
 
 TEST(FoldLines, RunningClockwiseChangesNothingButTheOrder) {
   std::vector<Vec2> outline = square();
   std::reverse(outline.begin(), outline.end());
   const FoldLine line = straight(outline, 4, 26);
-  const FoldedPlanarMesh folded = triangulate_folded(outline, std::vector{line}, edge_m);
+  const FoldedPlanarMesh folded = triangulate_folded(outline, std::vector{line}, folded_edge_m);
   expect_followed(folded, 0, line);
   EXPECT_NEAR(area(folded.mesh), side_m * side_m, 1e-6);
 }

@@ -21,7 +21,7 @@ const LintFinding* find(const LintReport& report, std::string_view code) {
   return nullptr;
 }
 
-std::string list(const LintReport& report) {
+std::string findings_of(const LintReport& report) {
   std::string text;
   for (const LintFinding& f : report.findings)
     text += std::string(to_string(f.severity)) + " " + std::string(f.code) + ": " + f.place + ": expected " +
@@ -72,14 +72,14 @@ void expect_told(const BrokenPattern& broken) {
   const std::string text = to_text(file.root);
   const LintReport report = lint_pattern(text, "broken.json", broken.body);
   const LintFinding* finding = find(report, broken.code);
-  ASSERT_NE(finding, nullptr) << "not found; told instead:\n" << list(report);
-  EXPECT_EQ(finding, report.findings.data()) << "not told first:\n" << list(report);
-  EXPECT_EQ(finding->severity, broken.severity) << list(report);
+  ASSERT_NE(finding, nullptr) << "not found; told instead:\n" << findings_of(report);
+  EXPECT_EQ(finding, report.findings.data()) << "not told first:\n" << findings_of(report);
+  EXPECT_EQ(finding->severity, broken.severity) << findings_of(report);
   EXPECT_NE(finding->place.find(broken.place), std::string::npos) << finding->place;
   EXPECT_EQ(finding->where.rfind("broken.json:", 0), 0U) << finding->where;
   EXPECT_FALSE(finding->pointer.empty());
   EXPECT_FALSE(finding->expected.empty() || finding->got.empty());
-  EXPECT_EQ(finding->mended, broken.mended) << list(report);
+  EXPECT_EQ(finding->mended, broken.mended) << findings_of(report);
   EXPECT_EQ(finding->repair.rfind("refused: ", 0) == 0, !broken.mended) << finding->repair;
   // An error is what the reader or the mesher refuses, and nothing else.
   std::string refused;
@@ -88,15 +88,15 @@ void expect_told(const BrokenPattern& broken) {
   } catch (const InputError& error) {
     refused = error.what();
   }
-  EXPECT_EQ(report.has_errors(), !refused.empty()) << refused << "\n" << list(report);
+  EXPECT_EQ(report.has_errors(), !refused.empty()) << refused << "\n" << findings_of(report);
   EXPECT_EQ(draw_pattern(report.drawing, report.findings), draw_pattern(report.drawing, report.findings));
   if (!broken.mended) {
-    EXPECT_TRUE(report.mended_text.empty()) << list(report);
+    EXPECT_TRUE(report.mended_text.empty()) << findings_of(report);
     return;
   }
-  ASSERT_TRUE(report.usable) << list(report);
+  ASSERT_TRUE(report.usable) << findings_of(report);
   const LintReport again = lint_pattern(report.mended_text, "mended.json", broken.body);
-  EXPECT_TRUE(again.findings.empty()) << list(again);
+  EXPECT_TRUE(again.findings.empty()) << findings_of(again);
   const Pattern mended = parse_pattern(report.mended_text, "mended.json");
   EXPECT_NO_THROW(mesh_garment(mended, 0.04));
   if (broken.as_before) expect_same_garment(good, mended);
@@ -135,10 +135,10 @@ TEST(LintBroken, MendsSeveralFaultsOfOneFile) {
   for (const std::string_view code :
        {reason::loop_reversed, reason::loop_open, reason::corner_unused, reason::seam_twisted}) {
     const LintFinding* finding = find(report, code);
-    ASSERT_NE(finding, nullptr) << code << "\n" << list(report);
+    ASSERT_NE(finding, nullptr) << code << "\n" << findings_of(report);
     EXPECT_TRUE(finding->mended) << code;
   }
-  EXPECT_EQ(report.findings.size(), 4U) << list(report);
+  EXPECT_EQ(report.findings.size(), 4U) << findings_of(report);
   EXPECT_TRUE(report.usable);
   EXPECT_NE(report.mended_text.find("\"designer\": \"K\xc3\xa4the\""), std::string::npos) << "others' keys stay";
   expect_same_garment(good, parse_pattern(report.mended_text, "mended.json"));
@@ -163,7 +163,7 @@ TEST(LintBroken, NumbersWithoutMeasureAreToldAndNotMeasured) {
     PatternFile file("tshirt");
     breaks[k](file);
     const LintReport report = lint_pattern(to_text(file.root), "p.json");
-    EXPECT_TRUE(report.has_errors()) << k << list(report);
+    EXPECT_TRUE(report.has_errors()) << k << findings_of(report);
     EXPECT_LT(draw_pattern(report.drawing, report.findings).size(), 1'000'000U) << k;
   }
 }

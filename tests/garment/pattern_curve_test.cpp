@@ -15,7 +15,7 @@
 namespace toile::internal {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+constexpr double half_turn = std::numbers::pi;
 
 class Uniform {
  public:
@@ -174,8 +174,8 @@ Vec2 svg_arc_point(const Vec2& start, const Vec2& end, double r, bool large, boo
   const Vec2 from = start - centre, to = end - centre;
   const double first = std::atan2(from.y(), from.x());
   double turn = std::atan2(to.y(), to.x()) - first;
-  if (sweep && turn < 0) turn += 2 * pi;
-  if (!sweep && turn > 0) turn -= 2 * pi;
+  if (sweep && turn < 0) turn += 2 * half_turn;
+  if (!sweep && turn > 0) turn -= 2 * half_turn;
   return centre + r * Vec2{std::cos(first + u * turn), std::sin(first + u * turn)};
 }
 

@@ -141,7 +141,7 @@ class Others:
         work, source = self.options.work, self.options.source
         alone = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in optional_packages]
         # -Werror so that the objects are those of the build that runs the tests, and ccache has them.
-        told = self.configure(source, work, *alone, "-DBUILD_SHARED_LIBS=ON", "-DTOILE_WERROR=ON", "-DTOILE_CLI=AUTO", "-DTOILE_PYTHON=OFF")
+        told = self.configure(source, work, *alone, "-DBUILD_SHARED_LIBS=ON", "-DTOILE_WERROR=ON", "-DTOILE_UNITY=ON", "-DTOILE_CLI=AUTO", "-DTOILE_PYTHON=OFF")
         for line in ("Toile: the program `toile`: no: needs CLI11", "Toile: pictures: no: needs Embree 3 or 4 and libpng", "Toile: glTF files: no: needs tinygltf",
                      "Toile: tests: no: needs GoogleTest"):
             expect(line in told, f"the configuration does not say '{line}':\n{told}")
@@ -197,7 +197,7 @@ class Others:
             ours = [w for w in app if w.startswith(("-W", "-DEIGEN", "-DTOILE", "-ffp", "-fno-fast", "-fvis"))]
             expect(not ours, f"flags of ours have come to the parent: {ours}")
             expect(include_folders(app) == [str(source / "include")], f"the parent sees headers of {include_folders(app)}")
-            expect(len(commands) > 100, f"only {len(commands)} sources of ours")
+            expect(len(commands) > (30 if "-DTOILE_UNITY=ON" in more else 200), f"only {len(commands)} sources of ours")
             for file, words in commands.items():
                 found = list(flags.breaks_of({"command": shlex.join(words)}))
                 expect(not found, f"{file}: {found}")
@@ -205,7 +205,7 @@ class Others:
 
         for file, words in configure(self.scratch / "fast", "-DCMAKE_CXX_FLAGS=-ffast-math").items():
             expect("-Werror" not in words, f"{file}: a parent's compiler may warn of what ours does not")
-        configure(work, "-DTOILE_WERROR=ON")  # the flags of the build that runs the tests: ccache has the objects
+        configure(work, "-DTOILE_WERROR=ON", "-DTOILE_UNITY=ON")  # the flags of the build that runs the tests: ccache has the objects
         self.build(work, "app")
         expect(run(work / "app") == f"toile {self.options.version}\n", "the parent's program says something else")
 

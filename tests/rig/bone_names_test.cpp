@@ -26,7 +26,7 @@ Figure chain(std::initializer_list<std::string_view> names) {
 std::string found(const Figure& figure) {
   const PersonBones bones = person_bones(figure);
   std::string text;
-  for (std::size_t part = 0; part < body_parts; ++part)
+  for (std::size_t part = 0; part < body_part_count; ++part)
     for (const Index node : bones.node[part]) text += (node < 0 ? "-" : figure.nodes[at(node)].name) + ' ';
   for (const Index node : bones.spine) text += "| " + figure.nodes[at(node)].name + ' ';
   return text;

@@ -126,7 +126,7 @@ struct Film {
   Vec3s last;
 };
 
-Film run(const Scratch& scratch, const std::string& text) {
+Film filmed(const Scratch& scratch, const std::string& text) {
   const std::string path = scratch.put("s.json", text);
   RunOptions options;
   options.directory = scratch / "out";
@@ -139,8 +139,8 @@ Film run(const Scratch& scratch, const std::string& text) {
 TEST(ClothOfMesh, HangsFromItsPinsInAScene) {
   const Scratch scratch;
   scratch.put("g.obj", two_squares(1));
-  const Film film = run(scratch, R"({"cloth": [{"mesh": ")" + (scratch / "g.obj") +
-                                     R"(", "pins": [{"near_m": [0, 0.2, 0]}]}], "time": {"seconds": 1}})");
+  const Film film = filmed(scratch, R"({"cloth": [{"mesh": ")" + (scratch / "g.obj") +
+                                        R"(", "pins": [{"near_m": [0, 0.2, 0]}]}], "time": {"seconds": 1}})");
   EXPECT_EQ(film.report.panels, 2);
   EXPECT_EQ(film.report.warnings.size(), 2U);
   EXPECT_NEAR((film.last[2] - Vec3(0, 0.2, 0)).norm(), 0, 1e-6);
@@ -156,7 +156,7 @@ TEST(Wind, BlowsWhenItsPathSaysSo) {
   };
   const auto far = [&](const char* path) {
     double z = 0;
-    for (const Vec3& x : run(scratch, scene(path)).last) z = std::max(z, std::abs(x.z()));
+    for (const Vec3& x : filmed(scratch, scene(path)).last) z = std::max(z, std::abs(x.z()));
     return z;
   };
   EXPECT_LT(far(R"("wind_path": [[0, 0, 0, 0]])"), 1e-3);
@@ -172,7 +172,7 @@ TEST(Pins, HoldASewnGarmentWhereItIsOn) {
   const std::string text = R"({"cloth": [{"pattern": ")" + pattern + R"(", "resolution_cm": 5,
     "pins": [{"near_m": [0.5, 0.6, 0], "hold": "moves", "moves": [{"t_s": 0.5}, {"t_s": 1, "shift_m": [0.2, 0.2, 0]}]}]}],
     "body": {"mannequin": "woman"}, "time": {"seconds": 1.5, "until_still": false}})";
-  const Film film = run(scratch, text);
+  const Film film = filmed(scratch, text);
   Pc2Reader reader(scratch / "out/cloth.pc2");
   Vec3s first;
   reader.read(0, first);

@@ -20,7 +20,7 @@ LoadedColliders load(const std::string& keys, const std::string& file = "s.json"
   return read.places.complete_errors_of([&] { return load_colliders(read.scene.body, read.scene.solids); });
 }
 
-std::string refusal(const std::string& keys) {
+std::string collider_refusal(const std::string& keys) {
   try {
     load(keys);
   } catch (const Error& error) {
@@ -168,23 +168,25 @@ TEST(Colliders, ACapsuleIsEverywhereItsRadiusFromItsAxis) {
   }
   const double pi = std::numbers::pi, whole = pi * 0.01 * way.norm() + 4.0 / 3 * pi * 0.001;
   EXPECT_NEAR(volume / whole, 1, 0.01) << "and from outside";
-  EXPECT_NE(refusal(R"("solids": [{"capsule": {"radius_m": 0.1, "from_m": [1, 0, 0], "to_m": [1, 0, 0]}}])")
+  EXPECT_NE(collider_refusal(R"("solids": [{"capsule": {"radius_m": 0.1, "from_m": [1, 0, 0], "to_m": [1, 0, 0]}}])")
                 .find("/solids/0: to_m: expected another place"),
             std::string::npos);
 }
 
 TEST(Colliders, RefuseWhatDoesNotGoTogether) {
-  EXPECT_NE(refusal(R"("solids": [{"box": {"size_m": [1, 1, 1]}, "motion": "walk"}])")
+  EXPECT_NE(collider_refusal(R"("solids": [{"box": {"size_m": [1, 1, 1]}, "motion": "walk"}])")
                 .find("a mannequin or a mesh beside it"),
             std::string::npos);
-  EXPECT_NE(refusal(R"("solids": [{"box": {"size_m": [1, 1, 1]}, "unit": "m"}])").find("\"mesh\" beside it"),
+  EXPECT_NE(collider_refusal(R"("solids": [{"box": {"size_m": [1, 1, 1]}, "unit": "m"}])").find("\"mesh\" beside it"),
             std::string::npos);
-  EXPECT_NE(refusal(R"("solids": [{"friction": 1}])").find("one of"), std::string::npos);
-  EXPECT_NE(refusal(R"("solids": [{"box": {"size_m": [1, 1, 1]}, "sphere": {"radius_m": 1}}])").find("2 of them"),
-            std::string::npos);
-  EXPECT_NE(refusal(R"("body": {"sphere": {"radius_m": 1}, "placement": {}})").find("placement"), std::string::npos)
+  EXPECT_NE(collider_refusal(R"("solids": [{"friction": 1}])").find("one of"), std::string::npos);
+  EXPECT_NE(
+      collider_refusal(R"("solids": [{"box": {"size_m": [1, 1, 1]}, "sphere": {"radius_m": 1}}])").find("2 of them"),
+      std::string::npos);
+  EXPECT_NE(collider_refusal(R"("body": {"sphere": {"radius_m": 1}, "placement": {}})").find("placement"),
+            std::string::npos)
       << "what is worn stands where it is made";
-  EXPECT_NE(refusal(R"("solids": [{"mesh": "a.obj", "measurements": "a.yaml"}])").find("measurements"),
+  EXPECT_NE(collider_refusal(R"("solids": [{"mesh": "a.obj", "measurements": "a.yaml"}])").find("measurements"),
             std::string::npos);
 }
 

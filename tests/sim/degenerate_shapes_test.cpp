@@ -14,7 +14,7 @@ namespace toile::internal {
 namespace {
 
 // What a scene of one object is refused with; empty: it is a shape.
-std::string refusal(const std::string& scene_text) {
+std::string shape_refusal(const std::string& scene_text) {
   try {
     const auto [scene, places] = read_scene("\n" + scene_text, "s.json");
     const LoadedScene loaded = places.complete_errors_of([&, &s = scene] { return load_scene(s, read_text_file); });
@@ -33,7 +33,7 @@ std::string solid(const std::string& keys) {
 }
 
 void expect_refused(const std::string& scene, const std::string& pointer, const std::string& words) {
-  const std::string message = refusal(scene);
+  const std::string message = shape_refusal(scene);
   EXPECT_EQ(message.rfind("s.json:2:", 0), 0U) << message;
   EXPECT_NE(message.find(": " + pointer), std::string::npos) << message;
   EXPECT_NE(message.find(words), std::string::npos) << message;
@@ -48,8 +48,9 @@ TEST(DegenerateShapes, PointsThatAreNearlyOne) {
                    "/cloth/0/ribbon/path_m/1", "another place");
   expect_refused(ribbon(R"("closed": true, "path_m": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [1e-200, 0, 0]])"),
                  "/cloth/0/ribbon/path_m", "only once");
-  EXPECT_EQ(refusal(ribbon(R"("width_m": 1e-3, "edge_m": 0.01, "path_m": [[0, 0, 0], [1e-3, 0, 0], [0.3, 0, 0]])")),
-            "");
+  EXPECT_EQ(
+      shape_refusal(ribbon(R"("width_m": 1e-3, "edge_m": 0.01, "path_m": [[0, 0, 0], [1e-3, 0, 0], [0.3, 0, 0]])")),
+      "");
 }
 
 TEST(DegenerateShapes, WaysThatAreTooLong) {
@@ -78,7 +79,7 @@ TEST(DegenerateShapes, RibbonsThatLieOnThemselves) {
       "/cloth/0/ribbon", "bends wider than half of width_m");
   // The same line with the breadth across its plane is a ribbon.
   EXPECT_EQ(
-      refusal(ribbon(
+      shape_refusal(ribbon(
           R"("width_m": 0.6, "edge_m": 0.02, "across": [0, 0, 1], "path_m": [[-1, 0, 0], [0, 0.05, 0], [0.2, 0.2, 0], [0, 0.4, 0], [-1, 0.4, 0]])")),
       "");
   expect_refused(ribbon(R"("across": [1e-200, 0, 0], "path_m": [[0, 0, 0], [0, 1, 0]])"), "/cloth/0/ribbon/across",
@@ -114,7 +115,7 @@ TEST(DegenerateShapes, AreRefusedAtTheirPlaceWhateverTheNumbers) {
   };
   int accepted = 0, refused = 0;
   const auto look = [&](const std::string& scene, const std::string& pointer) {
-    const std::string message = refusal(scene);
+    const std::string message = shape_refusal(scene);
     if (message.empty()) {
       ++accepted;
       return;

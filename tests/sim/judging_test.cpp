@@ -19,7 +19,7 @@
 namespace toile::internal {
 namespace {
 
-Report run(const Scratch& scratch, const Scene& scene) {
+Report judged(const Scratch& scratch, const Scene& scene) {
   RunOptions options;
   options.directory = scratch / "out";
   options.command = "test";
@@ -44,13 +44,13 @@ Scene tube_around(const Scratch& scratch, const std::string& body, const std::st
           "}" + more + R"(, "time": {"seconds": 10}})",
       scratch / "s.json");
 }
-const char* const inside = R"({"radius_m": 0.155, "height_m": 1, "top_m": [0, 0.6, 0]})";
+const char* const cylinder_inside = R"({"radius_m": 0.155, "height_m": 1, "top_m": [0, 0.6, 0]})";
 
 TEST(Judging, NothingPassesBeforeGravityHasActed) {
   const Scratch scratch;
-  Scene scene = tube_around(scratch, inside);
+  Scene scene = tube_around(scratch, cylinder_inside);
   scene.seconds = 0.1;
-  Report report = run(scratch, scene);
+  Report report = judged(scratch, scene);
   EXPECT_EQ(outcome(report), Outcome::failed);
   ASSERT_FALSE(report.verdict.reasons.empty());
   EXPECT_EQ(report.verdict.reasons.front().code, "not_settled");
@@ -59,13 +59,13 @@ TEST(Judging, NothingPassesBeforeGravityHasActed) {
   EXPECT_EQ(report.ended, "time");
   EXPECT_TRUE(has(judge(verify_directory(scratch / "out")).reasons, "not_settled")) << "the judge repeats it";
   scene.seconds = 0.6;
-  EXPECT_FALSE(has(run(scratch, scene).verdict.reasons, "not_settled"));
+  EXPECT_FALSE(has(judged(scratch, scene).verdict.reasons, "not_settled"));
 }
 
 TEST(Judging, AGarmentBesideItsBodyNeverTouchedItAndEndsEarly) {
   const Scratch scratch;
   const Report report =
-      run(scratch, tube_around(scratch, R"({"radius_m": 0.155, "height_m": 1, "top_m": [1000, 21, -500]})"));
+      judged(scratch, tube_around(scratch, R"({"radius_m": 0.155, "height_m": 1, "top_m": [1000, 21, -500]})"));
   EXPECT_EQ(codes(report.verdict.reasons), std::vector<std::string>{"never_touched"});
   EXPECT_EQ(report.ended, "never_touched");
   EXPECT_EQ(outcome(report), Outcome::failed);
@@ -79,9 +79,9 @@ TEST(Judging, AGarmentBesideItsBodyNeverTouchedItAndEndsEarly) {
 
 TEST(Judging, AGarmentThatSlidesOffItsBodyFellOff) {
   const Scratch scratch;
-  Scene scene = tube_around(scratch, inside);
+  Scene scene = tube_around(scratch, cylinder_inside);
   scene.body.contact.friction = 0;
-  const Report report = run(scratch, scene);
+  const Report report = judged(scratch, scene);
   EXPECT_EQ(codes(report.verdict.reasons), std::vector<std::string>{"fell_off"});
   EXPECT_LT(report.frames, 90);
   EXPECT_GT(report.frames, 15);
@@ -89,7 +89,7 @@ TEST(Judging, AGarmentThatSlidesOffItsBodyFellOff) {
 
 TEST(Judging, AGarmentThatFallsToAFloorIsWaitedFor) {
   const Scratch scratch;
-  const Report report = run(
+  const Report report = judged(
       scratch,
       tube_around(scratch, R"({"radius_m": 0.155, "height_m": 1, "top_m": [1000, 21, -500]})",
                   R"(, "solids": [{"box": {"size_m": [4, 0.2, 4]}, "placement": {"translation_m": [0, -1.5, 0]}}])"));
@@ -223,7 +223,7 @@ Scene pinned_and_pierced(double deep_m) {
 TEST(Judging, UntanglingMovesNoPinnedParticle) {
   const Scratch scratch;
   const Scene scene = pinned_and_pierced(0.013);
-  const Report report = run(scratch, scene);
+  const Report report = judged(scratch, scene);
   EXPECT_GT(report.start.cloth_cloth, 5);
   EXPECT_EQ(report.start.cloth_cloth_left, 0);
   Pc2Reader frames(scratch / "out/cloth.pc2");
@@ -251,7 +251,7 @@ TEST(Judging, APinHoldsFromItsFirstMomentOnly) {
 TEST(Judging, AStartThatWasMovedFarIsAPassWithAReservation) {
   for (const double deep_m : {0.013, 0.13}) {
     const Scratch scratch;
-    const Report report = run(scratch, pinned_and_pierced(deep_m));
+    const Report report = judged(scratch, pinned_and_pierced(deep_m));
     ASSERT_EQ(report.start.cloth_cloth_left, 0) << deep_m;
     const bool far = report.start.largest_move_mm > 60;
     EXPECT_EQ(far, deep_m > 0.1) << report.start.largest_move_mm << " mm: no test";
@@ -330,10 +330,10 @@ TEST(Judging, ASkirtThatHasComePastTheHipsEndsEarlyAndBothGirthsAreSaid) {
     "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
     "properties": {"units_in_meter": 100}})";
   const Report report =
-      run(scratch, parse_scene(R"({"cloth": [{"pattern": ")" + (scratch / "skirt.json") + R"(", "resolution_cm": 5}],
+      judged(scratch, parse_scene(R"({"cloth": [{"pattern": ")" + (scratch / "skirt.json") + R"(", "resolution_cm": 5}],
           "body": {"mannequin": "woman"}, "time": {"seconds": 10},
           "solids": [{"box": {"size_m": [2, 0.1, 2]}, "placement": {"translation_m": [0, -0.1, 0]}}]})",
-                               "s.json"));
+                                  "s.json"));
   ASSERT_EQ(report.verdict.reasons.size(), 1u);
   EXPECT_EQ(report.ended, "fell_off");
   EXPECT_EQ(report.verdict.reasons.front().code, "fell_off");

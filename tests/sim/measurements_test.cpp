@@ -58,7 +58,7 @@ SceneCollider body_of(const Scratch& scratch) {
 
 SceneMesh& mesh_of(SceneCollider& body) { return std::get<SceneMesh>(body.shape); }
 
-std::string refusal(const SceneCollider& body) {
+std::string body_refusal(const SceneCollider& body) {
   try {
     load_collider(body);
   } catch (const Error& error) {
@@ -94,12 +94,12 @@ TEST(Measurements, OfAnotherBodyOrBrokenAreRefused) {
   scratch.put("woman.obj", person().obj);
   const SceneCollider body = body_of(scratch);
   scratch.put("woman.yaml", fmt::sprintf("body: {height: %.2f}", 101.9 * person().height_m));
-  EXPECT_EQ(refusal(body), "(no error)");
+  EXPECT_EQ(body_refusal(body), "(no error)");
   scratch.put("woman.yaml", fmt::sprintf("body: {height: %.2f}", 102.1 * person().height_m));
   for (const char* part : {"woman.yaml: body.height: expected ", " cm within 2 %, the height of ", "woman.obj, got "})
-    EXPECT_NE(refusal(body).find(part), std::string::npos) << refusal(body);
+    EXPECT_NE(body_refusal(body).find(part), std::string::npos) << body_refusal(body);
   scratch.put("woman.yaml", "body: [");
-  EXPECT_NE(refusal(body).find("woman.yaml:1:"), std::string::npos) << refusal(body);
+  EXPECT_NE(body_refusal(body).find("woman.yaml:1:"), std::string::npos) << body_refusal(body);
   scratch.put("woman.yaml", "samples: 4");
   const Collider loaded = load_collider(body);
   EXPECT_FALSE(loaded.measurements);
@@ -107,9 +107,9 @@ TEST(Measurements, OfAnotherBodyOrBrokenAreRefused) {
   EXPECT_NE(loaded.warnings[0].find("holds no measurements"), std::string::npos);
   SceneCollider named = body;
   mesh_of(named).measurements = scratch / "woman.yaml";
-  EXPECT_NE(refusal(named).find("a mapping with the key \"body\""), std::string::npos) << "what is named is meant";
+  EXPECT_NE(body_refusal(named).find("a mapping with the key \"body\""), std::string::npos) << "what is named is meant";
   mesh_of(named).measurements = scratch / "nowhere.yaml";
-  EXPECT_NE(refusal(named).find("nowhere.yaml"), std::string::npos);
+  EXPECT_NE(body_refusal(named).find("nowhere.yaml"), std::string::npos);
 }
 
 TEST(Measurements, GoBeforeTheSurfaceButNotForThePose) {

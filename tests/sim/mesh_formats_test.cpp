@@ -70,7 +70,7 @@ void put(const Scratch& scratch, const std::string& name, const SurfaceMesh& mes
   mesh_writer_for(name)->write(scratch / name, mesh);
 }
 
-Report run(const Scratch& scratch, const std::string& out, const std::string& text) {
+Report run_text(const Scratch& scratch, const std::string& out, const std::string& text) {
   const std::string path = scratch.put(out + ".json", text);
   RunOptions options;
   options.directory = scratch / out;
@@ -96,7 +96,7 @@ TEST(MeshFormats, TheSameClothFromEveryFormatIsTheSameRun) {
   for (const char* file : {"g.obj", "g.ply", "g.glb"}) {
     put(scratch, file, sleeve(true));
     const std::string out = std::string(file).append("_out");
-    const Report report = run(scratch, out, pinned(scratch, file));
+    const Report report = run_text(scratch, out, pinned(scratch, file));
     EXPECT_EQ(report.vertices, 72) << file;
     EXPECT_EQ(report.panels, 2) << file;
     const bool splits = std::string(file) != "g.obj";
@@ -137,7 +137,7 @@ TEST(MeshFormats, TheSameClothFromEveryFormatIsTheSameRun) {
 TEST(MeshFormats, APlyWithoutDrawingIsAtRestAsItStarts) {
   const Scratch scratch;
   put(scratch, "g.ply", sleeve(false));
-  const Report report = run(scratch, "out", pinned(scratch, "g.ply"));
+  const Report report = run_text(scratch, "out", pinned(scratch, "g.ply"));
   EXPECT_EQ(report.vertices, 72);
   ASSERT_EQ(report.warnings.size(), 1U);
   EXPECT_NE(report.warnings[0].find("not every face has vt"), std::string::npos);
@@ -163,10 +163,11 @@ TEST(MeshFormats, AGltfClothIsWornOnAGltfBodyBesideAPlySolid) {
   ground.positions = slab.positions;
   ground.triangles = slab.triangles;
   put(scratch, "ground.ply", ground);
-  const Report report = run(scratch, "out",
-                            R"({"cloth": [{"mesh": ")" + (scratch / "g.glb") + R"("}], "body": {"mesh": ")" +
-                                (scratch / "arm.glb") + R"("}, "solids": [{"mesh": ")" + (scratch / "ground.ply") +
-                                R"(", "placement": {"translation_m": [0, -0.06, 0]}}], "time": {"seconds": 0.5}})");
+  const Report report =
+      run_text(scratch, "out",
+               R"({"cloth": [{"mesh": ")" + (scratch / "g.glb") + R"("}], "body": {"mesh": ")" + (scratch / "arm.glb") +
+                   R"("}, "solids": [{"mesh": ")" + (scratch / "ground.ply") +
+                   R"(", "placement": {"translation_m": [0, -0.06, 0]}}], "time": {"seconds": 0.5}})");
   EXPECT_EQ(report.body_vertices, static_cast<int>(cylinder.positions.size() + slab.positions.size()));
   EXPECT_EQ(report.audit.cloth_body_edges.max, 0);
   EXPECT_EQ(report.audit.cloth_cloth_edges.max, 0);
@@ -193,8 +194,8 @@ TEST(MeshFormats, AGltfClothIsWornOnAGltfBodyBesideAPlySolid) {
 
 TEST(ExportRun, WritesOneFrameOrAllAndRefusesWhatCannotBeMeant) {
   const Scratch scratch;
-  run(scratch, "out",
-      R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.1}}], "time": {"seconds": 0.1}})");
+  run_text(scratch, "out",
+           R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.1}}], "time": {"seconds": 0.1}})");
   const std::string folder = scratch / "out";
   Pc2Reader reader(scratch / "out/cloth.pc2");
   ExportOptions options;

@@ -32,7 +32,7 @@ double mean_radius(const std::vector<Vec3>& x) {
   return radius;
 }
 
-std::vector<Vec3> last_frame(const std::string& path) {
+std::vector<Vec3> inflated_frame(const std::string& path) {
   Pc2Reader reader(path);
   std::vector<Vec3> x;
   reader.read(reader.samples() - 1, x);
@@ -55,7 +55,7 @@ TEST(PressureInScenes, ABalloonIsAsWideAsItsThreadsSayAndStaysWhereItIs) {
                                                     file));
     EXPECT_EQ(report.ended, "time");
     EXPECT_LT(report.audit.still_mm_per_s_p99, 5);
-    const std::vector<Vec3> x = last_frame(scratch / "out/cloth.pc2");
+    const std::vector<Vec3> x = inflated_frame(scratch / "out/cloth.pc2");
     const double expected = k / (k - Pa * 0.1 / 2) - 1;
     EXPECT_NEAR((mean_radius(x) / 0.1 - 1) / expected, 1, 0.1) << Pa;
     Vec3 middle = Vec3::Zero();
@@ -113,7 +113,7 @@ TEST(PressureInScenes, ACushionIsFilledOnceItIsSewn) {
   };
   const auto thickness = [&] {
     double low = 9, high = -9;
-    for (const Vec3& p : last_frame(scratch / "out/cloth.pc2")) {
+    for (const Vec3& p : inflated_frame(scratch / "out/cloth.pc2")) {
       low = std::min(low, p.z());
       high = std::max(high, p.z());
     }

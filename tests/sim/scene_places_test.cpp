@@ -15,7 +15,7 @@ namespace {
 struct Refusal {
   std::string of_a_file, of_a_model;
 };
-Refusal refusal(const std::string& text, const std::string& file = "s.json") {
+Refusal place_refusal(const std::string& text, const std::string& file = "s.json") {
   const SceneFile read = read_scene(text, file);
   const auto load = [&] {
     require_budget(read.scene, read_text_file, {});
@@ -37,12 +37,12 @@ Refusal refusal(const std::string& text, const std::string& file = "s.json") {
 
 TEST(ScenePlaces, OfPanelsPinsAndShapes) {
   const std::string grid = "{\"cloth\": [{\"grid\": {}},\n {\"name\": \"b\", \"grid\": {}, ";
-  const Refusal panel = refusal(grid + "\"panels\": {\n  \"a/c\": {}}}]}");
+  const Refusal panel = place_refusal(grid + "\"panels\": {\n  \"a/c\": {}}}]}");
   EXPECT_EQ(panel.of_a_file,
             "s.json:3:10: /cloth/1/panels/a~1c: expected a panel of the cloth; nearest is \"b\", got \"a/c\"");
   EXPECT_EQ(panel.of_a_model, "cloth: panels: expected a panel of the cloth; nearest is \"b\", got \"a/c\"");
 
-  const Refusal pin = refusal(grid + "\"pins\": [\n  {\"near_m\": [0, 0, 0]}, {\"near_m\": [0, 0, 0]}]}]}");
+  const Refusal pin = place_refusal(grid + "\"pins\": [\n  {\"near_m\": [0, 0, 0]}, {\"near_m\": [0, 0, 0]}]}]}");
   EXPECT_EQ(pin.of_a_file.rfind(
                 "s.json:3:26: /cloth/1/pins/1: expected pins that hold different particles, got particle ", 0),
             0U)
@@ -51,14 +51,14 @@ TEST(ScenePlaces, OfPanelsPinsAndShapes) {
       << pin.of_a_model;
 
   const Refusal moves =
-      refusal(grid +
-              "\"pins\": [\n {\"in_box_m\": [[-9, -9, -9], [9, 9, 9]], \"hold\": \"moves\", \"moves\": "
-              "[{\"t_s\": 0},\n {\"t_s\": 0.01, \"shift_m\": [9, 0, 0]}]}]}]}");
+      place_refusal(grid +
+                    "\"pins\": [\n {\"in_box_m\": [[-9, -9, -9], [9, 9, 9]], \"hold\": \"moves\", \"moves\": "
+                    "[{\"t_s\": 0},\n {\"t_s\": 0.01, \"shift_m\": [9, 0, 0]}]}]}]}");
   EXPECT_EQ(moves.of_a_file.rfind("s.json:3:2: /cloth/1/pins/0/moves/1: expected no point faster than ", 0), 0U)
       << moves.of_a_file;
   EXPECT_EQ(moves.of_a_model.rfind("/moves/1: expected no point faster than ", 0), 0U) << moves.of_a_model;
 
-  const Refusal shape = refusal(
+  const Refusal shape = place_refusal(
       "{\"cloth\": [{\"name\": \"r\",\n \"ribbon\": {\"width_m\": 0.3, \"path_m\": [[0, 0, 0], [0.1, 0, 0], [0, 0.01, "
       "0]]}}]}");
   EXPECT_EQ(shape.of_a_file.rfind("s.json:2:12: /cloth/0/ribbon: path_m: expected ", 0), 0U) << shape.of_a_file;
@@ -68,7 +68,7 @@ TEST(ScenePlaces, OfPanelsPinsAndShapes) {
 TEST(ScenePlaces, OfLabelsOfAPattern) {
   const Scratch scratch;
   scratch.put("tube.json", test::tube_pattern_text());
-  const Refusal label = refusal(
+  const Refusal label = place_refusal(
       "{\"cloth\": [\n  {\"pattern\": \"tube.json\", \"resolution_cm\": 4, \"label_heights_m\": {\"wrist\": 1}}]}",
       scratch / "s.json");
   EXPECT_EQ(label.of_a_file,
@@ -80,7 +80,7 @@ TEST(ScenePlaces, OfLabelsOfAPattern) {
 }
 
 TEST(ScenePlaces, OfLabelsOfAShapeThatHasNone) {
-  const Refusal label = refusal("{\"cloth\": [\n  {\"grid\": {}, \"label_heights_m\": {\"wrist\": 1}}]}");
+  const Refusal label = place_refusal("{\"cloth\": [\n  {\"grid\": {}, \"label_heights_m\": {\"wrist\": 1}}]}");
   EXPECT_EQ(
       label.of_a_file,
       "s.json:2:3: /cloth/0/label_heights_m: expected a label that an edge of the pattern carries, got \"wrist\"");
@@ -88,23 +88,24 @@ TEST(ScenePlaces, OfLabelsOfAShapeThatHasNone) {
 
 TEST(ScenePlaces, OfColliders) {
   const std::string cloth = "{\"cloth\": [{\"grid\": {}}],\n";
-  const Refusal solid = refusal(cloth +
-                                " \"solids\": [{\"sphere\": {\"radius_m\": 1}},\n"
-                                "  {\"capsule\": {\"radius_m\": 0.1, \"from_m\": [1, 0, 0], \"to_m\": [1, 0, 0]}}]}");
+  const Refusal solid =
+      place_refusal(cloth +
+                    " \"solids\": [{\"sphere\": {\"radius_m\": 1}},\n"
+                    "  {\"capsule\": {\"radius_m\": 0.1, \"from_m\": [1, 0, 0], \"to_m\": [1, 0, 0]}}]}");
   EXPECT_EQ(solid.of_a_file,
             "s.json:3:3: /solids/1: to_m: expected another place than from_m, got the same: that is a sphere");
   EXPECT_EQ(solid.of_a_model, "to_m: expected another place than from_m, got the same: that is a sphere");
 
-  const Refusal body =
-      refusal(cloth + " \"body\": {\"capsule\": {\"radius_m\": 0.1, \"from_m\": [1, 0, 0], \"to_m\": [1, 0, 0]}}}");
+  const Refusal body = place_refusal(
+      cloth + " \"body\": {\"capsule\": {\"radius_m\": 0.1, \"from_m\": [1, 0, 0], \"to_m\": [1, 0, 0]}}}");
   EXPECT_EQ(body.of_a_file.rfind("s.json:2:10: /body: to_m: expected ", 0), 0U) << body.of_a_file;
 
-  const Refusal fine = refusal(cloth + " \"solids\": [{\"sphere\": {\"radius_m\": 1}, \"edge_m\": 0.0005}]}");
+  const Refusal fine = place_refusal(cloth + " \"solids\": [{\"sphere\": {\"radius_m\": 1}, \"edge_m\": 0.0005}]}");
   EXPECT_EQ(fine.of_a_file.rfind("s.json:2:13: /solids/0: edge_m: expected at most 2000000 triangles, got ", 0), 0U)
       << fine.of_a_file;
   EXPECT_EQ(fine.of_a_model.rfind("edge_m: expected at most 2000000 triangles, got ", 0), 0U) << fine.of_a_model;
 
-  const Refusal person = refusal(
+  const Refusal person = place_refusal(
       cloth +
       " \"solids\": [{\"mannequin\": \"woman\", \"moves\": [{\"t_s\": 0}, {\"t_s\": 0.01, \"shift_m\": [9, 0, 0]}]}]}");
   EXPECT_EQ(person.of_a_file.rfind("s.json:2:13: /solids/0/moves/1: expected no point faster than ", 0), 0U)
@@ -118,7 +119,8 @@ TEST(ScenePlaces, OfAPatternAreThoseOfItsOwnFile) {
               ",\n\"toile\": {\"panels\": {\"front\": {\"folds\": [\n"
               "  {\"endpoints\": [0, 2], \"angle_deg\": 90}, {\"endpoints\": [1, 3], \"angle_deg\": 90}]}}}");
   scratch.put("tube.json", text);
-  const Refusal fold = refusal("{\"cloth\": [{\"pattern\": \"tube.json\", \"resolution_cm\": 4}]}", scratch / "s.json");
+  const Refusal fold =
+      place_refusal("{\"cloth\": [{\"pattern\": \"tube.json\", \"resolution_cm\": 4}]}", scratch / "s.json");
   EXPECT_NE(fold.of_a_file.find("tube.json:"), std::string::npos) << fold.of_a_file;
   EXPECT_NE(fold.of_a_file.find(": /toile/panels/front/folds/1 (panel front, fold 1): expected a line from one side"),
             std::string::npos)

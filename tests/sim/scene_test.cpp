@@ -8,7 +8,7 @@
 namespace toile::internal {
 namespace {
 
-std::string refusal(const std::string& text) {
+std::string scene_refusal(const std::string& text) {
   try {
     parse_scene(text, "dir/s.json");
   } catch (const InputError& error) {
@@ -18,7 +18,7 @@ std::string refusal(const std::string& text) {
 }
 
 void expect_refused(const std::string& text, std::initializer_list<std::string_view> words) {
-  const std::string message = refusal(text);
+  const std::string message = scene_refusal(text);
   EXPECT_EQ(message.rfind("dir/s.json:", 0), 0u) << message;
   for (const std::string_view word : words)
     EXPECT_NE(message.find(word), std::string::npos) << '"' << word << "\" is not in: " << message;
@@ -198,8 +198,9 @@ TEST(Scene, NamesThePlaceOfEveryRefusal) {
 }
 
 TEST(Scene, TakesTheLineOfTheValueThatIsWrong) {
-  EXPECT_EQ(refusal("{\"cloth\": [{\"grid\": {},\n\"fabric\": {\n\"bend_u_N_m\": -1e-5}}]}").rfind("dir/s.json:3:", 0),
-            0u);
+  EXPECT_EQ(
+      scene_refusal("{\"cloth\": [{\"grid\": {},\n\"fabric\": {\n\"bend_u_N_m\": -1e-5}}]}").rfind("dir/s.json:3:", 0),
+      0u);
 }
 
 // Times of events count from the first frame: what comes before it, inner drapes and growth, has what the paths begin with.

@@ -26,7 +26,7 @@ using test::with;
 
 std::string source(const std::string& name) { return std::string(TOILE_SOURCE_DIR) + '/' + name; }
 
-std::string refusal(const std::string& text) {
+std::string settings_refusal(const std::string& text) {
   try {
     parse_scene(text, "s.json");
   } catch (const InputError& error) {
@@ -153,7 +153,7 @@ TEST(Settings, ScenesOfTheTestsGiveEveryOne) {
   for_each_given([&](const Given& one) { given.insert(one.name); });
   for (const std::string& name : all) EXPECT_EQ(given.count(name), 1U) << name << " is in no scene of the tests";
   EXPECT_EQ(count_settings(scene_settings()), all.size());
-  for (const std::string_view text : scenes_with_every_setting) EXPECT_EQ(refusal(std::string(text)), "");
+  for (const std::string_view text : scenes_with_every_setting) EXPECT_EQ(settings_refusal(std::string(text)), "");
 }
 
 TEST(Settings, AnotherValueIsAnotherHashUnlessItHasNoPartInTheResult) {
@@ -165,7 +165,7 @@ TEST(Settings, AnotherValueIsAnotherHashUnlessItHasNoPartInTheResult) {
     for_each_value(setting, [&](const Given& one) {
       for (const std::string& other : others(one)) {
         const std::string text = with(*one.scene, one.pointer, other);
-        if (!refusal(text).empty()) continue;  // an end before its beginning
+        if (!settings_refusal(text).empty()) continue;  // an end before its beginning
         EXPECT_EQ(hash_of(text) != before, setting.node->setting.in_result) << one.pointer << ": " << other;
         return;
       }
@@ -185,7 +185,7 @@ TEST(Settings, OneElementLessIsAnotherHash) {
     const std::string last = setting.value->is_array() ? std::to_string(setting.value->array().size() - 1)
                                                        : setting.value->object().back().first;
     const std::string text = with(*setting.scene, setting.pointer + '/' + last, "");
-    if (!refusal(text).empty()) return;
+    if (!settings_refusal(text).empty()) return;
     ++tried;
     EXPECT_NE(hash_of(text), hash_of(with(*setting.scene, "none", ""))) << setting.pointer;
   });
@@ -223,7 +223,7 @@ TEST(Settings, EveryValueOutOfItsRangeIsRefusedAtItsPlaceAndByTheSchema) {
   const test::JsonSchema schema(schema_json);
   std::size_t tried = 0;
   const auto expect_refused = [&](const Given& one, const std::string& other, bool by_schema = true) {
-    const std::string text = with(*one.scene, one.pointer, other), message = refusal(text);
+    const std::string text = with(*one.scene, one.pointer, other), message = settings_refusal(text);
     EXPECT_EQ(message.rfind("s.json:", 0), 0U) << one.pointer << ": " << other << ": " << message;
     EXPECT_NE(message.find(": " + one.pointer), std::string::npos) << other << ": " << message;
     EXPECT_NE(message.find("expected "), std::string::npos) << message;
@@ -250,7 +250,7 @@ TEST(Settings, EveryValueOutOfItsRangeIsRefusedAtItsPlaceAndByTheSchema) {
     });
     if (!setting.node->names.empty()) {
       expect_refused(setting, "\"" + setting.node->names.front() + "x\"");
-      EXPECT_NE(refusal(with(*setting.scene, setting.pointer, "\"" + setting.node->names.front() + "x\""))
+      EXPECT_NE(settings_refusal(with(*setting.scene, setting.pointer, "\"" + setting.node->names.front() + "x\""))
                     .find("nearest is \"" + setting.node->names.front()),
                 std::string::npos);
     }
@@ -262,7 +262,7 @@ TEST(Settings, AMisspeltKeyIsRefusedWithTheNearest) {
   for_each_given([&](const Given& one) {
     const std::string key(one.node->setting.key), around = one.pointer.substr(0, one.pointer.size() - key.size() - 1);
     const std::string text = with(*one.scene, one.pointer, R"(0, ")" + key + R"(q": 0)");
-    const std::string message = refusal(text);
+    const std::string message = settings_refusal(text);
     EXPECT_NE(message.find(": " + around + '/' + key + "q: "), std::string::npos) << message;
     EXPECT_NE(message.find("nearest: \"" + key + '"'), std::string::npos) << message;
   });

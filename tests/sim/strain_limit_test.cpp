@@ -20,7 +20,7 @@ struct Result {
   double longest = 0;  // of any frame: |w| - 1
 };
 
-Result run(const std::string& scene_text) {
+Result pulled(const std::string& scene_text) {
   const Scratch scratch;
   const Scene scene = parse_scene(scene_text, "s.json");
   RunOptions options;
@@ -57,11 +57,11 @@ std::string hung(double limit) {
 constexpr double of_float = 2e-5;  // positions in the file are float
 
 TEST(StrainLimitRun, HoldsInEveryFrame) {
-  const Result free = run(hung(0));
+  const Result free = pulled(hung(0));
   EXPECT_EQ(free.report.ended, "time");
   EXPECT_GT(free.longest, 0.1);
   for (const double limit : {0.05, 0.01}) {
-    const Result limited = run(hung(limit));
+    const Result limited = pulled(hung(limit));
     EXPECT_EQ(limited.report.ended, "time") << limit;
     EXPECT_LE(limited.longest, limit + of_float);
     EXPECT_GT(limited.longest, 0.6 * limit) << "it is pulled that far";
@@ -83,7 +83,7 @@ TEST(StrainLimitRun, IsNotPaidForWithACrossing) {
            R"(], "solids": [{"sphere": {"radius_m": 0.1}, "edge_m": 0.03, "placement": {"translation_m": [0, -0.1, 0]},
       "moves": [{"t_s": 0}, {"t_s": 0.5, "shift_m": [0, 0.02, 0]}]}], "time": {"seconds": 0.6, "step_max_ms": 10}})";
   };
-  const Result limited = run(scene("0.05"));
+  const Result limited = pulled(scene("0.05"));
   EXPECT_EQ(limited.report.ended, "time");
   EXPECT_LE(limited.longest, 0.05 + of_float);
   EXPECT_EQ(limited.report.audit.cloth_cloth_edges.max, 0);
@@ -92,7 +92,8 @@ TEST(StrainLimitRun, IsNotPaidForWithACrossing) {
 
 // A waistband that wants to be a fifth shorter, held at the length to which it was cut.
 TEST(StrainLimitRun, LeavesElasticItsStretch) {
-  const Result elastic = run(R"({"cloth": [{"name": "band", "grid": {"width_m": 0.4, "height_m": 0.1, "edge_m": 0.03},
+  const Result elastic =
+      pulled(R"({"cloth": [{"name": "band", "grid": {"width_m": 0.4, "height_m": 0.1, "edge_m": 0.03},
       "fabric": {"base": "silk", "strain_limit": 0.02}, "panels": {"band": {"rest_stretch_u": 0.8, "rest_stretch_v": 0.8}},
       "pins": [{"in_box_m": [[-0.21, -1, -1], [-0.19, 1, 1]]}, {"in_box_m": [[0.19, -1, -1], [0.21, 1, 1]]}]}],
     "time": {"seconds": 1}})");
@@ -102,7 +103,7 @@ TEST(StrainLimitRun, LeavesElasticItsStretch) {
 }
 
 TEST(StrainLimitRun, ContradictingPinsAreDiagnosed) {
-  const Result torn = run(R"({"cloth": [{"name": "flag", "grid": {"width_m": 0.4, "height_m": 0.2, "edge_m": 0.04},
+  const Result torn = pulled(R"({"cloth": [{"name": "flag", "grid": {"width_m": 0.4, "height_m": 0.2, "edge_m": 0.04},
       "fabric": {"base": "silk", "strain_limit": 0.01},
       "pins": [{"in_box_m": [[-0.21, -1, -1], [-0.19, 1, 1]]},
                {"in_box_m": [[0.19, -1, -1], [0.21, 1, 1]], "hold": "moves", "moves": [{"t_s": 0}, {"t_s": 0.5, "shift_m": [0.02, 0, 0]}]}]}],

@@ -9,14 +9,14 @@
 namespace toile::internal {
 namespace {
 
-constexpr std::array all = {Preconditioner::diagonal, Preconditioner::block_jacobi, Preconditioner::block_ssor,
-                            Preconditioner::block_ssor_coarse};
+constexpr std::array preconditioners = {Preconditioner::diagonal, Preconditioner::block_jacobi,
+                                        Preconditioner::block_ssor, Preconditioner::block_ssor_coarse};
 
 using test::error_against_dense;
 using test::Problem;
 
 TEST(ModifiedPcg, AgreesWithADenseSolveForEveryPreconditioner) {
-  for (const Preconditioner preconditioner : all) {
+  for (const Preconditioner preconditioner : preconditioners) {
     Problem<double> p;
     ModifiedPcg<double> pcg(p.model.mesh);
     const PcgOptions options{preconditioner, 1e-11, 5000};
@@ -29,7 +29,7 @@ TEST(ModifiedPcg, AgreesWithADenseSolveForEveryPreconditioner) {
 }
 
 TEST(ModifiedPcg, FloatReachesWhatTheStopRuleAsks) {
-  for (const Preconditioner preconditioner : all) {
+  for (const Preconditioner preconditioner : preconditioners) {
     Problem<float> p;
     ModifiedPcg<float> pcg(p.model.mesh);
     const PcgOptions options{preconditioner, 1e-5, 5000};
@@ -42,7 +42,7 @@ TEST(ModifiedPcg, FloatReachesWhatTheStopRuleAsks) {
 }
 
 TEST(ModifiedPcg, ConstraintsAreExactAtEveryIterationCount) {
-  for (const Preconditioner preconditioner : all) {
+  for (const Preconditioner preconditioner : preconditioners) {
     for (const int limit : {0, 1, 5, 50}) {
       Problem<float> p;
       ModifiedPcg<float> pcg(p.model.mesh);
@@ -65,7 +65,7 @@ TEST(ModifiedPcg, ConstraintsAreExactAtEveryIterationCount) {
 }
 
 TEST(ModifiedPcg, StopsWhereSinglePrecisionGetsNoFurther) {
-  for (const Preconditioner preconditioner : all) {
+  for (const Preconditioner preconditioner : preconditioners) {
     Problem<float> p;
     ModifiedPcg<float> pcg(p.model.mesh);
     const PcgOptions options{preconditioner, 1e-12, 5000};
@@ -153,10 +153,10 @@ TEST(ModifiedPcg, AnExactGuessNeedsNoIteration) {
 TEST(ModifiedPcg, BetterPreconditionersNeedFewerIterations) {
   const test::Sheet sheet = test::equilateral_sheet(0.8, 0.8, 0.02);
   std::array<int, 4> iterations{};
-  for (std::size_t k = 0; k < all.size(); ++k) {
+  for (std::size_t k = 0; k < preconditioners.size(); ++k) {
     Problem<float> p(sheet, 1.0 / 60, 0.001);
     ModifiedPcg<float> pcg(p.model.mesh);
-    const PcgOptions options{all[k], 1e-3, 5000};
+    const PcgOptions options{preconditioners[k], 1e-3, 5000};
     pcg.prepare(p.system, options);
     Vec3s dv(p.b.size(), Vec3::Zero());
     const PcgReport report = pcg.solve(p.system, p.b, p.reference, options, dv);
@@ -172,7 +172,7 @@ TEST(ModifiedPcg, BetterPreconditionersNeedFewerIterations) {
 TEST(ModifiedPcg, TheResidualItStopsAtIsTheTrueOne) {
   const test::Sheet sheet = test::equilateral_sheet(0.8, 0.8, 0.02);
   for (const bool with_rows : {true, false})
-    for (const Preconditioner preconditioner : all) {
+    for (const Preconditioner preconditioner : preconditioners) {
       Problem<float> p(sheet, 1.0 / 60, 0.001);
       for (Index i = 100; i < 400; i += 3) p.constraints.hold_along(i, Vec3(0, 0.6, 0.8), 0.1);
       if (!with_rows) p.rows.clear();

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi, mm = 1e-3;
 
-struct Random {
+struct RandomPlaces {
   std::mt19937_64 bits{20260};
   double operator()(double low, double high) {
     return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53;
@@ -35,7 +35,7 @@ struct Surface {
 // A level square of 1 m around the origin, its corners displaced at random.
 Surface ground() {
   constexpr int n = 20;
-  Random random;
+  RandomPlaces random;
   Surface s;
   for (int r = 0; r <= n; ++r)
     for (int c = 0; c <= n; ++c) s.x.push_back(Vec3(-0.5 + c * 1.0 / n, 0, -0.5 + r * 1.0 / n) + random.in_box(0.01));
@@ -49,14 +49,14 @@ Surface ground() {
 }
 
 Vec3s over_the_ground(double height) {
-  Random random;
+  RandomPlaces random;
   Vec3s x;
   for (int k = 0; k < 50; ++k) x.push_back({random(-0.3, 0.3), height + 0.02, random(-0.3, 0.3)});
   return x;
 }
 
 using Motion = std::function<Vec3(double t)>;
-constexpr auto still = [](double) { return Vec3(0, 0, 0); };
+constexpr auto no_motion = [](double) { return Vec3(0, 0, 0); };
 
 Vec3s moved(Vec3s x, const Vec3& by) {
   for (Vec3& p : x) p += by;
@@ -84,7 +84,7 @@ double response_mm_per_s(double amplitude, double hertz, double fps) {
 }
 
 TEST(Jitter, OfAMillimetreAtTwelveHertzIsThatOfTheFormula) {
-  const JitterStatistics jitter = jitter_of(0.003, circle(1 * mm, 12), still);
+  const JitterStatistics jitter = jitter_of(0.003, circle(1 * mm, 12), no_motion);
   EXPECT_EQ(jitter.windows, 85);
   EXPECT_NEAR(jitter.max_mm_per_s, 46.6856, 1e-4);  // 60 sin^5(72 degrees)
   EXPECT_NEAR(jitter.p50_mm_per_s, 46.6856, 0.05);
@@ -94,27 +94,27 @@ TEST(Jitter, OfAMillimetreAtTwelveHertzIsThatOfTheFormula) {
 TEST(Jitter, RespondsToEveryFrequencyAsDocumented) {
   for (const double fps : {24.0, 30.0, 60.0})
     for (const double hertz : {0.5, 3.0, 6.0, 9.0, 11.5})
-      EXPECT_NEAR(jitter_of(0.003, circle(1 * mm, hertz), still, fps).max_mm_per_s,
+      EXPECT_NEAR(jitter_of(0.003, circle(1 * mm, hertz), no_motion, fps).max_mm_per_s,
                   response_mm_per_s(1 * mm, hertz, fps), 1e-6)
           << hertz << " Hz at " << fps;
   // The filter alone passes one half at 0.318 fps.
   const double hertz = 0.318 * 30, difference_mm_per_s = 2 * 30 * std::sin(pi * 0.318);
-  EXPECT_NEAR(jitter_of(0.003, circle(1 * mm, hertz), still).max_mm_per_s / difference_mm_per_s, 0.5, 1e-3);
+  EXPECT_NEAR(jitter_of(0.003, circle(1 * mm, hertz), no_motion).max_mm_per_s / difference_mm_per_s, 0.5, 1e-3);
 }
 
 TEST(Jitter, HardlyKnowsASlowSwing) {
-  const JitterStatistics jitter = jitter_of(0.003, circle(100 * mm, 1), still);
+  const JitterStatistics jitter = jitter_of(0.003, circle(100 * mm, 1), no_motion);
   EXPECT_NEAR(jitter.max_mm_per_s, 0.0749, 1e-4);  // of a swing of 628 mm/s
 }
 
 TEST(Jitter, IsNoneWhereClothFollowsTheBodyHoweverItJumps) {
-  Random random;
+  RandomPlaces random;
   std::vector<Vec3> jumps;
   for (int f = 0; f < 90; ++f) jumps.push_back(random.in_box(0.02));
   const Motion jump = [&](double t) { return jumps[static_cast<std::size_t>(std::lround(30 * t))]; };
   EXPECT_LT(jitter_of(0.003, jump, jump).max_mm_per_s, 1e-6);
-  EXPECT_GT(jitter_of(0.003, still, jump).p50_mm_per_s, 100);
-  EXPECT_GT(jitter_of(0.003, jump, still).p50_mm_per_s, 100);
+  EXPECT_GT(jitter_of(0.003, no_motion, jump).p50_mm_per_s, 100);
+  EXPECT_GT(jitter_of(0.003, jump, no_motion).p50_mm_per_s, 100);
 }
 
 TEST(Jitter, OfAGarmentThatTurnsWithItsBodyIsNone) {
@@ -136,8 +136,8 @@ TEST(Jitter, OfAGarmentThatTurnsWithItsBodyIsNone) {
 
 TEST(Jitter, BeyondReachIsThatOfTheClothAlone) {
   const Motion body = circle(1 * mm, 12);
-  EXPECT_NEAR(jitter_of(0.02, still, body).p50_mm_per_s, 46.7, 0.06);
-  EXPECT_LT(jitter_of(0.06, still, body).max_mm_per_s, 1e-6);
+  EXPECT_NEAR(jitter_of(0.02, no_motion, body).p50_mm_per_s, 46.7, 0.06);
+  EXPECT_LT(jitter_of(0.06, no_motion, body).max_mm_per_s, 1e-6);
   EXPECT_NEAR(jitter_of(0.06, body, body).p50_mm_per_s, 46.7, 0.06);
   EXPECT_LT(jitter_of(0.02, body, body).max_mm_per_s, 1e-6);
 }
@@ -161,7 +161,7 @@ TEST(Jitter, OfADrapeIsForgottenWhenTheBodyBeginsToMove) {
   EXPECT_EQ(jitter.windows, 25);  // 30 frames, the first of them the last in which the body stood
   EXPECT_LT(jitter.max_mm_per_s, 1e-6);
   EXPECT_GE(jitter.worst_frame, 62);
-  EXPECT_GT(jitter_of(0.003, calms, still).p50_mm_per_s, 40);  // a body that never moves
+  EXPECT_GT(jitter_of(0.003, calms, no_motion).p50_mm_per_s, 40);  // a body that never moves
   // Percentiles forget it too: here one jump is the largest of a calm motion.
   const auto jumps_once = [&](double t) -> Vec3 { return calms(t) + Vec3(0, t > 2.95 ? 0.01 : 0, 0); };
   EXPECT_GT(jitter_of(0.003, jumps_once, starts).max_mm_per_s, 15);
@@ -190,7 +190,7 @@ struct RandomRun {
 
 RandomRun random_run() {
   RandomRun run{ground(), {}, {}};
-  Random random;
+  RandomPlaces random;
   Vec3s cloth = over_the_ground(0.03), body_x = run.body.x;
   for (int f = 0; f < 40; ++f) {
     for (Vec3& p : cloth) p += random.in_box(0.01);
@@ -264,13 +264,13 @@ TEST(Jitter, IsTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(Jitter, BeyondTheHistogramIsReportedAsTheLargest) {
-  const JitterStatistics jitter = jitter_of(0.2, circle(0.1, 12), still);
+  const JitterStatistics jitter = jitter_of(0.2, circle(0.1, 12), no_motion);
   EXPECT_NEAR(jitter.max_mm_per_s, 4668.56, 0.01);
   EXPECT_EQ(jitter.p50_mm_per_s, jitter.max_mm_per_s);
 }
 
 TEST(NearestPoint, OfATriangleIsNearerThanADenseSampling) {
-  Random random;
+  RandomPlaces random;
   for (int trial = 0; trial < 2000; ++trial) {
     Vec3 a = random.in_box(1), b = random.in_box(1), c = random.in_box(1);
     if (trial % 10 == 0) c = 0.5 * (a + b);  // no area

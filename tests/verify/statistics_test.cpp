@@ -109,14 +109,14 @@ TEST(Stretch, RefusesATriangleWithoutAreaAndSizesThatDisagree) {
   EXPECT_THROW(measure_stretch(mesh, x, {}), InputError);
 }
 
-struct Mesh {
+struct MeasuredMesh {
   std::vector<Triangle> triangles;
   Vec3s x;
 };
 
 // Axis-parallel box of two triangles per side.
-Mesh box(const Vec3& low, const Vec3& high) {
-  Mesh mesh;
+MeasuredMesh box(const Vec3& low, const Vec3& high) {
+  MeasuredMesh mesh;
   for (int i = 0; i < 8; ++i)
     mesh.x.push_back(
         {(i & 1) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(), (i & 4) != 0 ? high.z() : low.z()});
@@ -125,7 +125,7 @@ Mesh box(const Vec3& low, const Vec3& high) {
   return mesh;
 }
 
-double gap_of(const Vec3& p, const Mesh& body) {
+double gap_of(const Vec3& p, const MeasuredMesh& body) {
   const Vec3s x = {p};
   return measure_gap(x, body.triangles, body.x).min_mm;
 }
@@ -138,7 +138,7 @@ double distance_to_box(const Vec3& p, const Vec3& low, const Vec3& high) {
 
 TEST(Gap, IsTheSignedDistanceToABox) {
   const Vec3 low(-1, 0, -1), high(1, 2, 1);
-  const Mesh body = box(low, high);
+  const MeasuredMesh body = box(low, high);
   Random random(31);
   for (int n = 0; n < 2000; ++n) {
     const Vec3 p = random.point(-2, 3);
@@ -149,7 +149,7 @@ TEST(Gap, IsTheSignedDistanceToABox) {
 // Straight above these points lie particles, edges and diagonals of the box: the ray meets them exactly.
 TEST(Gap, HasTheRightSignWhereTheRayMeetsEdgesAndParticles) {
   const Vec3 low(0, 0, 0), high(4, 4, 4);
-  const Mesh body = box(low, high);
+  const MeasuredMesh body = box(low, high);
   for (int x = -2; x <= 6; ++x)
     for (int y = -2; y <= 6; ++y)
       for (int z = -2; z <= 6; ++z) {
@@ -161,8 +161,8 @@ TEST(Gap, HasTheRightSignWhereTheRayMeetsEdgesAndParticles) {
 }
 
 TEST(Gap, IsNegativeWhereTwoPartsOfTheBodyOverlap) {
-  Mesh body = box({0, 0, 0}, {2, 2, 2});
-  const Mesh arm = box({1, 0.5, 0.5}, {5, 1.5, 1.5});
+  MeasuredMesh body = box({0, 0, 0}, {2, 2, 2});
+  const MeasuredMesh arm = box({1, 0.5, 0.5}, {5, 1.5, 1.5});
   for (const Triangle& t : arm.triangles) body.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
   body.x.insert(body.x.end(), arm.x.begin(), arm.x.end());
   EXPECT_LT(gap_of({1.5, 1, 1}, body), 0);  // in both: winding number 2, an even number of crossings
@@ -173,21 +173,21 @@ TEST(Gap, IsNegativeWhereTwoPartsOfTheBodyOverlap) {
 }
 
 TEST(Gap, TreatsAHoleOfTheBodyAsClosed) {
-  Mesh body = box({0, 0, 0}, {2, 2, 2});
+  MeasuredMesh body = box({0, 0, 0}, {2, 2, 2});
   body.triangles.erase(body.triangles.begin() + 6, body.triangles.begin() + 8);  // the lid, y = 2
   EXPECT_LT(gap_of({1, 0.5, 1}, body), 0);
   EXPECT_LT(gap_of({1.1, 1.9, 0.9}, body), 0);
   EXPECT_GT(gap_of({1.1, 2.1, 0.9}, body), 0);
   // The distance is to the surface that is there, not to the lid.
   EXPECT_NEAR(gap_of({1, 2.5, 1}, body), 1000 * std::hypot(1, 0.5), 1e-9);
-  const Mesh floor = {{{0, 1, 2}}, {{0, 0, 0}, {0, 0, 9}, {9, 0, 0}}};
+  const MeasuredMesh floor = {{{0, 1, 2}}, {{0, 0, 0}, {0, 0, 9}, {9, 0, 0}}};
   EXPECT_NEAR(gap_of({1, 0.25, 1}, floor), 250, 1e-9);
   EXPECT_NEAR(gap_of({1, -0.25, 1}, floor), 250, 1e-9);
 }
 
 TEST(Gap, IsTheLeastOverAllTriangles) {
   Random random(32);
-  Mesh body;
+  MeasuredMesh body;
   for (Index t = 0; t < 200; ++t) {
     const Vec3 centre = random.point(-1, 1);
     for (int k = 0; k < 3; ++k) body.x.push_back(centre + random.point(-0.2, 0.2));
@@ -211,7 +211,7 @@ TEST(Gap, IsTheLeastOverAllTriangles) {
 }
 
 TEST(Gap, HoversOnlyWhereTheClothLiesOnTheBodyFromOutside) {
-  const Mesh body = box({-1, -1, -1}, {1, 1, 1});
+  const MeasuredMesh body = box({-1, -1, -1}, {1, 1, 1});
   Vec3s x = {{0, 1.0055, 0}, {0.2, 0.999, 0}, {0, 2, 0}};  // beyond the reach, inside, far away
   for (int k = 1; k <= 10; ++k) x.push_back({0.01 * k, 1 + 0.00045 * k, 0.3});
   const auto gap = measure_gap(x, body.triangles, body.x);
@@ -221,7 +221,7 @@ TEST(Gap, HoversOnlyWhereTheClothLiesOnTheBodyFromOutside) {
 }
 
 TEST(Gap, GivesTheMedianAndTheDeepestVertex) {
-  const Mesh body = box({-1, -1, -1}, {1, 1, 1});
+  const MeasuredMesh body = box({-1, -1, -1}, {1, 1, 1});
   const Vec3s x = {{0, 1.1, 0}, {0, 1.3, 0}, {0, 0.9, 0}, {0, 1.2, 0}};
   const auto gap = measure_gap(x, body.triangles, body.x);
   EXPECT_NEAR(gap.min_mm, -100, 1e-9);
