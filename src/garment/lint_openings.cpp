@@ -18,7 +18,7 @@ constexpr double hand_m = 0.20;  // around the knuckles, the thumb laid in
 constexpr double foot_m = 0.31;  // around heel and instep
 constexpr double hips_m = 0.85;
 // How much longer an edge gets when it is pulled over: a knitted neckline about 25 %, an elastic waistband 40 %.
-constexpr double knit = 1.25, elastic = 1.4;
+constexpr double knit_stretch = 1.25, elastic_stretch = 1.4;
 // Cloth that closes around a trunk has more than this; hats, cuffs and stockings have less.
 constexpr double trunk_area_m2 = 0.3;
 // An opening lies around the axis of the garment when its middle is this near to it, as a part of its width: a leg's is half a width away.
@@ -50,15 +50,15 @@ class OpeningLint {
     if (piece_.area_m2 < trunk_area_m2 * scale_ * scale_) return;
     const double hips =
         context_.body && context_.body->hips_girth_m > 0 ? context_.body->hips_girth_m : hips_m * scale_;
-    if (largest->girth_m < hips / elastic) {
+    if (largest->girth_m < hips / elastic_stretch) {
       add(reason::no_way_in, &*largest,
-          "an opening of at least " + cm_text(hips / elastic) + " for the hips, or a slit",
+          "an opening of at least " + cm_text(hips / elastic_stretch) + " for the hips, or a slit",
           "none larger than " + cm_text(largest->girth_m));
     } else {
       check_top();
     }
-    check_ends(wearing_.hands, reason::no_way_for_hand, hand_m * scale_ / knit, "a hand");
-    check_ends(wearing_.feet, reason::no_way_for_foot, foot_m * scale_ / knit, "a heel");
+    check_ends(wearing_.hands, reason::no_way_for_hand, hand_m * scale_ / knit_stretch, "a hand");
+    check_ends(wearing_.feet, reason::no_way_for_foot, foot_m * scale_ / knit_stretch, "a heel");
     check_closed("arm", reason::no_way_for_hand, "sleeve");
     check_closed("leg", reason::no_way_for_foot, "leg");
   }
@@ -92,7 +92,8 @@ class OpeningLint {
       return;
     }
     const double head =
-        (context_.body && context_.body->head_girth_m > 0 ? context_.body->head_girth_m : head_m * scale_) / knit;
+        (context_.body && context_.body->head_girth_m > 0 ? context_.body->head_girth_m : head_m * scale_) /
+        knit_stretch;
     if (top->girth_m < head)
       add(reason::no_way_for_head, top, "an opening of at least " + cm_text(head) + " for a head, or a slit",
           cm_text(top->girth_m));

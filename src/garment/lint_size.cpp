@@ -19,8 +19,8 @@ namespace {
 struct Band {
   double low, high;
 };
-constexpr Band neck{0.76, 1.25}, waist{0.56, 0.80};  // of the height
-constexpr Band people_m{0.95, 2.2};                  // heights of wearers: from three years on
+constexpr Band neck_levels{0.76, 1.25}, waist_levels{0.56, 0.80};  // of the height
+constexpr Band people_m{0.95, 2.2};                                // heights of wearers: from three years on
 // In the frame of 2021, with the pelvis at 0, only sizes are known: the garment's height and its largest opening.
 constexpr Band legacy_height_m{0.2, 2.2}, legacy_girth_m{0.6, 12};
 constexpr double least_waist_m = 0.5;  // of the smallest of them
@@ -75,7 +75,7 @@ class SizeLint {
 
   // The possible heights of its wearer, were it `factor` times as large.
   Band heights(double factor) const {
-    const Band band = wearing_.has_arms ? neck : waist;
+    const Band band = wearing_.has_arms ? neck_levels : waist_levels;
     return {factor * top_m_ / band.high, factor * top_m_ / band.low};
   }
   bool fits_people(double factor) const {
@@ -151,7 +151,7 @@ class SizeLint {
     }
     const auto beside = [&](int axis) { return body.middle_m[axis] < low[axis] || body.middle_m[axis] > high[axis]; };
     const bool above = !pattern_.legacy_frame && low.y() > body.high_m.y(),
-               below = !pattern_.legacy_frame && high.y() < body.low_m.y() + waist.low / 2 * body.height_m();
+               below = !pattern_.legacy_frame && high.y() < body.low_m.y() + waist_levels.low / 2 * body.height_m();
     if (beside(0) || beside(2) || above || below) return tell_place(low, high, above || below);
     if (!check_size()) tell_misfits();
   }
@@ -162,7 +162,7 @@ class SizeLint {
     if (pattern_.legacy_frame) return false;
     const Band who = heights(1);
     const double top = top_m_ - body.low_m.y();
-    const Band band = wearing_.has_arms ? neck : waist;
+    const Band band = wearing_.has_arms ? neck_levels : waist_levels;
     if (body.height_m() < top / band.high || body.height_m() > top / band.low) {
       LintProblem& problem = add(reason::other_body,
                                  "a garment for a person between " + cm_text(who.low) + " and " + cm_text(who.high) +
@@ -223,7 +223,7 @@ class SizeLint {
       shift.y() = top - top_m_;
     }
     const double moved_top = top_m_ + shift.y() - body.low_m.y();
-    const Band band = wearing_.has_arms ? neck : waist;
+    const Band band = wearing_.has_arms ? neck_levels : waist_levels;
     if (!pattern_.legacy_frame && (body.height_m() < moved_top / band.high || body.height_m() > moved_top / band.low)) {
       problem.finding.repair = "refused: beside the body or around it, it is not its size";
       return;

@@ -47,16 +47,17 @@ struct Key {
 };
 // From a child of three to more than the tallest and the widest of adults.
 constexpr double shortest_cm = 50, tallest_cm = 250, widest_cm = 300;
-constexpr std::array<Key, 10> keys = {{{"head_l", &BodyMeasurements::head_m, 10, 50, m_per_cm},
-                                       {"waist_line", &BodyMeasurements::waist_line_m, 10, 80, m_per_cm},
-                                       {"hips_line", &BodyMeasurements::hips_line_m, 1, 60, m_per_cm},
-                                       {"armscye_depth", &BodyMeasurements::armscye_m, 3, 40, m_per_cm},
-                                       {"shoulder_w", &BodyMeasurements::shoulder_width_m, 10, 80, m_per_cm},
-                                       {"shoulder_incl", &BodyMeasurements::shoulder_slope_rad, 0, 60, rad_per_deg},
-                                       {"bust", &BodyMeasurements::bust_girth_m, 30, widest_cm, m_per_cm},
-                                       {"waist", &BodyMeasurements::waist_girth_m, 30, widest_cm, m_per_cm},
-                                       {"hips", &BodyMeasurements::hips_girth_m, 30, widest_cm, m_per_cm},
-                                       {"arm_pose_angle", &BodyMeasurements::arm_down_rad, 0, 90, rad_per_deg}}};
+constexpr std::array<Key, 10> body_keys = {
+    {{"head_l", &BodyMeasurements::head_m, 10, 50, m_per_cm},
+     {"waist_line", &BodyMeasurements::waist_line_m, 10, 80, m_per_cm},
+     {"hips_line", &BodyMeasurements::hips_line_m, 1, 60, m_per_cm},
+     {"armscye_depth", &BodyMeasurements::armscye_m, 3, 40, m_per_cm},
+     {"shoulder_w", &BodyMeasurements::shoulder_width_m, 10, 80, m_per_cm},
+     {"shoulder_incl", &BodyMeasurements::shoulder_slope_rad, 0, 60, rad_per_deg},
+     {"bust", &BodyMeasurements::bust_girth_m, 30, widest_cm, m_per_cm},
+     {"waist", &BodyMeasurements::waist_girth_m, 30, widest_cm, m_per_cm},
+     {"hips", &BodyMeasurements::hips_girth_m, 30, widest_cm, m_per_cm},
+     {"arm_pose_angle", &BodyMeasurements::arm_down_rad, 0, 90, rad_per_deg}}};
 
 // from_chars ignores the locale; the stream of yaml-cpp does not.
 double number_in(const YAML::Node& node, std::string_view file, const std::string& name, double least, double most) {
@@ -113,7 +114,7 @@ BodyMeasurements parse_measurements(std::string_view text, std::string_view file
   if (!body.IsMap()) throw InputError(where(file, body.Mark()), "body", "a mapping of measurements", describe(body));
   BodyMeasurements measured;
   measured.file = file;
-  std::array<bool, keys.size()> given{};
+  std::array<bool, body_keys.size()> given{};
   bool has_height = false;
   for (const auto& entry : body) {
     if (!entry.first.IsScalar()) continue;
@@ -127,10 +128,11 @@ BodyMeasurements parse_measurements(std::string_view text, std::string_view file
       once(has_height);
       measured.height_m = m_per_cm * number_in(entry.second, file, name, shortest_cm, tallest_cm);
     }
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-      if (key != keys[k].name) continue;
+    for (std::size_t k = 0; k < body_keys.size(); ++k) {
+      if (key != body_keys[k].name) continue;
       once(given[k]);
-      measured.*keys[k].member = keys[k].unit * number_in(entry.second, file, name, keys[k].least, keys[k].most);
+      measured.*body_keys[k].member =
+          body_keys[k].unit * number_in(entry.second, file, name, body_keys[k].least, body_keys[k].most);
     }
   }
   if (!has_height) throw InputError(where(file, body.Mark()), "body.height", "the height in cm", "none");

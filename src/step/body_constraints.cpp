@@ -17,7 +17,7 @@ constexpr double largest_alteration = 0.2;    // of the offset, per step
 constexpr double fully_altered_s = 1e-3;
 constexpr double deepest = 0.5;       // offsets
 constexpr double dead_band = 0.02;    // of the offset
-constexpr double deep = 0.5;          // of the offset
+constexpr double deep_share = 0.5;    // of the offset
 constexpr double slides_from = 1e-3;  // m/s; slower motion is the settling of what sticks,
 constexpr double still_below = 1e-6;  // m/s; and slower than this it has settled
 // k_t h^2 / m; in proportion to the mass, or light particles at an edge would reach their cones long before the others.  Tight trousers press
@@ -263,7 +263,7 @@ bool BodyConstraints::touches(Near& near, const Vec3& v, const StepFormula& step
     if (gap >= (1 - dead_band) * r) return false;
     contact.lambda_n = 0;
     ++change.added;
-    if (gap < deep * r) ++change.deep;
+    if (gap < deep_share * r) ++change.deep;
     return true;
   };
   Beside* beside = this->beside(near);
