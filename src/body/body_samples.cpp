@@ -18,7 +18,6 @@ namespace toile::internal {
 namespace {
 
 constexpr std::size_t coordinate_limit = std::size_t{1} << 30;
-constexpr double same_pose_m = 1e-5;
 constexpr double height_ratio = 4.0;  // first sample to body
 // No skin is stretched so in a pose that a body may stand in, but most edges are if vertices come in another order.
 constexpr double longer_ratio = 3.0, longer_share = 0.05;  // an edge to the body's, and beyond it of the height

@@ -15,7 +15,6 @@ namespace toile::internal {
 namespace {
 
 constexpr double same_place = 1e-6;  // of the height: the body is the figure at rest
-constexpr double same_place_m = 1e-5;
 constexpr double same_again = 5e-3;  // of the height: the last pose is the first again; less than a step of any gait
 constexpr double farthest_m = 1e6;
 constexpr double told_yield_m = 1e-3;
@@ -93,7 +92,7 @@ void FigureMotion::check_samples(std::string_view file, const CollisionBody& bod
     if (frame == 0) first = x;
     before = x;
   }
-  lead_in_.seconds = farthest_apart(first, body.positions) > same_place_m ? options.lead_in_s : 0;
+  lead_in_.seconds = farthest_apart(first, body.positions) > same_pose_m ? options.lead_in_s : 0;
   // Two poses and a half turn back.
   track_.loops = moves && track_.poses.size() > 3 && farthest_apart(first, x) <= same_again * body.height_m;
 }

@@ -10,6 +10,8 @@
 
 namespace toile::internal {
 
+inline constexpr double same_pose_m = 1e-5;  // between the body and a motion's first pose: nothing to be led into
+
 struct LeadIn {
   double seconds = 0;
 

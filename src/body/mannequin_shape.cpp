@@ -9,8 +9,6 @@
 
 namespace toile::internal {
 
-namespace {}  // namespace
-
 ArmAxis left_arm_axis(const MannequinForm& form) {
   const double r = std::sqrt(0.5);
   return {form.shoulder_m, Vec3(r, -r, 0), form.elbow_m, form.wrist_m, form.finger_tip_m};

@@ -140,7 +140,7 @@ class Others:
     def core(self):
         work, source = self.options.work, self.options.source
         alone = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in optional_packages]
-        # -Werror so that the objects are those of the build that runs the tests, and ccache has them.
+        # The flags of the build that runs the tests.
         told = self.configure(source, work, *alone, "-DBUILD_SHARED_LIBS=ON", "-DTOILE_WERROR=ON", "-DTOILE_UNITY=ON", "-DTOILE_CLI=AUTO", "-DTOILE_PYTHON=OFF")
         for line in ("Toile: the program `toile`: no: needs CLI11", "Toile: pictures: no: needs Embree 3 or 4 and libpng", "Toile: glTF files: no: needs tinygltf",
                      "Toile: tests: no: needs GoogleTest"):
@@ -205,7 +205,7 @@ class Others:
 
         for file, words in configure(self.scratch / "fast", "-DCMAKE_CXX_FLAGS=-ffast-math").items():
             expect("-Werror" not in words, f"{file}: a parent's compiler may warn of what ours does not")
-        configure(work, "-DTOILE_WERROR=ON", "-DTOILE_UNITY=ON")  # the flags of the build that runs the tests: ccache has the objects
+        configure(work, "-DTOILE_WERROR=ON", "-DTOILE_UNITY=ON")  # the flags of the build that runs the tests
         self.build(work, "app")
         expect(run(work / "app") == f"toile {self.options.version}\n", "the parent's program says something else")
 
