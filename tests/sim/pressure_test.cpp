@@ -48,7 +48,7 @@ TEST(PressureInScenes, ABalloonIsAsWideAsItsThreadsSayAndStaysWhereItIs) {
     const std::string file = scratch / "s.json";
     const Report report =
         test::run_into(scratch / "out", parse_scene(R"({"cloth": [{"mesh": "ball.obj", "rest_shape": "start",
-        "fabric": {"base": "cotton", "stretch_u_N_per_m": 1000, "stretch_v_N_per_m": 1000, "strain_limit": 0},
+        "fabric": {"base": "cotton", "stretch_u_N_per_m": 1000, "stretch_v_N_per_m": 1000, "shear_N_per_m": 200, "strain_limit": 0},
         "panels": {"ball": {"pressure_Pa": )" + std::to_string(Pa) +
                                                         R"(}}}],
         "world": {"gravity_m_per_s2": [0, 0, 0]}, "time": {"seconds": 3}})",

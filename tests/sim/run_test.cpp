@@ -316,7 +316,8 @@ TEST(Run, WhatHangsFromTheWaistIsHeldThereWhileItIsSewn) {
 TEST(Run, TrousersWhoseSeamsHaveCaughtAFoldAreSewnAndTakenApart) {
   const Scratch scratch;
   const Report report = run(scratch, parse_scene(R"({"cloth": [{"pattern": ")" TOILE_SOURCE_DIR
-                                                 R"(/patterns/man_pants.json", "resolution_cm": 3.5}],
+                                                 R"(/patterns/man_pants.json", "resolution_cm": 3.5,
+                                                       "fabric": {"base": "cotton", "shear_N_per_m": 200}}],
                                                      "body": {"mannequin": "man"}, "time": {"seconds": 0.3}})",
                                                  "s.json"));
   ASSERT_EQ(report.ended, "time");

@@ -237,8 +237,8 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "67f65cf488a47654");
-  EXPECT_EQ(folding(), "eb8d95a6ccfd5d06");
+  EXPECT_EQ(hanging(), "49792266abf6f97d");
+  EXPECT_EQ(folding(), "96b07bb0a7c24b87");
   EXPECT_EQ(drop(1), "34017a2e4db696dd");
 }
 

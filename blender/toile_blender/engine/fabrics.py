@@ -20,7 +20,7 @@ NUMBERS = (
     Number("density_kg_per_m2", "Weight", "kg/m²", 0.15, 0.001, 1000.0),
     Number("stretch_u_N_per_m", "Warp", "stiffness along the warp, N/m", 3000.0, 1.0, 1e9),
     Number("stretch_v_N_per_m", "Weft", "stiffness along the weft, N/m", 2000.0, 1.0, 1e9),
-    Number("shear_N_per_m", "Shear", "stiffness, N/m", 200.0, 0.0, 1e9),
+    Number("shear_N_per_m", "Shear", "stiffness, N/m", 60.0, 0.0, 1e9),
     Number("bend_u_N_m", "Bend Warp", "bending rigidity of the warp, N m", 1e-5, 0.0, 1e6),
     Number("bend_v_N_m", "Bend Weft", "bending rigidity of the weft, N m", 1e-5, 0.0, 1e6),
     Number("strain_limit", "Strain Limit", "0.05: no thread gets more than 5 % longer; 0: no limit", 0.0, 0.0, 1.0),
