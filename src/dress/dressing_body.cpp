@@ -10,9 +10,7 @@ namespace {
 
 // Times since the weld: it waits; arms come out; they are lowered, and are down before the body is full.
 constexpr double waits_s = 0.3, out_s = 0.4, lowers_s = 0.4, grows_at_s = 0.6, grows_s = 1;
-// A drawn-in arm ends before the hem of its sleeve, so that a cuff closes in front of the hand, not around it; but past its root.  Of six random garments
-// with sleeves, two of the four that are blocked with the arm 8 cm past the hem close with it 4 cm before; of four of the six, 15 cm before changes none.
-constexpr double before_hem_m = 0.04, past_root_m = 0.08;
+constexpr double drawn_in_m = 0.08;  // what stays of a drawn-in arm: past its root
 // The shoulder turns with the arm: fully from the armpit outwards, less towards the neck.  Shares of the height.
 constexpr double turns_from = -0.05, turns_fully = 0.02;
 
@@ -44,14 +42,11 @@ DressingBody::DressingBody(std::span<const Vec3> standing, std::span<const Trian
       height_m_(height_of(standing.first(person_vertices))),
       standing_(standing.begin(), standing.end()) {}
 
-DressingBody::Pose DressingBody::pose_within(double lift, const std::array<bool, 2>& covered,
-                                             const std::array<double, 2>& sleeve_m) const {
+DressingBody::Pose DressingBody::pose_within(double lift, const std::array<bool, 2>& covered) const {
   Pose pose;
   for (std::size_t k = 0; k < 2; ++k) {
-    const double reach_m = std::max(past_root_m, sleeve_m[k] - before_hem_m);
-    const double drawn_in = std::min(1.0, reach_m / arms_[k].length_m);
     pose.lift[k] = covered[k] ? lift : 1;
-    pose.reach[k] = covered[k] && sleeve_m[k] == 0 ? 1 : drawn_in;
+    pose.reach[k] = covered[k] ? 1 : std::min(1.0, drawn_in_m / arms_[k].length_m);
   }
   return pose;
 }

@@ -1,7 +1,7 @@
 // dress/dressing_body.hpp: the body during a sewing: thinned, so that little obstructs the seams, and grown back afterwards.
 //
-// Arms are drawn in as far as sleeves allow: panels close around the trunk as if it had none, and then the arms come out through the
-// armholes, or above a garment without them.  The body grows as a moving body, with all contact on and without friction, so the cloth that it
+// Arms that go through the garment keep their length: sleeves and their cuffs, often narrower than the hand, close around them.  Others are
+// drawn in: panels close around the trunk as if it had none, and then the arms come out above the garment.  The body grows as a moving body, with all contact on and without friction, so the cloth that it
 // pushes aside slides into place.  Solids do not change.  A body that is no person has no arms (body/arms.hpp) and is not thinned: a growing
 // cylinder would squeeze a tube that is too small off its end, and the verdict would be about cloth in the air.
 #pragma once
@@ -35,9 +35,8 @@ class DressingBody {
     }
   };
   void set_pose(const Pose& pose) { pose_ = pose; }
-  // `covered` arms go through the garment: they have this lift, and reach nearly to the hems of their sleeves (`sleeve_m`: where the sleeve ends along
-  // the arm; 0: no sleeve).  The others are level, and drawn in.
-  Pose pose_within(double lift, const std::array<bool, 2>& covered, const std::array<double, 2>& sleeve_m) const;
+  // `covered` arms go through the garment: they have this lift, and their length.  The others are level, and drawn in.
+  Pose pose_within(double lift, const std::array<bool, 2>& covered) const;
   struct ArmAxis {
     Vec3 root{0, 0, 0}, direction{0, 0, 0};
   };

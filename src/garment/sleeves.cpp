@@ -29,7 +29,7 @@ std::vector<Vec3> panel_middles(const GarmentMesh& garment, std::span<const Inde
 
 }  // namespace
 
-std::array<double, 2> hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m) {
+void hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m) {
   const std::vector<Index> panel_of = garment.panel_of_particle();
   const std::vector<Vec3> middle = panel_middles(garment, panel_of);
   const bool labelled = std::any_of(garment.panel_labels.begin(), garment.panel_labels.end(),
@@ -45,7 +45,6 @@ std::array<double, 2> hang_sleeves(GarmentMesh& garment, const std::array<ArmLin
                         std::abs(middle[p].y() - arm.root.y()) < near_an_arm * body_height_m;
     if (labelled ? garment.panel_labels[p] == "arm" : beyond) side[p] = s;
   }
-  std::array<double, 2> ends_m{0, 0};
   for (int s = 0; s < 2; ++s) {
     const ArmLine& arm = arms[static_cast<std::size_t>(s)];
     const auto in_sleeve = [&](Index i) { return panel_of[at(i)] >= 0 && side[at(panel_of[at(i)])] == s; };
@@ -75,11 +74,8 @@ std::array<double, 2> hang_sleeves(GarmentMesh& garment, const std::array<ArmLin
       const Vec2 p = armhole + Vec2(c * r.x() - sine * r.y(), sine * r.x() + c * r.y()) + across;
       garment.x[i].x() = p.x();
       garment.x[i].y() = p.y();
-      double& end_m = ends_m[static_cast<std::size_t>(s)];
-      end_m = std::max(end_m, (p - frontal(arm.root)).dot(d));
     }
   }
-  return ends_m;
 }
 
 std::array<bool, 2> covers_shoulders(const GarmentMesh& garment, const std::array<ArmLine, 2>& arms) {

@@ -20,8 +20,8 @@ struct ArmLine {
 };
 
 // `arms`: left (at larger x) and right.  Sleeves are the panels labelled "arm"; in a pattern without labels, those that hang beyond the root
-// of an arm, near its height.  Returns the distance along each arm from its root to the sleeve's end (m; 0: no sleeve).
-std::array<double, 2> hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m);
+// of an arm, near its height.
+void hang_sleeves(GarmentMesh& garment, const std::array<ArmLine, 2>& arms, double body_height_m);
 
 // Whether cloth lies over the shoulder, above the root of the left arm and of the right one: then the arm has to go through the garment.
 // Skirts, trousers and strapless tops end below it.

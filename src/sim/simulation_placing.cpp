@@ -69,10 +69,9 @@ Placement Simulation::place_around_arms(GarmentMesh& garment) {
     dressing_body_->lifted(body_x_);
     stand();
     Placement placement = place_garment(placed, *body_, person_vertices_);
-    const std::array<double, 2> sleeves_m =
-        hang_sleeves(placed, arms, dressing_body_->height_m());  // the shift moved the whole garment
+    hang_sleeves(placed, arms, dressing_body_->height_m());  // the shift moved the whole garment
     const std::array<bool, 2> covered = covers_shoulders(placed, arms);
-    const DressingBody::Pose pose = dressing_body_->pose_within(lift, covered, sleeves_m);
+    const DressingBody::Pose pose = dressing_body_->pose_within(lift, covered);
     dressing_body_->set_pose(pose);
     dressing_body_->at(0, body_x_);
     stand();
