@@ -6,8 +6,8 @@ namespace toile::internal {
 namespace {
 
 constexpr double rounding = 0x1p-24;
-constexpr double largest_share = 0.03;  // of the part of A_ii without threads
-constexpr std::size_t one_of = 10;      // particles may exceed it: a corner has little mass for its threads
+constexpr double largest_share = 0.2;  // of the part of A_ii without threads
+constexpr std::size_t one_of = 10;     // particles may exceed it: a corner has little mass for its threads
 
 }  // namespace
 
