@@ -1,8 +1,8 @@
 // dress/dressing_body.hpp: the body during a sewing: thinned, so that little obstructs the seams, and grown back afterwards.
 //
 // Arms that go through the garment keep their length: sleeves and their cuffs, often narrower than the hand, close around them.  Others are
-// drawn in: panels close around the trunk as if it had none, and then the arms come out above the garment.  The body grows as a moving body, with all contact on and without friction, so the cloth that it
-// pushes aside slides into place.  Solids do not change.  A body that is no person has no arms (body/arms.hpp) and is not thinned: a growing
+// drawn in: panels close around the trunk as if it had none, and then the arms come out above the garment.  The body grows as a moving
+// body, with all contact on and without friction, so the cloth that it pushes aside slides into place.  Solids do not change.  A body that is no person has no arms (body/arms.hpp) and is not thinned: a growing
 // cylinder would squeeze a tube that is too small off its end, and the verdict would be about cloth in the air.
 #pragma once
 #include "body/arms.hpp"

@@ -1,6 +1,6 @@
 // tests/sim/flare_run_test.cpp: a skirt cut as nearly two circles is sewn below the waist.
 #include "io/scratch.hpp"
-#include "sim/simulate.hpp"
+#include "support/run_into.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,14 +36,11 @@ TEST(FlareRun, ASkirtOfTwoCirclesIsSewnBelowTheWaist) {
                [{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}],
                [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
                "properties": {"units_in_meter": 100, "normalize_panel_translation": false}})";
-  RunOptions options;
-  options.directory = scratch / "out";
-  options.command = "test";
-  const Report report = simulate(parse_scene(R"({"cloth": [{"pattern": ")" + (scratch / "circles.json") +
-                                                 R"(", "resolution_cm": 3}], "body": {"mannequin": "woman"},
-                                                 "time": {"seconds": 0.5}})",
-                                             "s.json"),
-                                 options);
+  const Report report =
+      test::run_into(scratch / "out", parse_scene(R"({"cloth": [{"pattern": ")" + (scratch / "circles.json") +
+                                                      R"(", "resolution_cm": 3}], "body": {"mannequin": "woman"},
+                                                      "time": {"seconds": 0.5}})",
+                                                  "s.json"));
   ASSERT_EQ(report.ended, "time");
   EXPECT_TRUE(report.open_seams.empty());
   EXPECT_EQ(report.audit.cloth_cloth_edges.max, 0);

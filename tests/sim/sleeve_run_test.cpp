@@ -1,9 +1,10 @@
 // tests/sim/sleeve_run_test.cpp: sleeves are sewn around the whole arm.
 #include "body/mannequin.hpp"
+#include "core/error.hpp"
 #include "io/file.hpp"
 #include "io/obj.hpp"
 #include "io/scratch.hpp"
-#include "sim/simulate.hpp"
+#include "support/run_into.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,9 +24,9 @@ std::string long_sleeves() {
        {std::pair{"[22.5, -8.279]", "[58, -4.3]"}, std::pair{"[22.5, 8.2]", "[58, 4.3]"},
         std::pair{"[22.5, -7.191]", "[58, -4.3]"}, std::pair{"[-22.5, -8.279]", "[-58, -4.3]"},
         std::pair{"[-22.5, 8.2]", "[-58, 4.3]"}, std::pair{"[-22.5, -7.191]", "[-58, -4.3]"}}) {
-    std::size_t found = 0;
-    while ((found = text.find(short_hem, found)) != std::string::npos)
-      text.replace(found, std::string_view(short_hem).size(), long_hem);
+    const std::size_t found = text.find(short_hem);
+    if (found == std::string::npos) throw Error(ErrorKind::usage, std::string("tshirt.json has no ") + short_hem);
+    text.replace(found, std::string_view(short_hem).size(), long_hem);
   }
   return text;
 }
@@ -55,14 +56,11 @@ TEST(SleeveRun, ACuffThatNoHandGoesThroughClosesAroundTheWrist) {
   const Scratch scratch;
   std::ofstream(scratch / "sleeves.json") << long_sleeves();
   write_obj(scratch / "hands.obj", with_thick_hands());
-  RunOptions options;
-  options.directory = scratch / "out";
-  options.command = "test";
-  const Report report = simulate(parse_scene(R"({"cloth": [{"pattern": ")" + (scratch / "sleeves.json") +
-                                                 R"(", "resolution_cm": 3}], "body": {"mesh": ")" +
-                                                 (scratch / "hands.obj") + R"("}, "time": {"seconds": 0.5}})",
-                                             "s.json"),
-                                 options);
+  const Report report =
+      test::run_into(scratch / "out", parse_scene(R"({"cloth": [{"pattern": ")" + (scratch / "sleeves.json") +
+                                                      R"(", "resolution_cm": 3}], "body": {"mesh": ")" +
+                                                      (scratch / "hands.obj") + R"("}, "time": {"seconds": 0.5}})",
+                                                  "s.json"));
   ASSERT_EQ(report.ended, "time");
   EXPECT_TRUE(report.open_seams.empty());
   EXPECT_EQ(report.audit.cloth_cloth_edges.last, 0);
