@@ -24,9 +24,10 @@ std::string long_sleeves() {
        {std::pair{"[22.5, -8.279]", "[58, -4.3]"}, std::pair{"[22.5, 8.2]", "[58, 4.3]"},
         std::pair{"[22.5, -7.191]", "[58, -4.3]"}, std::pair{"[-22.5, -8.279]", "[-58, -4.3]"},
         std::pair{"[-22.5, 8.2]", "[-58, 4.3]"}, std::pair{"[-22.5, -7.191]", "[-58, -4.3]"}}) {
-    const std::size_t found = text.find(short_hem);
+    std::size_t found = text.find(short_hem);
     if (found == std::string::npos) throw Error(ErrorKind::usage, std::string("tshirt.json has no ") + short_hem);
-    text.replace(found, std::string_view(short_hem).size(), long_hem);
+    for (; found != std::string::npos; found = text.find(short_hem, found))  // of the front and of the back
+      text.replace(found, std::string_view(short_hem).size(), long_hem);
   }
   return text;
 }
