@@ -1,7 +1,6 @@
 #include "dress/label_springs.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace toile::internal {
 namespace {
@@ -47,15 +46,15 @@ void LabelSprings::hold(const GarmentMesh& garment, const LabelledEdge& edge, st
 void LabelSprings::append(const ClothState& state, double strength, std::vector<LinearSpring>& springs) const {
   if (strength <= 0) return;
   for (const Held& held : held_) {
-    const double away = held.height_m - state.x[at(held.particle)].y();
+    const double below_m = held.height_m - state.x[at(held.particle)].y();
+    if (below_m <= 0) continue;
     const double limit = strength * pull_N_per_m * held.share_m, k = limit / give_m;
-    const double force = std::clamp(k * away, -limit, limit);
     LinearSpring spring;
     spring.particle = {held.particle, -1, -1, -1};
     spring.weight = {1, 0, 0, 0};
     spring.direction = Vec3::UnitY();
-    spring.force_N = force;
-    spring.stiffness_N_per_m = std::fabs(away) > give_m ? std::fabs(force / away) : k;  // secant: never overshoots
+    spring.force_N = std::min(k * below_m, limit);
+    spring.stiffness_N_per_m = spring.force_N / below_m;  // secant: never overshoots
     spring.damping_N_s_per_m = damping_s * spring.stiffness_N_per_m;
     springs.push_back(spring);
   }

@@ -1,7 +1,8 @@
-// dress/label_springs.hpp: springs that hold labelled edges at a height of the body, a waist seam at the waist.
+// dress/label_springs.hpp: springs that hold labelled edges up at a height of the body, a waist seam at the waist.   docs/theory/sewing.md
 //
-//   F = min( k |y_wanted - y|, f_max ) up or down,      f_max = 20 N per metre of edge,  k = f_max / 2 cm
+//   F = min( k (y_wanted - y)+, f_max ) upwards,      f_max = 20 N per metre of edge,  k = f_max / 2 cm
 //
+// Nothing draws them down: a band that is too narrow for the hips is worn above them, and drawn to the waist it would fold over itself.
 // The force is small.  On a garment that hangs from the shoulders it acts only once the seams are closed: before, it would push the armholes above the arms.
 #pragma once
 #include "garment/garment_mesh.hpp"
@@ -30,7 +31,7 @@ class LabelSprings {
   static LabelSprings as_placed(const GarmentMesh& garment, std::string_view label);
 
   bool empty() const { return held_.empty(); }
-  // Appends one row per particle; `strength` 0 ... 1 scales the force.
+  // Appends one row per particle below its height; `strength` 0 ... 1 scales the force.
   void append(const ClothState& state, double strength, std::vector<LinearSpring>& springs) const;
   // The same on the welded cloth, particle i having become particle_of[i].
   LabelSprings welded(std::span<const Index> particle_of) const;

@@ -107,13 +107,7 @@ void Sewing::start_stepper() {
 void Sewing::append_springs(const ClothState& state, double end_s, std::vector<LinearSpring>& springs) const {
   const double open = std::max(0.0, 1 - options_.closing_speed_m_per_s * end_s / longest_m_);
   if (open == 0 || options_.labels_hold_panels) labels_.append(state, 1, springs);
-  if (open > 0 && !kept_.empty()) {  // from below only: they may rise
-    const auto first = static_cast<std::ptrdiff_t>(springs.size());
-    kept_.append(state, 1, springs);
-    springs.erase(std::remove_if(springs.begin() + first, springs.end(),
-                                 [](const LinearSpring& spring) { return spring.force_N <= 0; }),
-                  springs.end());
-  }
+  if (open > 0) kept_.append(state, 1, springs);
   for (std::size_t k = 0; k < garment_->pairs.size(); ++k) {
     const SeamPair& pair = garment_->pairs[k];
     const double wanted = open * start_distance_m_[k];

@@ -185,7 +185,7 @@ void describe(V& v, SceneCloth& cloth) {
   PlacementSettings placement{cloth.translation_m, cloth.rotation_deg};
   v.object({"placement", "where the drawing goes", "as drawn"}, placement);
   v.heights({"label_heights_m",
-             "y at which edges with a label are held, from the end of the sewing until half a second after the weld",
+             "y at which edges with a label are held up, from the end of the sewing until half a second after the weld",
              "the waist for `lower_interface`: where the body is narrowest"},
             {-10, 10}, cloth.label_heights);
   v.list({"drags", "hands that pull", "none"}, cloth.drags);
