@@ -2,6 +2,7 @@
 
 #include "core/parallel.hpp"
 #include "garment/flares.hpp"
+#include "garment/pattern_figures.hpp"
 
 #include <Eigen/Geometry>
 
@@ -15,7 +16,9 @@ namespace {
 
 constexpr double lowest_m = -0.12, highest_m = 0.16, step_m = 0.01;  // vertical shifts
 constexpr double depth_m = 0.04, depth_step_m = 0.02;                // forwards and backwards
-constexpr double farthest_out_m = 0.1;                               // of a panel on its own
+constexpr double drawn_within_m =
+    0.02;  // of the waist: on the way over which labelled edges are held up (dress/label_springs.cpp)
+constexpr double farthest_out_m = 0.1;  // of a panel on its own
 
 bool crosses(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 n = (b - a).cross(c - a), d = q - p;
@@ -112,9 +115,22 @@ Vec3 middle_of(std::span<const Vec3> x) {
   return box.center();
 }
 
+// By how much the edges labelled for the waist are to be raised, in the mean: in steps, as far as shifts go; 0 where they are drawn there.
+double to_waist_m(const GarmentMesh& garment, double waist_m) {
+  double sum_m = 0, count = 0;
+  for (const LabelledEdge& edge : garment.labels) {
+    if (edge.label != edge_label::waist) continue;
+    for (const Index i : edge.particles) sum_m += waist_m - garment.x[at(i)].y();
+    count += static_cast<double>(edge.particles.size());
+  }
+  if (count == 0 || std::abs(sum_m) <= count * drawn_within_m) return 0;
+  return std::clamp(step_m * std::round(sum_m / (count * step_m)), lowest_m, highest_m);
+}
+
 }  // namespace
 
-Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size_t person_vertices) {
+Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size_t person_vertices,
+                        std::optional<double> waist_m) {
   Placement placement;
   if (garment.legacy_frame && person_vertices > 0) {
     double low = 1e300, high = -1e300;
@@ -135,12 +151,14 @@ Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size
     for (int z = 0; - depth_m + z * depth_step_m <= depth_m + 1e-9; ++z)
       shifts.emplace_back(0, lowest_m + y * step_m, -depth_m + z * depth_step_m);
   }
-  // The smallest shift wins among equals: sorted by length, and the first of the fewest is taken.
-  std::stable_sort(shifts.begin(), shifts.end(),
-                   [](const Vec3& a, const Vec3& b) { return a.squaredNorm() < b.squaredNorm(); });
+  // The shift nearest to the wanted one wins among equals: sorted by distance, and the first of the fewest is taken.
+  const Vec3 wanted(0, waist_m ? to_waist_m(garment, *waist_m) : 0, 0);
+  std::stable_sort(shifts.begin(), shifts.end(), [&](const Vec3& a, const Vec3& b) {
+    return (a - wanted).squaredNorm() < (b - wanted).squaredNorm();
+  });
   std::vector<Blocked> blocked(shifts.size());
   parallel_for(shifts.size(), 1, [&](std::size_t s) { blocked[s] = blocked_pairs(garment, lines, shifts[s]); });
-  placement.blocked_before = blocked.front().pairs;
+  placement.blocked_before = blocked_pairs(garment, lines, Vec3::Zero()).pairs;
   std::vector<std::size_t> order(shifts.size());
   for (std::size_t s = 0; s < order.size(); ++s) order[s] = s;
   std::stable_sort(order.begin(), order.end(),

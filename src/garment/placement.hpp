@@ -8,6 +8,7 @@
 #include "contact/proximity.hpp"
 #include "garment/garment_mesh.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,10 @@ struct Placement {
 
 // Finds the shift and applies it to garment.x.  Patterns in the frame of the 2021 tool (GarmentMesh::legacy_frame) are first raised by
 // legacy_origin: it is near the pelvis.  The first `person_vertices` of the body's vertices are the person's; the others,
-// solids, do not count for that height.
-Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size_t person_vertices);
+// solids, do not count for that height.  Of shifts that block as little the shortest is taken; with `waist_m`, the height where edges
+// labelled for the waist are held, the one that brings them nearest to it.
+Placement place_garment(GarmentMesh& garment, const BodySurface& body, std::size_t person_vertices,
+                        std::optional<double> waist_m = std::nullopt);
 // For the garment where it is: all members of `placement` but the shift and `blocked_before`.
 void find_blocked(const GarmentMesh& garment, const BodySurface& body, Placement& placement);
 inline Placement place_garment(GarmentMesh& garment, const BodySurface& body) {

@@ -191,8 +191,8 @@ class Simulation {
   const BodyFigures& figures();
   void make_thin();
   void stand();
-  Placement place_around_arms(GarmentMesh& garment);
-  void place(GarmentMesh& garment, bool tell);
+  Placement place_around_arms(std::size_t cloth);
+  void place(std::size_t cloth, bool tell);
   std::vector<LabelHeight> heights_of(std::size_t cloth, std::vector<std::string>& warnings);
   void tell_misfits(std::size_t cloth);
 

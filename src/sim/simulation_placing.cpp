@@ -8,8 +8,10 @@
 
 #include <fmt/printf.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace toile::internal {
@@ -55,8 +57,14 @@ void Simulation::stand() {
 
 // Lifts the arms by the least that leaves the fewest seams behind the thin body.  A wide bodice is drawn flat across the arms, which
 // must not be in the way of its sides.
-Placement Simulation::place_around_arms(GarmentMesh& garment) {
+Placement Simulation::place_around_arms(std::size_t k) {
+  GarmentMesh& garment = cloth_[k].garment;
   const GarmentMesh drawn = garment;
+  on_shoulders_ = false;  // of what another run has found, too
+  std::vector<std::string> told_later;
+  const std::vector<LabelHeight> heights = heights_of(k, told_later);
+  const auto held = std::find_if(heights.begin(), heights.end(),
+                                 [](const LabelHeight& height) { return height.label == edge_label::waist; });
   Placement best;
   for (const double lift : arm_lifts) {
     dressing_body_->set_pose({{lift, lift}, {1, 1}});
@@ -65,10 +73,13 @@ Placement Simulation::place_around_arms(GarmentMesh& garment) {
     const std::array<ArmLine, 2> arms{ArmLine{axes[0].root, axes[0].direction},
                                       ArmLine{axes[1].root, axes[1].direction}};
     hang_sleeves(placed, arms, dressing_body_->height_m());
+    const std::array<bool, 2> drawn_over = covers_shoulders(placed, arms);
+    std::optional<double> waist_m;  // of what hangs from it
+    if (held != heights.end() && !drawn_over[0] && !drawn_over[1]) waist_m = held->height_m;
     separate_layers(placed, 0.5 * (arms[0].root + arms[1].root));
     dressing_body_->lifted(body_x_);
     stand();
-    Placement placement = place_garment(placed, *body_, person_vertices_);
+    Placement placement = place_garment(placed, *body_, person_vertices_, waist_m);
     hang_sleeves(placed, arms, dressing_body_->height_m());  // the shift moved the whole garment
     const std::array<bool, 2> covered = covers_shoulders(placed, arms);
     const DressingBody::Pose pose = dressing_body_->pose_within(lift, covered);
@@ -89,12 +100,12 @@ Placement Simulation::place_around_arms(GarmentMesh& garment) {
 }
 
 // `tell`: report problems of the placement.
-void Simulation::place(GarmentMesh& garment, bool tell) {
+void Simulation::place(std::size_t k, bool tell) {
   if (!body_) return;
+  GarmentMesh& garment = cloth_[k].garment;
   const Timed timed(startup(&StartupReport::placement));
   say("placing", 0);
-  const Placement placement =
-      dressing_body_ ? place_around_arms(garment) : place_garment(garment, *body_, person_vertices_);
+  const Placement placement = dressing_body_ ? place_around_arms(k) : place_garment(garment, *body_, person_vertices_);
   if (!tell) return;
   report_.shift_m = placement.shift_m;
   if (placement.raised_m != 0)

@@ -86,7 +86,7 @@ bool Simulation::sew(std::size_t k) {
   run_.reset();  // the outfit's mesh changes
   LoadedCloth& cloth = cloth_[k];
   GarmentMesh& garment = cloth.garment;
-  place(garment, !resumed);
+  place(k, !resumed);
   if (!resumed) tell_misfits(k);
   SewingOptions sewing_options;
   sewing_options.step_max_s = scene_.step_max_s.value_or(1 / sewing_options.fps);

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace toile::internal {
 namespace {
@@ -46,6 +47,22 @@ TEST(Placement, PanelsThreeCentimetresTooLowAreRaisedUntilNoSeamIsBlocked) {
   EXPECT_EQ(placement.shift_m.x(), 0);
   for (std::size_t i = 0; i < before.size(); ++i)
     EXPECT_LT((garment.x[i] - before[i] - placement.shift_m).norm(), 1e-12);
+}
+
+// Its lower rim is labelled for a waist 6 cm higher, and free there; 6 cm lower its sides are blocked.
+TEST(Placement, OfShiftsThatBlockAsLittleTheOneNearestToTheWaistIsTaken) {
+  const BodySurface body = slab();
+  for (const auto& [waist_m, shift_m] : {std::pair{0.07, 0.06}, std::pair{0.028, 0.0}, std::pair{0.032, 0.02},
+                                         std::pair{-0.05, 0.0}, std::pair{1.0, 0.16}}) {
+    Pattern pattern = test::tube_pattern(0.2, 0.1, 0.3, {0, 0.06, 0});
+    for (Panel& panel : pattern.panels) panel.edges[0].label = "lower_interface";
+    GarmentMesh garment = mesh_garment(pattern, 0.02);
+    EXPECT_NEAR(place_garment(garment, body, body.positions().size(), waist_m).shift_m.y(), shift_m, 1e-12) << waist_m;
+    GarmentMesh unknown = mesh_garment(pattern, 0.02);
+    EXPECT_EQ(place_garment(unknown, body).shift_m, Vec3(0, 0, 0));
+  }
+  GarmentMesh unlabelled = panels_over_a_slab(0.01);
+  EXPECT_LT(place_garment(unlabelled, body, body.positions().size(), 0.07).shift_m.norm(), 1e-15);
 }
 
 TEST(Placement, AGarmentThatIsFreeStaysToTheBit) {

@@ -293,16 +293,17 @@ TEST(Run, WhatHangsFromTheShouldersIsNotHeldAtTheWaist) {
   EXPECT_EQ(state[0], state[1]);
 }
 
-// The skirt is drawn 8 cm too low, and is at the waist long before its seams are closed.
+// The skirt is drawn 24 cm too low, is placed 16 cm higher, as far as garments are shifted, and is at the waist long before its seams are closed.
 TEST(Run, WhatHangsFromTheWaistIsHeldThereWhileItIsSewn) {
   const Scratch scratch;
   const Report report =
       run(scratch,
           parse_scene(R"({"cloth": [{"pattern": ")" TOILE_SOURCE_DIR
-                      R"(/patterns/skirt.json", "resolution_cm": 5, "placement": {"translation_m": [0, -0.08, 0]}}],
+                      R"(/patterns/skirt.json", "resolution_cm": 5, "placement": {"translation_m": [0, -0.24, 0]}}],
                                    "body": {"mannequin": "woman"}, "time": {"seconds": 0.1}})",
                       "s.json"));
   ASSERT_EQ(report.ended, "time");
+  EXPECT_NEAR(report.shift_m.y(), 0.16, 1e-9);
   Pc2Reader film(scratch / "out/sewing.pc2");
   const auto top_m = [&](int frame) {
     Vec3s x;
