@@ -319,13 +319,13 @@ TEST(Judging, AGarmentWithAWaistThatLiesBelowTheHipsIsNotWorn) {
   }
 }
 
-// It would lie on the floor until its folds rest, for four seconds.
+// Its waist is drawn at the waist: 2 cm higher the ring falls askew and slides down the legs for nine seconds.  It would lie on the floor until its folds rest, for four seconds.
 TEST(Judging, ASkirtThatHasComePastTheHipsEndsEarlyAndBothGirthsAreSaid) {
   const Scratch scratch;
   std::ofstream(scratch / "skirt.json") << R"({"pattern": {"panels": {
-    "front": {"translation": [0, 90, 25], "rotation": [0, 0, 0], "vertices": [[-30,0],[30,0],[30,20],[-30,20]],
+    "front": {"translation": [0, 88, 25], "rotation": [0, 0, 0], "vertices": [[-30,0],[30,0],[30,20],[-30,20]],
       "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2]}, {"endpoints": [2,3], "label": "lower_interface"}, {"endpoints": [3,0]}]},
-    "back": {"translation": [0, 90, -25], "rotation": [0, 0, 0], "vertices": [[-30,0],[-30,20],[30,20],[30,0]],
+    "back": {"translation": [0, 88, -25], "rotation": [0, 0, 0], "vertices": [[-30,0],[-30,20],[30,20],[30,0]],
       "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2], "label": "lower_interface"}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
     "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
     "properties": {"units_in_meter": 100}})";
