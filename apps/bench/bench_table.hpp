@@ -22,13 +22,14 @@ struct BenchField {
 class BenchRow {
  public:
   void add(std::string_view key, std::string_view title, double value, int digits) {
-    fields_.push_back({key, title, value, digits});
+    next(key, title).digits = digits;
+    fields_.back().value = value;
   }
-  void add(std::string_view key, std::string_view title, long value) { fields_.push_back({key, title, value, 0}); }
+  void add(std::string_view key, std::string_view title, long value) { next(key, title).value = value; }
   void add(std::string_view key, std::string_view title, std::string value) {
-    fields_.push_back({key, title, std::move(value), 0});
+    next(key, title).value = std::move(value);
   }
-  void add_empty(std::string_view key, std::string_view title) { fields_.push_back({key, title, {}, 0}); }
+  void add_empty(std::string_view key, std::string_view title) { next(key, title); }
   // Empties fields that were not measured.
   template <class Keep>
   void empty_unless(Keep&& keep) {
@@ -38,6 +39,12 @@ class BenchRow {
   const std::vector<BenchField>& fields() const { return fields_; }
 
  private:
+  BenchField& next(std::string_view key, std::string_view title) {
+    BenchField& field = fields_.emplace_back();
+    field.key = key;
+    field.title = title;
+    return field;
+  }
   std::vector<BenchField> fields_;
 };
 

@@ -29,6 +29,10 @@ constexpr Field fields[] = {
     {"strain_limit", &Fabric::strain_limit, "No thread gets longer than 1 + this of its length as cut; 0: no limit."},
     {"bend_u_N_m", &Fabric::bend_u_N_m, "Bending rigidity along the warp, N·m."},
     {"bend_v_N_m", &Fabric::bend_v_N_m, "Bending rigidity along the weft, N·m."},
+    {"bend_poisson", &Fabric::bend_poisson,
+     "How much cloth bent along one thread wants to bend the other way along the other; in [0, 0.5]."},
+    {"bend_uv_N_m", &Fabric::bend_uv_N_m,
+     "Rigidity against twist, N·m; 0: (1 - bend_poisson) / 2 times the mean of the other two."},
     {"stretch_damping_s", &Fabric::stretch_damping_s, "Damping / stiffness of stretch, s."},
     {"shear_damping_s", &Fabric::shear_damping_s, "Damping / stiffness of shear, s."},
     {"bend_damping_s", &Fabric::bend_damping_s, "Damping / stiffness of bending, s."},
@@ -37,11 +41,12 @@ constexpr Field fields[] = {
 };
 
 // For editors and type checkers; a test compares it with the fields.
-#define TOILE_FABRIC_FIELDS                                                                                       \
-  "name: str = ..., density_kg_per_m2: float = ..., stretch_u_N_per_m: float = ..., "                             \
-  "stretch_v_N_per_m: float = ..., shear_N_per_m: float = ..., compression_ratio: float = ..., "                  \
-  "strain_limit: float = ..., bend_u_N_m: float = ..., bend_v_N_m: float = ..., stretch_damping_s: float = ..., " \
-  "shear_damping_s: float = ..., bend_damping_s: float = ..., friction: float = ..., thickness_m: float = ..."
+#define TOILE_FABRIC_FIELDS                                                                                  \
+  "name: str = ..., density_kg_per_m2: float = ..., stretch_u_N_per_m: float = ..., "                        \
+  "stretch_v_N_per_m: float = ..., shear_N_per_m: float = ..., compression_ratio: float = ..., "             \
+  "strain_limit: float = ..., bend_u_N_m: float = ..., bend_v_N_m: float = ..., bend_poisson: float = ..., " \
+  "bend_uv_N_m: float = ..., stretch_damping_s: float = ..., shear_damping_s: float = ..., "                 \
+  "bend_damping_s: float = ..., friction: float = ..., thickness_m: float = ..."
 
 const Field& field(std::string_view name) {
   for (const Field& known : fields)

@@ -19,6 +19,8 @@ To converted(const From& from) {
   to.strain_limit = from.strain_limit;
   to.bend_u_N_m = from.bend_u_N_m;
   to.bend_v_N_m = from.bend_v_N_m;
+  to.bend_poisson = from.bend_poisson;
+  to.bend_uv_N_m = from.bend_uv_N_m;
   to.stretch_damping_s = from.stretch_damping_s;
   to.shear_damping_s = from.shear_damping_s;
   to.bend_damping_s = from.bend_damping_s;

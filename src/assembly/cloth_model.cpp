@@ -1,5 +1,6 @@
 #include "assembly/cloth_model.hpp"
 
+#include "assembly/plate_moments.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -19,7 +20,8 @@ Vec2 edge_in_pattern(const ClothMesh& mesh, Index triangle, Index x0, Index x1) 
   return ends[1] - ends[0];
 }
 
-BendRest hinge_rest(const ClothModel& model, std::span<const Fabric> fabrics, const Hinge& hinge, bool paper_scaling) {
+BendRest hinge_rest(const ClothModel& model, std::span<const Fabric> fabrics, const Hinge& hinge, bool plates,
+                    bool paper_scaling) {
   double rigidity = 0, tau = 0, length = 0, area[2];
   for (int side = 0; side < 2; ++side) {
     const auto t = static_cast<std::size_t>(hinge.triangle[static_cast<std::size_t>(side)]);
@@ -34,7 +36,7 @@ BendRest hinge_rest(const ClothModel& model, std::span<const Fabric> fabrics, co
     area[side] = material_frame(model.mesh.uv[t]).area_m2;
   }
   BendRest rest;
-  rest.kappa_N_m = paper_scaling ? rigidity : rigidity * bend_weight(length, area[0], area[1]);
+  if (!plates) rest.kappa_N_m = paper_scaling ? rigidity : rigidity * bend_weight(length, area[0], area[1]);
   rest.tau_s = tau;
   return rest;
 }
@@ -75,6 +77,11 @@ void check_rest_stretch(const Vec2& b) {
 
 }  // namespace
 
+void set_plate_bounds(ClothModel& model) {
+  const std::vector<double> bounds = plate_bounds_N_m(model.topology, model.plate_compliance);
+  for (std::size_t h = 0; h < bounds.size(); ++h) model.bend[h].plate_N_m = bounds[h];
+}
+
 ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const ModelOptions& options) {
   ClothModel model;
   model.gravity_m_per_s2 = options.gravity_m_per_s2;
@@ -106,10 +113,19 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
       model.friction[p] = std::max(model.friction[p], fabric.friction);
     }
   }
+  const bool plates = options.bend_element == BendElement::plate && !options.paper_scaling;
+  if (plates) {
+    std::vector<Mat3> rigidity;
+    for (const Fabric& fabric : fabrics) rigidity.push_back(bending_rigidity(fabric));
+    for (std::size_t t = 0; t < triangles; ++t)
+      model.plate_compliance.push_back(plate_compliance(
+          model.mesh.uv[t], rigidity[rigidity.size() == 1 ? 0 : static_cast<std::size_t>(model.mesh.panel[t])]));
+  }
   model.bend.reserve(model.topology.hinges.size());
   for (const Hinge& hinge : model.topology.hinges) {
-    model.bend.push_back(hinge_rest(model, fabrics, hinge, options.paper_scaling));
+    model.bend.push_back(hinge_rest(model, fabrics, hinge, plates, options.paper_scaling));
   }
+  if (plates) set_plate_bounds(model);
   set_folds(model, 1);
   set_gathers(model, 1);
   set_pair_friction(model, fabrics, options.pair_friction);
@@ -191,6 +207,7 @@ void keep_as_built(ClothModel& model) {
   if (model.stiffness.size() == 1) model.stiffness.resize(panels, model.stiffness.front());
   model.built_stiffness = model.stiffness;
   for (const BendRest& bend : model.bend) model.built_kappa_N_m.push_back(bend.kappa_N_m);
+  model.built_compliance = model.plate_compliance;
 }
 
 }  // namespace
@@ -213,6 +230,11 @@ void set_panel_stiffness(ClothModel& model, Index panel, const StiffnessShare& s
   for (std::size_t h = 0; h < model.bend.size(); ++h) {
     const auto& [a, b] = model.topology.hinges[h].triangle;
     model.bend[h].kappa_N_m = 0.5 * (bend_of(a) + bend_of(b)) * model.built_kappa_N_m[h];
+  }
+  if (!model.plate_compliance.empty()) {
+    for (std::size_t t = 0; t < model.plate_compliance.size(); ++t)
+      model.plate_compliance[t] = model.built_compliance[t] / bend_of(static_cast<Index>(t));
+    set_plate_bounds(model);
   }
   ++model.rest_version;
 }

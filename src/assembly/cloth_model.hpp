@@ -3,6 +3,7 @@
 #include "material/bend.hpp"
 #include "material/fabric.hpp"
 #include "material/membrane.hpp"
+#include "material/plate.hpp"
 #include "mesh/cloth_mesh.hpp"
 #include "mesh/topology.hpp"
 
@@ -19,9 +20,15 @@ struct ClothState {  // copy to save, assign to restore
   }
 };
 
+enum class BendElement {
+  plate,  // moments of plate.hpp: any Poisson ratio, the same on any triangles
+  hinge,  // of 1998 with a weight: each hinge by itself, nu = -1/3 on equilateral triangles
+};
+
 struct ModelOptions {
   Vec3 gravity_m_per_s2{0, -9.81, 0};
-  bool paper_scaling = false;  // conditions scaled by area and bend without geometry, as printed in 1998
+  BendElement bend_element = BendElement::plate;
+  bool paper_scaling = false;  // conditions scaled by area, hinges without geometry, as printed in 1998
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   // Damps every motion, f = -drag m v.  Unphysical (it would brake falling too); sewing uses it to keep loose panels
   // from whipping.
@@ -42,6 +49,7 @@ struct ClothModel {
   std::vector<MembraneRest> membrane;              // [triangle]
   std::vector<MembraneStiffness> stiffness;        // [panel], or one for all
   std::vector<BendRest> bend;                      // [hinge]
+  std::vector<Mat3> plate_compliance;              // [triangle], rad/(N m); empty: hinges alone
   std::vector<double> mass_kg;                     // [particle]
   std::vector<double> thickness_m;                 // [particle] contact distance of two layers
   std::vector<double> friction;                    // [particle] the largest of its fabrics
@@ -51,9 +59,10 @@ struct ClothModel {
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   double drag_per_s = 0;
   double gathered = 1;  // share of mesh.gathered_uv
-  // As built, once set_panel_stiffness has changed them: [panel] and N m, [hinge].
+  // As built, once set_panel_stiffness has changed them: [panel], [hinge], [triangle].
   std::vector<MembraneStiffness> built_stiffness;
   std::vector<double> built_kappa_N_m;
+  std::vector<Mat3> built_compliance;
   std::vector<StiffnessShare> stiffness_share;  // [panel]
   int rest_version = 0;  // counts changes of b, of gathers and of stiffness, for the batches packed from them
 
@@ -67,7 +76,7 @@ struct ClothModel {
 };
 
 // `fabric_of_panel` has one entry, or one per panel of the mesh.  Hinges on a seam take the mean of both sides.
-// Masses: a third of each triangle's density * area goes to each corner.  Rest angles are those of mesh.folds, zero
+// Plates: every triangle has the rigidity of its own fabric, on a seam too.  Masses: a third of each triangle's density * area goes to each corner.  Rest angles are those of mesh.folds, zero
 // elsewhere; rest shapes are gathered.
 ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabric_of_panel, const ModelOptions& options = {});
 
@@ -84,6 +93,9 @@ void set_gathers(ClothModel& model, double share);
 // finite.
 void set_rest_stretch(ClothModel& model, Index triangle, const Vec2& b);
 void set_panel_rest_stretch(ClothModel& model, Index panel, const Vec2& b);
+
+// What matrices take for the plates (BendRest::plate_N_m), after a change of plate_compliance.
+void set_plate_bounds(ClothModel& model);
 
 // Changes how stiff a panel is, as a share of its fabric; damping keeps its relaxation time, and with it the same share.  Hinges on a seam take
 // the mean of both sides.  Allowed between any two steps.  Throws InputError for a missing panel, and for a share that is not above zero.

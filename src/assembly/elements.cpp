@@ -21,6 +21,9 @@ std::vector<std::int32_t> offsets(const Parts& keyed, std::size_t key_count) {
   return begin;
 }
 
+// What d(moment)/d(theta) is taken for: one number per hinge, which keeps the matrix that of hinges by themselves.
+double in_matrix_N_m(const BendRest& rest) { return rest.kappa_N_m + rest.plate_N_m; }
+
 // work(begin, end) for ranges of batches.
 template <class Work>
 void for_batches(std::size_t count, const Work& work) {
@@ -39,6 +42,11 @@ Elements::Elements(const ClothModel& model)
       of_triangles_(3 * rest_.size() * batch_size + 1),
       of_hinges_(hinges_.size()),
       beyond_linear_(rest_.size() * batch_size) {
+  if (!model.plate_compliance.empty()) {
+    plates_.emplace(model);
+    turned_.resize(hinges_.size());
+    plate_moment_.resize(hinges_.size());
+  }
   pattern_ = std::make_shared<const BlockPattern>(pattern_of_cloth(model.particle_count(), triangles_, hinges_));
   pack_rest(model);
   add_incidence(model);
@@ -46,6 +54,7 @@ Elements::Elements(const ClothModel& model)
 
 void Elements::pack_rest(const ClothModel& model) {
   rest_version_ = model.rest_version;
+  if (plates_) plates_->pack(model);
   form_.damping_jacobian = model.damping_jacobian;
   for (std::size_t k = 0; k < rest_.size() * batch_size && !triangles_.empty(); ++k) {
     const std::size_t t = std::min(k, triangles_.size() - 1);
@@ -112,10 +121,24 @@ void Elements::evaluate(const ClothModel& model, const ClothState& state) {
     }
     bend_[h] = bend_response(model.bend[h], corner_x, corner_v);
   });
+  if (!plates_) return;
+  // A relaxation time tau: angle and rate have one moment, that of C + tau dC/dt.
+  parallel_for(hinges_.size(), element_grain, [&](std::size_t h) {
+    turned_[h] =
+        bend_[h].degenerate ? 0 : bend_[h].theta - bend_rest_[h].theta_0 + bend_rest_[h].tau_s * bend_[h].theta_dot;
+  });
+  plates_->solve(turned_, plate_moment_);
 }
 
-double Elements::energy_J() const {
+double Elements::energy_J() {
   double energy = 0;
+  if (plates_) {
+    for (std::size_t h = 0; h < hinges_.size(); ++h)
+      turned_[h] = bend_[h].degenerate ? 0 : bend_[h].theta - bend_rest_[h].theta_0;
+    std::vector<double> moment(hinges_.size());
+    plates_->solve(turned_, moment);
+    for (std::size_t h = 0; h < hinges_.size(); ++h) energy += 0.5 * moment[h] * turned_[h];
+  }
   for (std::size_t t = 0; t < triangles_.size(); ++t) energy += state_[t / batch_size].energy_J[t % batch_size];
   for (const BendResponse& response : bend_) energy += response.energy_J;
   return energy;
@@ -144,8 +167,9 @@ void Elements::gather(std::span<Vec3> f, double sign) const {
 void Elements::forces(std::span<Vec3> f) const {
   for_batches(rest_.size(),
               [&](std::size_t begin, std::size_t end) { membrane_forces(batches(begin, end), of_triangles_.data()); });
-  parallel_for(hinges_.size(), element_grain,
-               [&](std::size_t h) { of_hinges_[h] = bend_[h].moment + bend_[h].damping; });
+  parallel_for(hinges_.size(), element_grain, [&](std::size_t h) {
+    of_hinges_[h] = bend_[h].moment + bend_[h].damping + (plates_ ? plate_moment_[h] : 0);
+  });
   std::fill(f.begin(), f.end(), Vec3::Zero());
   gather(f, -1);
 }
@@ -163,7 +187,7 @@ void Elements::subtract_stiffness(std::span<const Vec3> displacement, std::span<
       angle += bend_[h].g[c].dot(displacement[i]);
       if (moving) rate += bend_[h].g[c].dot(moving[i]);
     }
-    of_hinges_[h] = bend_rest_[h].kappa_N_m * (angle + bend_rest_[h].tau_s * rate);
+    of_hinges_[h] = in_matrix_N_m(bend_rest_[h]) * (angle + bend_rest_[h].tau_s * rate);
   });
   gather(f, -1);
 }
@@ -175,7 +199,7 @@ void Elements::assemble(double h_s, BlockMatrix<T>& A) {
     membrane_blocks(batches(begin, end), h_s, of_triangles_.data());
   });
   for (std::size_t h = 0; h < hinges_.size(); ++h)
-    of_hinges_[h] = (h2 + h_s * bend_rest_[h].tau_s) * bend_rest_[h].kappa_N_m;
+    of_hinges_[h] = (h2 + h_s * bend_rest_[h].tau_s) * in_matrix_N_m(bend_rest_[h]);
   const auto slots = [&](std::size_t begin, std::size_t end) {
     if constexpr (std::is_same_v<T, float>) {
       gather_blocks({triangle_begin_.data(), hinge_begin_.data(), triangle_parts_.data(), hinge_parts_.data()},

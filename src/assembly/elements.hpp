@@ -8,7 +8,10 @@
 #pragma once
 #include "assembly/block_kernels.hpp"
 #include "assembly/cloth_model.hpp"
+#include "assembly/plate_moments.hpp"
 #include "material/membrane_batch.hpp"
+
+#include <optional>
 
 namespace toile::internal {
 
@@ -21,7 +24,7 @@ class Elements {
   std::shared_ptr<const BlockPattern> pattern() const { return pattern_; }
 
   void evaluate(const ClothModel& model, const ClothState& state);
-  double energy_J() const;  // elastic, of the last evaluate()
+  double energy_J();  // elastic, of the last evaluate()
   int degenerate_hinges() const;
 
   // f_i: elastic and damping forces at the evaluated state.
@@ -78,7 +81,9 @@ class Elements {
   // forces on the corners.  Hinges: the factor of g, which is (h^2 + h tau) kappa in blocks, or the moment.
   mutable std::vector<Mat3> of_triangles_;
   mutable std::vector<double> of_hinges_;
-  std::vector<double> beyond_linear_;  // [triangle]
+  std::optional<PlateMoments> plates_;
+  std::vector<double> turned_, plate_moment_;  // [hinge], empty without plates
+  std::vector<double> beyond_linear_;          // [triangle]
   void gather(std::span<Vec3> f, double sign) const;
 };
 

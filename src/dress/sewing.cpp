@@ -42,12 +42,16 @@ void soften_gathered_panels(ClothModel& model, std::span<const Fabric> fabrics, 
   for (std::size_t k = 0; k < softer.size(); ++k) {
     softer[k].bend_u_N_m = std::max(fabrics[k].bend_u_N_m, share * stiff[k].bend_u_N_m);
     softer[k].bend_v_N_m = std::max(fabrics[k].bend_v_N_m, share * stiff[k].bend_v_N_m);
+    softer[k].bend_uv_N_m = std::max(fabrics[k].bend_uv_N_m, share * stiff[k].bend_uv_N_m);
   }
-  const std::vector<BendRest> bend = build_model(mesh, softer, options).bend;
-  for (std::size_t h = 0; h < bend.size(); ++h) {
+  const ClothModel soft = build_model(mesh, softer, options);
+  for (std::size_t h = 0; h < soft.bend.size(); ++h) {
     const std::array<Index, 2>& sides = model.topology.hinges[h].triangle;
-    if (gathered[at(mesh.panel[at(sides[0])])] || gathered[at(mesh.panel[at(sides[1])])]) model.bend[h] = bend[h];
+    if (gathered[at(mesh.panel[at(sides[0])])] || gathered[at(mesh.panel[at(sides[1])])]) model.bend[h] = soft.bend[h];
   }
+  for (std::size_t t = 0; t < soft.plate_compliance.size(); ++t)
+    if (gathered[at(mesh.panel[t])]) model.plate_compliance[t] = soft.plate_compliance[t];
+  if (!model.plate_compliance.empty()) set_plate_bounds(model);
 }
 
 }  // namespace
@@ -59,12 +63,15 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
   ModelOptions weightless;
   weightless.gravity_m_per_s2.setZero();
   weightless.drag_per_s = options.drag_per_s;
+  weightless.bend_element = options.bend_element;
   weightless.paper_scaling = options.paper_scaling;
   weightless.damping_jacobian = options.damping_jacobian;
   std::vector<Fabric> stiff(fabrics.begin(), fabrics.end());
   for (Fabric& fabric : stiff) {
     fabric.bend_u_N_m = std::max(fabric.bend_u_N_m, options.bend_N_m);
     fabric.bend_v_N_m = std::max(fabric.bend_v_N_m, options.bend_N_m);
+    if (fabric.bend_uv_N_m > 0)
+      fabric.bend_uv_N_m = std::max(fabric.bend_uv_N_m, 0.5 * (1 - fabric.bend_poisson) * options.bend_N_m);
     fabric.strain_limit = 0;  // closing seams pull harder than worn cloth may be
   }
   model_ = build_model(garment.mesh, stiff, weightless);

@@ -46,7 +46,8 @@ struct SewingOptions {
   double largest_fold_m = 0.1;  // of a fold that may pass through where a seam has closed around it; 0: none
   double fps = 60;
   double step_max_s = 1.0 / 60;
-  bool paper_scaling = false;  // assembly/cloth_model.hpp
+  BendElement bend_element = BendElement::plate;  // assembly/cloth_model.hpp
+  bool paper_scaling = false;
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   Index held_particles = 0;                // these first particles stand still: the garments already worn underneath
   std::vector<LabelHeight> label_heights;  // of labelled edges; they are held once the seams are closed

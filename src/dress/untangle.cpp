@@ -155,8 +155,9 @@ class Untangler {
       const auto& particle = model_.topology.hinges[h].particle;
       if (eased_[h] || !flat[at(particle[0])] || !flat[at(particle[1])]) continue;
       eased_[h] = 1;
-      model_.bend[h].theta_0 = 0;
-      model_.bend[h].kappa_N_m *= stiffer;
+      BendRest& rest = model_.bend[h];
+      rest.theta_0 = 0;
+      rest.kappa_N_m += (stiffer - 1) * (rest.kappa_N_m + rest.plate_N_m);
     }
     begin();
   }

@@ -14,13 +14,15 @@
 namespace toile::internal {
 
 struct BendRest {
-  double kappa_N_m = 0;  // stiffness of this hinge
-  double tau_s = 0;      // relaxation time k_d / k
-  double theta_0 = 0;    // rest angle, rad
+  double kappa_N_m = 0;  // stiffness of this hinge by itself
+  double plate_N_m =
+      0;  // what the matrix of a step takes for the plates beside it (assembly/plate_moments.hpp); 0: a hinge alone
+  double tau_s = 0;    // relaxation time k_d / k
+  double theta_0 = 0;  // rest angle, rad
 };
 
 struct BendResponse {
-  double theta = 0, energy_J = 0;
+  double theta = 0, theta_dot = 0, energy_J = 0;
   std::array<Vec3, 4> g;    // dtheta/dx_i, 1/m
   double moment = 0;        // kappa (theta - theta_0): elastic force on i is -moment g_i
   double damping = 0;       // tau kappa theta_dot:     damping force on i is -damping g_i

@@ -108,6 +108,11 @@ void check_fabric(const Fabric& fabric, std::string_view where, std::string_view
   check("strain_limit", fabric.strain_limit, true);
   check("bend_u_N_m", fabric.bend_u_N_m, true);
   check("bend_v_N_m", fabric.bend_v_N_m, true);
+  check("bend_poisson", fabric.bend_poisson, true);
+  if (fabric.bend_poisson > 0.5)
+    throw InputError(where, std::string(place) + (place.empty() ? "" : "/") + "bend_poisson", "at most 0.5",
+                     number(fabric.bend_poisson));
+  check("bend_uv_N_m", fabric.bend_uv_N_m, true);
   check("stretch_damping_s", fabric.stretch_damping_s, true);
   check("shear_damping_s", fabric.shear_damping_s, true);
   check("bend_damping_s", fabric.bend_damping_s, true);

@@ -53,6 +53,7 @@ struct Scene {
   Integrator integrator = StepOptions{}.integrator;
   int newton_iterations = StepOptions{}.newton_iterations;
   int relinearisations = StepOptions{}.relinearisations;
+  BendElement bend_element = ModelOptions{}.bend_element;
   bool paper_scaling = ModelOptions{}.paper_scaling;
   DampingJacobian damping_jacobian = ModelOptions{}.damping_jacobian;
 

@@ -63,6 +63,12 @@ void describe(V& v, Fabric& fabric) {
            fabric.strain_limit);
   v.number({"bend_u_N_m", "bending rigidity of the warp", as_base}, {0, 1e6}, fabric.bend_u_N_m);
   v.number({"bend_v_N_m", "bending rigidity of the weft", as_base}, {0, 1e6}, fabric.bend_v_N_m);
+  v.number(
+      {"bend_poisson", "how much cloth bent along one thread wants to bend the other way along the other", as_base},
+      {0, 0.5}, fabric.bend_poisson);
+  v.number(
+      {"bend_uv_N_m", "rigidity against twist; 0: (1 - `bend_poisson`)/2 times the mean of the other two", as_base},
+      {0, 1e6}, fabric.bend_uv_N_m);
   v.number({"stretch_damping_s", "relaxation time of stretch", as_base}, {0, 1e3}, fabric.stretch_damping_s);
   v.number({"shear_damping_s", "relaxation time of shear", as_base}, {0, 1e3}, fabric.shear_damping_s);
   v.number({"bend_damping_s", "relaxation time of bending", as_base}, {0, 1e3}, fabric.bend_damping_s);

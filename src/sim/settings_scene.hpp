@@ -62,6 +62,8 @@ void describe_solver(V& v, Scene& scene) {
       {{"prefiltered", PcgProcedure::prefiltered}, {"paper_1998", PcgProcedure::paper_1998}}};
   static constexpr std::array<std::pair<std::string_view, DampingJacobian>, 2> jacobians = {
       {{"gauss_newton", DampingJacobian::gauss_newton}, {"paper", DampingJacobian::paper}}};
+  static constexpr std::array<std::pair<std::string_view, BendElement>, 2> bend_elements = {
+      {{"plate", BendElement::plate}, {"hinge", BendElement::hinge}}};
   v.name({"preconditioner", "\"diagonal\" is the paper's"}, preconditioners, scene.preconditioner);
   v.number({"tolerance", "of the linear solve ([what it keeps](theory/solver.md#what-the-tolerance-keeps))",
             "0.01; 0.001 without the coarse space, and for \"paper_1998\""},
@@ -76,7 +78,13 @@ void describe_solver(V& v, Scene& scene) {
            "and where "
            "turning made energy ([theory/step.md](theory/step.md#how-long-a-step-may-be)); the paper's 0"},
           {0, 10}, scene.relinearisations);
-  v.flag({"paper_scaling", "conditions scaled by area, as printed in 1998"}, scene.paper_scaling);
+  v.name({"bend_element",
+          "\"hinge\": every edge by itself, as in 1998 but weighted "
+          "([theory/bend.md](theory/bend.md#hinges-by-themselves)); "
+          "fabrics' `bend_poisson` and `bend_uv_N_m` do not count"},
+         bend_elements, scene.bend_element);
+  v.flag({"paper_scaling", "conditions scaled by area and hinges without geometry, as printed in 1998"},
+         scene.paper_scaling);
   v.name({"damping_jacobian", "\"paper\": with the term that can make it indefinite"}, jacobians,
          scene.damping_jacobian);
 }

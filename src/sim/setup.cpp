@@ -215,6 +215,7 @@ double default_offset_m(const SceneCollider& collider, double edge_m) {
 OutfitRunOptions run_options(const Scene& scene, const StepOptions& step, std::function<bool()> stop) {
   OutfitRunOptions options;
   options.model.gravity_m_per_s2 = scene.gravity_path.empty() ? scene.gravity_m_per_s2 : scene.gravity_path.front().x;
+  options.model.bend_element = scene.bend_element;
   options.model.paper_scaling = scene.paper_scaling;
   options.model.damping_jacobian = scene.damping_jacobian;
   options.model.pair_friction = scene.friction_between;

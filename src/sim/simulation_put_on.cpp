@@ -90,6 +90,7 @@ bool Simulation::sew(std::size_t k) {
   if (!resumed) tell_misfits(k);
   SewingOptions sewing_options;
   sewing_options.step_max_s = scene_.step_max_s.value_or(1 / sewing_options.fps);
+  sewing_options.bend_element = scene_.bend_element;
   sewing_options.paper_scaling = scene_.paper_scaling;
   sewing_options.damping_jacobian = scene_.damping_jacobian;
   std::vector<std::string> told_before;

@@ -16,6 +16,7 @@ constexpr int longest_wait = 40;  // accepted steps before a failed increase is 
 FrameReport AdaptiveStep::advance(ClothState& state, double t_s, double frame_s) {
   FrameReport report;
   steps_s_.clear();
+  steps_s_.reserve(64);  // once: few frames take more
   const long base_steps = std::max(1L, std::lround(std::ceil(frame_s / options_.step_max_s - 1e-9)));
   const double base_s = frame_s / static_cast<double>(base_steps);
   // Time is counted in the smallest step, so that it is exact.

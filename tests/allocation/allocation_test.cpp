@@ -142,7 +142,7 @@ TEST(Allocation, OnlyForGrowthOfContactsOfASheetFoldingOverABall) {
 
 // The mesh is fine beside the cloth's thickness, so that every vertex has dozens of triangles within the range of contact.
 TEST(Allocation, AFineSheetOverABallTakesNoMoreThanItDid) {
-  constexpr long most_bytes_per_particle = 6500;  // 6220, and room for another library
+  constexpr long most_bytes_per_particle = 7100;  // 6840, of which plates have 620, and room for another library
   BodySurface ball = test::sphere(Vec3(0, -0.1, 0), 0.1, 4);
   Sheet sheet = test::equilateral_sheet(0.2, 0.2, 0.0035);
   for (Vec3& p : sheet.x) p += Vec3(-0.1, 0.004, 0.1);

@@ -20,10 +20,12 @@ struct Cloth {
   ClothState state;
 };
 
-Cloth crumpled_cloth(double size_m, std::uint64_t seed) {
+Cloth crumpled_cloth(double size_m, std::uint64_t seed, BendElement element = BendElement::plate) {
   const Sheet sheet = test::equilateral_sheet(0.1, 0.1, 0.02);
   Fabric fabric = fabric_preset("cotton", "", "");
-  Cloth cloth{build_model(sheet.mesh, {&fabric, 1}), {}};
+  ModelOptions options;
+  options.bend_element = element;
+  Cloth cloth{build_model(sheet.mesh, {&fabric, 1}, options), {}};
   cloth.state.x = test::crumpled(sheet.x, size_m, seed);
   test::Random random(seed + 1);
   for (std::size_t i = 0; i < sheet.x.size(); ++i) cloth.state.v.push_back(random.vector(0.5));
@@ -60,7 +62,8 @@ std::vector<Mat3> scattered_blocks(const Cloth& cloth, const Elements& elements,
       for (std::size_t b = 0; b < 4; ++b) {
         if (hinge.particle[a] >= hinge.particle[b]) continue;
         blocks[static_cast<std::size_t>(elements.pattern()->slot(hinge.particle[a], hinge.particle[b]))] +=
-            ((h * h + h * model.bend[k].tau_s) * model.bend[k].kappa_N_m * r.g[a]) * r.g[b].transpose();
+            ((h * h + h * model.bend[k].tau_s) * (model.bend[k].kappa_N_m + model.bend[k].plate_N_m) * r.g[a]) *
+            r.g[b].transpose();
       }
     }
   }
@@ -226,7 +229,7 @@ TEST(Elements, StiffnessTimesADisplacementAgreesWithTheMatrix) {
 }
 
 TEST(Elements, TheForceOfDampingIsMinusDTimesTheVelocity) {
-  const Cloth cloth = crumpled_cloth(0.006, 16);
+  const Cloth cloth = crumpled_cloth(0.006, 16, BendElement::hinge);
   Elements elements(cloth.model);
   elements.evaluate(cloth.model, cloth.state);
   BlockMatrix<double> A(elements.pattern());

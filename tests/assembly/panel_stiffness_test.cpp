@@ -50,7 +50,9 @@ TEST(PanelStiffness, EnergyIsInProportionToEachShare) {
 TEST(PanelStiffness, OfOnePanelLeavesTheOtherAndComesBackToTheBit) {
   const Sheet sheet = two_panels();
   const Fabric fabric;
-  const ClothModel built = build_model(sheet.mesh, {&fabric, 1});
+  ModelOptions hinges;
+  hinges.bend_element = BendElement::hinge;
+  const ClothModel built = build_model(sheet.mesh, {&fabric, 1}, hinges);
   ClothModel model = built;
   set_panel_stiffness(model, 1, {2, 3, 5});
   EXPECT_EQ(model.stiffness.at(0).k_u, built.stiffness.at(0).k_u);
@@ -68,6 +70,18 @@ TEST(PanelStiffness, OfOnePanelLeavesTheOtherAndComesBackToTheBit) {
   set_panel_stiffness(model, 1, {});
   for (std::size_t h = 0; h < model.bend.size(); ++h) EXPECT_EQ(model.bend[h].kappa_N_m, built.bend[h].kappa_N_m);
   EXPECT_EQ(model.stiffness.at(1).k_shear, built.stiffness.at(0).k_shear);
+}
+
+TEST(PanelStiffness, PlatesOfOnePanelLeaveTheOtherAndComeBackToTheBit) {
+  const Fabric fabric;
+  const ClothModel built = build_model(two_panels().mesh, {&fabric, 1});
+  ClothModel model = built;
+  set_panel_stiffness(model, 1, {.bend = 4});
+  for (std::size_t t = 0; t < model.plate_compliance.size(); ++t)
+    EXPECT_EQ(model.plate_compliance[t], built.plate_compliance[t] / (model.mesh.panel[t] == 1 ? 4 : 1));
+  set_panel_stiffness(model, 1, {});
+  EXPECT_EQ(model.plate_compliance, built.plate_compliance);
+  for (std::size_t h = 0; h < model.bend.size(); ++h) EXPECT_EQ(model.bend[h].plate_N_m, built.bend[h].plate_N_m);
 }
 
 TEST(PanelStiffness, WhatCannotBeMeantIsRefused) {

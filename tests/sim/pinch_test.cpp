@@ -54,7 +54,8 @@ TEST(Pinch, WhatIsPinchedInTheLastFrameIsAReservation) {
   const Scratch scratch;
   Scene scene = parse_scene(read_file(TOILE_SOURCE_DIR "/scenes/torture/18-elbow.json"), "18-elbow.json");
   scene.cloth.front().set_edge_m(0.018);
-  scene.seconds = 0.7;  // the elbow is bent, and the arm in itself
+  scene.seconds = 0.7;                      // the elbow is bent, and the arm in itself
+  scene.bend_element = BendElement::hinge;  // a sleeve of plates is not caught
   RunOptions options;
   options.directory = scratch / "out";
   options.command = "test";

@@ -51,7 +51,10 @@ struct FineSheet {
     fabric.shear_N_per_m = 200;  // with less, rounding tells earlier: docs/theory/solver.md
     fabric.stretch_u_N_per_m *= times;
     fabric.stretch_v_N_per_m *= times;
-    return build_model(test::equilateral_sheet(0.1, 0.1, 0.005).mesh, std::array{fabric});
+    fabric.bend_u_N_m = fabric.bend_v_N_m = 1e-5;
+    ModelOptions hinges;
+    hinges.bend_element = BendElement::hinge;
+    return build_model(test::equilateral_sheet(0.1, 0.1, 0.005).mesh, std::array{fabric}, hinges);
   }
   static constexpr double h = 1.0 / 30;
   ClothModel model;

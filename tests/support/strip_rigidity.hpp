@@ -1,9 +1,9 @@
 // tests/support/strip_rigidity.hpp: the bending rigidity of a strip cut along the warp or the weft, by small deflections.
 //
-// Out of the plane a flat sheet's forces are linear: K = sum over hinges of kappa g g^T with g = dtheta/dz.  A strip clamped at
+// Out of the plane a flat sheet's forces are linear (bending_stiffness.hpp).  A strip clamped at
 // one end sags by w under a load; so does the same mesh with the same rigidity D both ways, by w_iso.  Realised: D w_iso / w.
 #pragma once
-#include "assembly/cloth_model.hpp"
+#include "support/bending_stiffness.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -20,21 +20,9 @@ inline double end_deflection(const ClothModel& model, StripAlong along, double l
   for (std::size_t t = 0; t < model.mesh.triangles.size(); ++t) {
     for (std::size_t c = 0; c < 3; ++c) uv[static_cast<std::size_t>(model.mesh.triangles[t][c])] = model.mesh.uv[t][c];
   }
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
-  for (std::size_t h = 0; h < model.bend.size(); ++h) {
-    std::array<Vec3, 4> x;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vec2 p = uv[static_cast<std::size_t>(model.topology.hinges[h].particle[i])];
-      x[i] = Vec3(p.x(), 0, -p.y());
-    }
-    const std::array<Vec3, 4> g = hinge_angle_gradient(x);
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t j = 0; j < 4; ++j) {
-        K(model.topology.hinges[h].particle[i], model.topology.hinges[h].particle[j]) +=
-            model.bend[h].kappa_N_m * g[i].y() * g[j].y();
-      }
-    }
-  }
+  Vec3s flat;
+  for (const Vec2& p : uv) flat.emplace_back(p.x(), 0, -p.y());
+  Eigen::MatrixXd K = bending_stiffness(model, flat);
   const auto coordinate = [&](Eigen::Index i) {
     const Vec2& p = uv[static_cast<std::size_t>(i)];
     return along == StripAlong::u ? p.x() : p.y();

@@ -118,8 +118,10 @@ struct Sag {
   double H_m, W_m;  // drop and reach of the tip
 };
 
-inline Sag sag(const Strip& strip, const Fabric& fabric) {
-  ClothRun run(strip.sheet, fabric);
+inline Sag sag(const Strip& strip, const Fabric& fabric, BendElement element = BendElement::plate) {
+  ModelOptions options;
+  options.bend_element = element;
+  ClothRun run(strip.sheet, fabric, options);
   run.step.rows.cloth_cloth = false;
   for (std::size_t i = 0; i < strip.sheet.x.size(); ++i) {
     if (-strip.sheet.x[i].z() < strip.line_m + 1e-9) run.pin(static_cast<Index>(i));
@@ -137,8 +139,10 @@ inline Sag sag(const Strip& strip, const Fabric& fabric) {
   return {sum.H_m / count, sum.W_m / count};
 }
 
-// The rigidity of a strip of cloth with nu = -1/3 (docs/theory/bend.md) lies between D (1 - nu^2), where it may curl across, and D,
-// where its own membrane forbids that.
-inline constexpr double strip_rigidity_low = 8.0 / 9, strip_rigidity_middle = 17.0 / 18;
+// The rigidity of a strip of cloth lies between D (1 - nu^2), where it may curl across, and D, where its own membrane forbids that.
+// Hinges by themselves have nu = -1/3 (docs/theory/bend.md).
+inline double strip_rigidity_low(double nu) { return 1 - nu * nu; }
+inline double strip_rigidity_middle(double nu) { return 1 - 0.5 * nu * nu; }
+inline constexpr double nu_of_hinges = -1.0 / 3;
 
 }  // namespace toile::internal::test

@@ -23,11 +23,12 @@ Fabric of_rigidity(double D_u, double D_v) {
   fabric.density_kg_per_m2 = density;
   fabric.bend_u_N_m = D_u;
   fabric.bend_v_N_m = D_v;
+  fabric.bend_poisson = 0;  // one rigidity, whether a strip may curl across or not
   return fabric;
 }
 
-double chord(StripMesh mesh, int rows, double D) {
-  const Sag tip = sag(clamped_strip(mesh, length, rows), of_rigidity(D, D));
+double chord(StripMesh mesh, int rows, double D, BendElement element = BendElement::plate) {
+  const Sag tip = sag(clamped_strip(mesh, length, rows), of_rigidity(D, D), element);
   return tip.H_m / tip.W_m;
 }
 
@@ -46,15 +47,32 @@ TEST(Elastica, IsThatOfTheTable) {
   EXPECT_NEAR(elastica(1e-3).H, 1e-3 / 8, 1e-9);
 }
 
-TEST(Cantilever, BendsAsTheElasticaWithinThreePercent) {
+TEST(Cantilever, BendsAsTheElasticaWithinTwoPercent) {
   Figures figures("cantilever");
   for (const double gamma : {1.0, 5.0, 10.0, 50.0}) {
     const test::Elastica e = elastica(gamma);
-    const double measured = chord(StripMesh::rows_across, edges_40,
-                                  weight * length * length * length / gamma / test::strip_rigidity_middle);
-    figures.add("Gamma " + std::to_string(static_cast<int>(gamma)), "equilateral L/40", "H/W", e.H / e.W, measured);
-    EXPECT_NEAR(measured / (e.H / e.W), 1, 0.03) << gamma;
+    const double D = weight * length * length * length / gamma;
+    const std::string name = "Gamma " + std::to_string(static_cast<int>(gamma));
+    for (const StripMesh mesh : {StripMesh::rows_across, StripMesh::mesher_15}) {
+      const double measured = chord(mesh, edges_40, D);
+      figures.add(name, std::string(to_string(mesh)) + " L/40", "H/W", e.H / e.W, measured);
+      EXPECT_NEAR(measured / (e.H / e.W), 1, 0.02) << gamma << ", " << to_string(mesh);
+    }
+    const double hinges = chord(StripMesh::rows_across, edges_40, D / test::strip_rigidity_middle(test::nu_of_hinges),
+                                BendElement::hinge);
+    figures.add(name, "equilateral L/40, hinges", "H/W", e.H / e.W, hinges);
+    EXPECT_NEAR(hinges / (e.H / e.W), 1, 0.03) << gamma;
   }
+}
+
+TEST(Cantilever, WithAPoissonRatioLiesBetweenCurlingFreelyAndNotAtAll) {
+  constexpr double nu = 0.4, gamma = 5, D = weight * length * length * length / gamma;
+  Fabric fabric = of_rigidity(D, D);
+  fabric.bend_poisson = nu;
+  const Sag tip = sag(clamped_strip(StripMesh::rows_across, length, edges_40), fabric);
+  const test::Elastica stiff = elastica(gamma), soft = elastica(gamma / test::strip_rigidity_low(nu));
+  EXPECT_GT(tip.H_m / tip.W_m, 0.99 * stiff.H / stiff.W);
+  EXPECT_LT(tip.H_m / tip.W_m, 1.01 * soft.H / soft.W);
 }
 
 TEST(Cantilever, ReachesTheStandardsChordAtTwiceItsBendingLength) {
@@ -63,7 +81,7 @@ TEST(Cantilever, ReachesTheStandardsChordAtTwiceItsBendingLength) {
   EXPECT_NEAR(gamma_of_chord(std::tan(41.5 * degree)), 8, 0.01);
   Figures figures("bending_length");
   const double D = weight * std::pow(length / 2, 3);
-  const double measured = chord(StripMesh::rows_across, edges_40, D / test::strip_rigidity_middle);
+  const double measured = chord(StripMesh::rows_across, edges_40, D);
   figures.add("ASTM D1388", "equilateral L/40", "chord deg", 41.5, std::atan(measured) / degree);
   EXPECT_NEAR(std::atan(measured) / degree, 41.5, 0.8);
 }
@@ -74,17 +92,13 @@ TEST(CantileverLong, FollowsTheWholeCurveOnEveryMesh) {
        {StripMesh::rows_across, StripMesh::rows_along, StripMesh::mesher, StripMesh::mesher_15, StripMesh::mesher_30}) {
     for (const double gamma : {0.1, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 1000.0}) {
       const double measured = chord(mesh, edges_40, weight * length * length * length / gamma);
-      // Between the curves of D (1 - nu^2) and of D.
-      const test::Elastica stiff = elastica(gamma), soft = elastica(gamma / test::strip_rigidity_low),
-                           middle = elastica(gamma / test::strip_rigidity_middle);
+      const test::Elastica e = elastica(gamma);
       char name[32];
       std::snprintf(name, sizeof name, "Gamma %g", gamma);
-      figures.add(name, std::string(to_string(mesh)) + " L/40", "H/W", middle.H / middle.W, measured);
+      figures.add(name, std::string(to_string(mesh)) + " L/40", "H/W", e.H / e.W, measured);
       // At 1000 only four cells bend, and a lattice whose columns do not line up at the clamp misses by a fifth: reported.
       if (mesh == StripMesh::rows_along && gamma > 500) continue;
-      const double tolerance = mesh == StripMesh::rows_across ? 0.03 : 0.05;
-      EXPECT_GT(measured, (1 - tolerance) * stiff.H / stiff.W) << to_string(mesh) << ", Gamma " << gamma;
-      EXPECT_LT(measured, (1 + tolerance) * soft.H / soft.W) << to_string(mesh) << ", Gamma " << gamma;
+      EXPECT_NEAR(measured / (e.H / e.W), 1, 0.02) << to_string(mesh) << ", Gamma " << gamma;
     }
   }
 }
@@ -96,8 +110,7 @@ TEST(CantileverLong, ComesNearerTheElasticaOnFinerMeshes) {
       const int rows = static_cast<int>(std::lround(edges * 2 / std::sqrt(3.0)));
       for (const double gamma : {5.0, 50.0}) {
         const test::Elastica e = elastica(gamma);
-        const double measured =
-            chord(mesh, rows, weight * length * length * length / gamma / test::strip_rigidity_middle);
+        const double measured = chord(mesh, rows, weight * length * length * length / gamma);
         char name[32];
         std::snprintf(name, sizeof name, "Gamma %g", gamma);
         figures.add(name, std::string(to_string(mesh)) + " L/" + std::to_string(edges), "H/W", e.H / e.W, measured);
@@ -106,20 +119,26 @@ TEST(CantileverLong, ComesNearerTheElasticaOnFinerMeshes) {
   }
 }
 
-TEST(CantileverLong, BendsBothThreadsAsAskedForWithinATenth) {
+TEST(CantileverLong, BendsBothThreadsAsAskedFor) {
   Figures figures("cantilever_anisotropic");
   constexpr double gamma = 10;  // of the thread that runs along the strip
   const double D = weight * length * length * length / gamma;
   for (const StripMesh mesh : {StripMesh::rows_across, StripMesh::mesher_15}) {
-    for (const double ratio : {1.0, 2.0, 5.0}) {
+    for (const double ratio : {1.0, 5.0, 20.0}) {
       for (const bool along_warp : {true, false}) {
         const Fabric fabric = along_warp ? of_rigidity(D, D / ratio) : of_rigidity(D * ratio, D);
-        const Sag tip = sag(clamped_strip(mesh, length, edges_40, along_warp), fabric);
-        const double realised = gamma / gamma_of_chord(tip.H_m / tip.W_m) / test::strip_rigidity_middle;
+        double realised[2];
+        for (const int finer : {1, 2}) {
+          const Sag tip = sag(clamped_strip(mesh, length, finer * edges_40, along_warp), fabric);
+          realised[finer - 1] = gamma / gamma_of_chord(tip.H_m / tip.W_m);
+        }
         char name[32];
         std::snprintf(name, sizeof name, "%g : 1 along %s", ratio, along_warp ? "warp" : "weft");
-        figures.add(name, std::string(to_string(mesh)) + " L/40", "D realised / asked", 1, realised);
-        EXPECT_NEAR(realised, 1, 0.10) << name << ", " << to_string(mesh);
+        figures.add(name, std::string(to_string(mesh)) + " L/40", "D realised / asked", 1, realised[0]);
+        figures.add(name, std::string(to_string(mesh)) + " L/80", "D realised / asked", 1, realised[1]);
+        // Where the soft thread is held the clamp gives way by a part of a row: the error is of first order.
+        EXPECT_NEAR(realised[0], 1, ratio > 10 ? 0.06 : 0.03) << name << ", " << to_string(mesh);
+        EXPECT_NEAR(2 * realised[1] - realised[0], 1, 0.02) << name << ", " << to_string(mesh);
       }
     }
   }
