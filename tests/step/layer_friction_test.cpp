@@ -25,21 +25,24 @@ constexpr double gap_m = 2.2e-3;  // at the start; the fabric's thickness is 2.5
 
 // Sheets of 20 cm one above the other on a longer one, each a little aside, in one mesh.  The lower one comes first.
 struct Slope {
-  Slope(double friction, double degrees, double edge_m, int layers, double length_m, double across_m = 0)
-      : run(stacked(edge_m, layers, length_m, across_m), fabric_of(friction), tilted(degrees)) {
+  Slope(double friction, double degrees, double edge_m, int layers, double length_m, double across_m = 0,
+        BendElement element = BendElement::plate)
+      : run(stacked(edge_m, layers, length_m, across_m), fabric_of(friction, element), tilted(degrees, element)) {
     lower = test::equilateral_sheet(length_m, 0.3, edge_m).mesh.particle_count;
     each = (run.model.particle_count() - lower) / layers;
     for (Index i = 0; i < lower; ++i) run.pin(i);
     begun = run.state.x;
   }
-  static Fabric fabric_of(double friction) {
+  static Fabric fabric_of(double friction, BendElement element) {
     Fabric fabric;
     fabric.friction = friction;
+    if (element == BendElement::hinge) fabric.bend_u_N_m = fabric.bend_v_N_m = 1e-5;
     return fabric;
   }
-  static ModelOptions tilted(double degrees) {
+  static ModelOptions tilted(double degrees, BendElement element = BendElement::plate) {
     const double a = degrees * std::numbers::pi / 180;
     ModelOptions options;
+    options.bend_element = element;
     options.gravity_m_per_s2 = g * Vec3(std::sin(a), -std::cos(a), 0);
     return options;
   }
@@ -80,21 +83,28 @@ double acceleration_of(Slope& slope) {
   return (speed[1] - speed[0]) / 0.3;
 }
 
+// Near the cone what is left of the weight is little, and which threads come to lie on which is chance: of five starts the median counts.
+// The first start of plates is a tenth off, and more, at 1 cm and mu = 0.3 (docs/limits.md#catching-threads); that of hinges nowhere.
 TEST(LayerFriction, AboveTheConeASheetSlidesAsABlockWould) {
   const double a = 20 * std::numbers::pi / 180;
-  for (const double edge_m : {0.02, 0.01}) {
-    for (const double mu : {0.0, 0.1, 0.2, 0.3}) {
-      const double exact = g * (std::sin(a) - mu * std::cos(a));
-      // Near the cone what is left of the weight is little, and which threads come to lie on which is chance.
-      std::array<double, 5> found{};
-      for (std::size_t k = 0; k < found.size(); ++k) {
-        Slope slope(mu, 20, edge_m, 1, 0.8, 0.37e-3 * static_cast<double>(k));
-        found[k] = acceleration_of(slope) / exact;
+  for (const BendElement element : {BendElement::plate, BendElement::hinge}) {
+    const bool hinges = element == BendElement::hinge;
+    for (const double edge_m : {0.02, 0.01}) {
+      for (const double mu : {0.0, 0.1, 0.2, 0.3}) {
+        const double exact = g * (std::sin(a) - mu * std::cos(a));
+        std::array<double, 5> found{};
+        for (std::size_t k = 0; k < found.size(); ++k) {
+          Slope slope(mu, 20, edge_m, 1, 0.8, 0.37e-3 * static_cast<double>(k), element);
+          found[k] = acceleration_of(slope) / exact;
+        }
+        if (hinges || edge_m > 0.015 || mu < 0.25) {
+          EXPECT_NEAR(found[0], 1, 0.1) << "edge " << edge_m << " m, mu " << mu << ", hinges " << hinges;
+        }
+        std::sort(found.begin(), found.end());
+        std::printf("edge %g m, mu %g, %s: %.3f %.3f %.3f %.3f %.3f\n", edge_m, mu, hinges ? "hinges" : "plates",
+                    found[0], found[1], found[2], found[3], found[4]);
+        EXPECT_NEAR(found[2], 1, 0.1) << "edge " << edge_m << " m, mu " << mu << ", hinges " << hinges;
       }
-      std::sort(found.begin(), found.end());
-      std::printf("edge %g m, mu %g: %.3f %.3f %.3f %.3f %.3f\n", edge_m, mu, found[0], found[1], found[2], found[3],
-                  found[4]);
-      EXPECT_NEAR(found[2], 1, 0.1) << "edge " << edge_m << " m, mu " << mu;
     }
   }
 }
