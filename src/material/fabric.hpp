@@ -17,9 +17,8 @@ struct Fabric {
   double compression_ratio = 0.1;  // of the stretch stiffness, in threads that are shorter than at rest; in (0, 1]
   double strain_limit = 0;         // no thread gets longer than 1 + this of its length as cut; 0: no limit
   double bend_u_N_m = 1.25e-5, bend_v_N_m = 1.25e-5;
-  double bend_poisson =
-      0.3;  // how much cloth bent along one thread wants to bend the other way along the other; in [0, 0.5]
-  double bend_uv_N_m = 0;  // rigidity against twist; 0: (1 - bend_poisson)/2 times the mean of the other two
+  double bend_poisson = 0.3;  // how much bending along one thread bends the other way along the other; in [0, 0.5]
+  double bend_uv_N_m = 0;     // rigidity against twist; 0: (1 - bend_poisson)/2 times the mean of the other two
   double stretch_damping_s = 2e-3, shear_damping_s = 2e-3, bend_damping_s = 2e-3;  // k_d / k
   double friction = 0.35;
   double thickness_m = 2.5e-3;  // rest distance of two layers in contact, and of cloth from a body
