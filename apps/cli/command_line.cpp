@@ -102,6 +102,10 @@ void add_garment_options(CLI::App& command, CommandLine& line) {
   command.add_option("--fabric", line.fabric, "silk, cotton, wool, denim or knit");
   command.add_option("--resolution", line.resolution_cm, "Edge length of the cloth's triangles, cm")
       ->check(CLI::Range(0.1, 20.0));
+  command.add_option("--hem", line.hem_mm, "Width of a hem on a pattern's open edges, mm (default: none)")
+      ->check(CLI::Range(0.0, 200.0));
+  command.add_option("--tape", line.tape_mm, "Width of a tape on edges with a label, mm (default: 10)")
+      ->check(CLI::Range(0.0, 200.0));
   command.add_option("--fps", line.fps, "Frames per second of the output")->check(CLI::Range(1.0, 1000.0));
   command.add_option("--quality", line.quality, "draft, good or final: resolution, step and tolerance")
       ->check(CLI::IsMember({"draft", "good", "final"}));
@@ -252,6 +256,8 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
 // CLI::Range lets NaN pass.
 void require_finite(const CommandLine& line) {
   for (const auto& [option, value] : {std::pair{"--resolution", line.resolution_cm},
+                                      {"--hem", line.hem_mm},
+                                      {"--tape", line.tape_mm},
                                       {"--fps", line.fps},
                                       {"--seconds", line.seconds},
                                       {"--max-memory", line.limits.memory_mb},

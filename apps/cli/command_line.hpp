@@ -28,7 +28,7 @@ struct CommandLine {
   std::optional<int> export_frame;  // of export; absent: the last
   bool all = false;                 // of export
   std::optional<std::string> fabric;
-  std::optional<double> resolution_cm, fps, seconds;
+  std::optional<double> resolution_cm, hem_mm, tape_mm, fps, seconds;
   bool strict_start = false;
   bool list = false;
   std::optional<int> checkpoint_frames;  // absent: by time

@@ -192,6 +192,10 @@ SceneFile scene_of(const CommandLine& line) {
   for (SceneCloth& cloth : scene.cloth) {
     if (line.fabric) cloth.fabric = fabric_preset(*line.fabric, "", "--fabric");
     if (line.resolution_cm) cloth.set_edge_m(0.01 * *line.resolution_cm);
+    if (auto* pattern = std::get_if<ScenePattern>(&cloth.kind)) {
+      if (line.hem_mm) pattern->finish.hem_m = 1e-3 * *line.hem_mm;
+      if (line.tape_mm) pattern->finish.tape_m = 1e-3 * *line.tape_mm;
+    }
   }
   if (!line.start.empty()) scene.start = line.start;
   if (line.fps) scene.fps = *line.fps;

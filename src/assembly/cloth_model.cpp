@@ -2,9 +2,11 @@
 
 #include "assembly/plate_moments.hpp"
 #include "core/error.hpp"
+#include "material/edge_finish.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace toile::internal {
 namespace {
@@ -20,12 +22,16 @@ Vec2 edge_in_pattern(const ClothMesh& mesh, Index triangle, Index x0, Index x1) 
   return ends[1] - ends[0];
 }
 
+const Fabric& fabric_of(const ClothMesh& mesh, std::span<const Fabric> fabrics, std::size_t triangle) {
+  return fabrics[fabrics.size() == 1 ? 0 : at(mesh.panel[triangle])];
+}
+
 BendRest hinge_rest(const ClothModel& model, std::span<const Fabric> fabrics, const Hinge& hinge, bool plates,
                     bool paper_scaling) {
   double rigidity = 0, tau = 0, length = 0, area[2];
   for (int side = 0; side < 2; ++side) {
     const auto t = static_cast<std::size_t>(hinge.triangle[static_cast<std::size_t>(side)]);
-    const Fabric& fabric = fabrics[fabrics.size() == 1 ? 0 : static_cast<std::size_t>(model.mesh.panel[t])];
+    const Fabric& fabric = fabric_of(model.mesh, fabrics, t);
     const Vec2 along = edge_in_pattern(model.mesh, hinge.triangle[static_cast<std::size_t>(side)], hinge.particle[0],
                                        hinge.particle[1]);
     // The paper weighs by the edge's own direction; the fibres that bend run across it (docs/deviations.md#bend-direction).
@@ -51,7 +57,7 @@ void set_pair_friction(ClothModel& model, std::span<const Fabric> fabrics, const
   };
   model.fabric.assign(static_cast<std::size_t>(model.mesh.particle_count), -1);
   for (std::size_t t = 0; t < model.mesh.triangles.size(); ++t) {
-    const Fabric& fabric = fabrics[fabrics.size() == 1 ? 0 : static_cast<std::size_t>(model.mesh.panel[t])];
+    const Fabric& fabric = fabric_of(model.mesh, fabrics, t);
     for (const Index corner : model.mesh.triangles[t]) {
       Index& of = model.fabric[static_cast<std::size_t>(corner)];
       if (of < 0) of = number(fabric.name);
@@ -66,6 +72,35 @@ void set_pair_friction(ClothModel& model, std::span<const Fabric> fabrics, const
     const std::size_t first = place(pair.first), second = place(pair.second);
     if (first == names.size() || second == names.size()) continue;  // not in this cloth
     model.pair_friction[first][second] = model.pair_friction[second][first] = pair.friction;
+  }
+}
+
+// The threads of finished edges, their mass, and with plates their bending.  A free edge has no hinge along it, and those that meet it bend about
+// other lines: without plates a finished edge bends as the cloth does.
+void finish_edges(ClothModel& model, std::span<const Fabric> fabrics, bool plates) {
+  const ClothMesh& mesh = model.mesh;
+  if (mesh.finished.empty()) return;
+  std::map<std::pair<Index, Index>, std::pair<Index, std::uint8_t>> side_of;  // [edge] of its first triangle
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::uint8_t k = 0; k < 3; ++k)
+      side_of.emplace(std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1U) % 3]),
+                      std::pair(static_cast<Index>(t), k));
+  std::map<Index, Mat3> rigidity;  // of triangles beside finished edges: two of them may meet in one
+  for (const FinishedEdge& edge : mesh.finished) {
+    const auto found = side_of.find(std::minmax(edge.a, edge.b));
+    if (found == side_of.end()) continue;
+    const auto [triangle, k] = found->second;
+    const auto t = at(triangle);
+    const std::array<Vec2, 3>& uv = mesh.uv[t];
+    const Vec2 along = uv[(k + 1U) % 3] - uv[k];
+    const Fabric& fabric = fabric_of(mesh, fabrics, t);
+    const LineStiffness line = line_stiffness(fabric, along, {edge.hem_m, edge.tape_m});
+    model.threads.push_back({mesh.triangles[t][k], mesh.triangles[t][(k + 1U) % 3], triangle, k, line.stretch_N});
+    for (const Index end : {edge.a, edge.b}) model.mass_kg[at(end)] += 0.5 * line.mass_kg_per_m * along.norm();
+    if (!plates) continue;
+    Mat3& C = rigidity.emplace(triangle, bending_rigidity(fabric)).first->second;
+    C = with_line(C, along, line.bend_N_m2, along.norm(), material_frame(uv).area_m2);
+    model.plate_compliance[t] = plate_compliance(uv, C);
   }
 }
 
@@ -101,7 +136,7 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
                                fabric.stretch_damping_s, fabric.shear_damping_s, fabric.compression_ratio,
                                fabric.strain_limit});
   for (std::size_t t = 0; t < triangles; ++t) {
-    const Fabric& fabric = fabrics[fabrics.size() == 1 ? 0 : static_cast<std::size_t>(model.mesh.panel[t])];
+    const Fabric& fabric = fabric_of(model.mesh, fabrics, t);
     const MaterialFrame frame = material_frame(model.mesh.uv[t]);
     model.membrane[t].alpha = frame.alpha;
     model.membrane[t].beta = frame.beta;
@@ -118,9 +153,10 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
     std::vector<Mat3> rigidity;
     for (const Fabric& fabric : fabrics) rigidity.push_back(bending_rigidity(fabric));
     for (std::size_t t = 0; t < triangles; ++t)
-      model.plate_compliance.push_back(plate_compliance(
-          model.mesh.uv[t], rigidity[rigidity.size() == 1 ? 0 : static_cast<std::size_t>(model.mesh.panel[t])]));
+      model.plate_compliance.push_back(
+          plate_compliance(model.mesh.uv[t], rigidity[rigidity.size() == 1 ? 0 : at(model.mesh.panel[t])]));
   }
+  if (!options.paper_scaling) finish_edges(model, fabrics, plates);
   model.bend.reserve(model.topology.hinges.size());
   for (const Hinge& hinge : model.topology.hinges) {
     model.bend.push_back(hinge_rest(model, fabrics, hinge, plates, options.paper_scaling));
@@ -151,6 +187,12 @@ void set_folds(ClothModel& model, double share) {
     if (hinge != hinges.end() && edge_of(*hinge) == edge)
       model.bend[static_cast<std::size_t>(hinge - hinges.begin())].theta_0 = share * fold.angle_rad;
   }
+}
+
+void set_finishes(ClothModel& model, double share) {
+  if (model.threads.empty() || model.finished == share) return;
+  model.finished = share;
+  ++model.rest_version;
 }
 
 std::array<Vec2, 3> ClothModel::rest_uv(std::size_t triangle) const {

@@ -7,6 +7,7 @@
 #include "mesh/cloth_mesh.hpp"
 #include "mesh/topology.hpp"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,13 @@ struct StiffnessShare {
   bool operator==(const StiffnessShare&) const = default;
 };
 
+// A thread along a finished edge (assembly/edge_threads.hpp), on side `side` of a triangle: from its corner of that number to the next.
+struct EdgeThread {
+  Index a = 0, b = 0, triangle = 0;
+  std::uint8_t side = 0;
+  double stretch_N = 0;  // force per strain
+};
+
 struct ClothModel {
   ClothMesh mesh;
   Topology topology;
@@ -50,6 +58,7 @@ struct ClothModel {
   std::vector<MembraneStiffness> stiffness;        // [panel], or one for all
   std::vector<BendRest> bend;                      // [hinge]
   std::vector<Mat3> plate_compliance;              // [triangle], rad/(N m); empty: hinges alone
+  std::vector<EdgeThread> threads;                 // along mesh.finished
   std::vector<double> mass_kg;                     // [particle]
   std::vector<double> thickness_m;                 // [particle] contact distance of two layers
   std::vector<double> friction;                    // [particle] the largest of its fabrics
@@ -59,6 +68,7 @@ struct ClothModel {
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   double drag_per_s = 0;
   double gathered = 1;  // share of mesh.gathered_uv
+  double finished = 1;  // share of the stiffness of `threads`
   // As built, once set_panel_stiffness has changed them: [panel], [hinge], [triangle].
   std::vector<MembraneStiffness> built_stiffness;
   std::vector<double> built_kappa_N_m;
@@ -77,11 +87,14 @@ struct ClothModel {
 
 // `fabric_of_panel` has one entry, or one per panel of the mesh.  Hinges on a seam take the mean of both sides.
 // Plates: every triangle has the rigidity of its own fabric, on a seam too.  Masses: a third of each triangle's density * area goes to each corner.  Rest angles are those of mesh.folds, zero
-// elsewhere; rest shapes are gathered.
+// elsewhere; rest shapes are gathered.  Finished edges add mass, a thread, and bending along them.
 ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabric_of_panel, const ModelOptions& options = {});
 
 // Rest angles = share * mesh.folds: panels are sewn flat (0) and then folded.  Folds on a free edge have no effect.
 void set_folds(ClothModel& model, double share);
+
+// Threads of finished edges with a share of their stiffness: seams close without (0).
+void set_finishes(ClothModel& model, double share);
 
 // Rest shapes of triangles = uv + share * (mesh.gathered_uv - uv): panels are sewn as cut (0), and gathered as their
 // seams close (1).  Mass, bend weight and area stay those of the cloth as cut.

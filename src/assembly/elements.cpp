@@ -48,6 +48,7 @@ Elements::Elements(const ClothModel& model)
     plate_moment_.resize(hinges_.size());
   }
   pattern_ = std::make_shared<const BlockPattern>(pattern_of_cloth(model.particle_count(), triangles_, hinges_));
+  if (!model.threads.empty()) threads_.emplace(model, *pattern_);
   pack_rest(model);
   add_incidence(model);
 }
@@ -55,6 +56,7 @@ Elements::Elements(const ClothModel& model)
 void Elements::pack_rest(const ClothModel& model) {
   rest_version_ = model.rest_version;
   if (plates_) plates_->pack(model);
+  if (threads_) threads_->pack(model);
   form_.damping_jacobian = model.damping_jacobian;
   for (std::size_t k = 0; k < rest_.size() * batch_size && !triangles_.empty(); ++k) {
     const std::size_t t = std::min(k, triangles_.size() - 1);
@@ -121,6 +123,7 @@ void Elements::evaluate(const ClothModel& model, const ClothState& state) {
     }
     bend_[h] = bend_response(model.bend[h], corner_x, corner_v);
   });
+  if (threads_) threads_->evaluate(x, v);
   if (!plates_) return;
   // A relaxation time tau: angle and rate have one moment, that of C + tau dC/dt.
   parallel_for(hinges_.size(), element_grain, [&](std::size_t h) {
@@ -131,7 +134,7 @@ void Elements::evaluate(const ClothModel& model, const ClothState& state) {
 }
 
 double Elements::energy_J() {
-  double energy = 0;
+  double energy = threads_ ? threads_->energy_J() : 0;
   if (plates_) {
     for (std::size_t h = 0; h < hinges_.size(); ++h)
       turned_[h] = bend_[h].degenerate ? 0 : bend_[h].theta - bend_rest_[h].theta_0;
@@ -172,6 +175,7 @@ void Elements::forces(std::span<Vec3> f) const {
   });
   std::fill(f.begin(), f.end(), Vec3::Zero());
   gather(f, -1);
+  if (threads_) threads_->add_forces(f);
 }
 
 void Elements::subtract_stiffness(std::span<const Vec3> displacement, std::span<const Vec3> velocity,
@@ -190,6 +194,7 @@ void Elements::subtract_stiffness(std::span<const Vec3> displacement, std::span<
     of_hinges_[h] = in_matrix_N_m(bend_rest_[h]) * (angle + bend_rest_[h].tau_s * rate);
   });
   gather(f, -1);
+  if (threads_) threads_->subtract_stiffness(displacement, velocity, f);
 }
 
 template <class T>
@@ -222,6 +227,7 @@ void Elements::assemble(double h_s, BlockMatrix<T>& A) {
     }
   };
   parallel_blocks(static_cast<std::size_t>(pattern_->block_count()), element_grain, std::cref(slots));
+  if (threads_) threads_->assemble(h_s, A);
   A.update_diagonal();
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 #include "assembly/block_kernels.hpp"
 #include "assembly/cloth_model.hpp"
+#include "assembly/edge_threads.hpp"
 #include "assembly/plate_moments.hpp"
 #include "material/membrane_batch.hpp"
 
@@ -81,6 +82,7 @@ class Elements {
   // forces on the corners.  Hinges: the factor of g, which is (h^2 + h tau) kappa in blocks, or the moment.
   mutable std::vector<Mat3> of_triangles_;
   mutable std::vector<double> of_hinges_;
+  std::optional<EdgeThreads> threads_;  // none without finished edges
   std::optional<PlateMoments> plates_;
   std::vector<double> turned_, plate_moment_;  // [hinge], empty without plates
   std::vector<double> beyond_linear_;          // [triangle]

@@ -34,6 +34,8 @@ GarmentMesh over(const Outfit& outfit, const GarmentMesh& garment) {
   both.mesh.panel_cloth.resize(both.mesh.panel_names.size());
   for (const FoldedEdge& fold : garment.mesh.folds)
     both.mesh.folds.push_back({fold.a + worn, fold.b + worn, fold.angle_rad});
+  for (const FinishedEdge& edge : garment.mesh.finished)
+    both.mesh.finished.push_back({edge.a + worn, edge.b + worn, edge.hem_m, edge.tape_m});
   both.x = outfit.state.x;
   both.x.insert(both.x.end(), garment.x.begin(), garment.x.end());
   for (SeamPair& pair : both.pairs) {

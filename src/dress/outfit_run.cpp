@@ -75,6 +75,7 @@ void OutfitRun::set_rest_stretch(double share) {
     if (b != Vec2(1, 1)) set_panel_rest_stretch(model_, static_cast<Index>(p), Vec2(1, 1) + share * (b - Vec2(1, 1)));
   }
   set_folds(model_, share);
+  set_finishes(model_, share);
 }
 
 std::vector<Vec2> OutfitRun::panel_rest_stretch() const {
@@ -89,6 +90,7 @@ void OutfitRun::take_up(std::span<const Vec2> panel_rest_stretch) {
   for (std::size_t p = 0; p < panel_rest_stretch.size(); ++p)
     set_panel_rest_stretch(model_, static_cast<Index>(p), panel_rest_stretch[p]);
   set_folds(model_, ramped_);
+  set_finishes(model_, ramped_);
   for (TimedPin& timed : events_.pins) lead(timed);
   const Changed changed = changed_;
   if (changed.friction) set_friction({}, *changed.friction);

@@ -77,6 +77,7 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
   model_ = build_model(garment.mesh, stiff, weightless);
   soften_gathered_panels(model_, fabrics, stiff, weightless, options.gathered_bend_share);
   set_folds(model_, garment.pleated ? 1 : 0);
+  set_finishes(model_, 0);  // an armhole has to pass the arm
   set_gathers(model_, 0);
   state_ = {garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
   for (const SeamPair& pair : garment.pairs) {

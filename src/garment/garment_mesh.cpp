@@ -60,6 +60,12 @@ MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_inde
     for (const auto& [a, b] : mesh.folded.line[f])
       garment.mesh.folds.push_back({first + a, first + b, panel.folds[f].angle_rad});
   }
+  for (std::size_t e = 0; e < panel.edges.size(); ++e) {
+    const EdgeFinish& finish = panel.edges[e].finish;
+    const std::vector<Index>& line = meshed.edge_particles[e];
+    for (std::size_t k = 0; !finish.none() && k + 1 < line.size(); ++k)
+      garment.mesh.finished.push_back({line[k], line[k + 1], finish.hem_m, finish.tape_m});
+  }
   meshed.first_particle = first;
   meshed.end_particle = garment.mesh.particle_count;
   return meshed;
@@ -282,6 +288,10 @@ WeldedMesh weld(const GarmentMesh& garment) {
   for (FoldedEdge& fold : welded.mesh.folds) {
     fold.a = welded.particle_of[at(fold.a)];
     fold.b = welded.particle_of[at(fold.b)];
+  }
+  for (FinishedEdge& edge : welded.mesh.finished) {
+    edge.a = welded.particle_of[at(edge.a)];
+    edge.b = welded.particle_of[at(edge.b)];
   }
   return welded;
 }

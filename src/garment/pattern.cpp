@@ -199,6 +199,19 @@ double edge_length_m(const Panel& panel, const PanelEdge& edge) {
   return BezierLength(c).total();
 }
 
+void finish_open_edges(Pattern& pattern, const EdgeFinish& finish) {
+  std::vector<std::vector<char>> sewn;
+  for (const Panel& panel : pattern.panels) sewn.emplace_back(panel.edges.size(), 0);
+  for (const Stitch& stitch : pattern.stitches)
+    for (const StitchSide& side : {stitch.a, stitch.b}) sewn[at(side.panel)][at(side.edge)] = 1;
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
+    for (std::size_t e = 0; e < sewn[p].size(); ++e) {
+      PanelEdge& edge = pattern.panels[p].edges[e];
+      if (!edge.finish_given) edge.finish = {sewn[p][e] ? 0 : finish.hem_m, edge.label.empty() ? 0 : finish.tape_m};
+    }
+  }
+}
+
 std::vector<Vec2> sample_edge(const Panel& panel, const PanelEdge& edge, int count) {
   if (count < 1) throw InputError("", "sample_edge", "a count of at least 1", std::to_string(count));
   const Curve c = canonical(panel, edge);

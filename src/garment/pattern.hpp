@@ -8,6 +8,7 @@
 #pragma once
 #include "core/types.hpp"
 #include "io/json_places.hpp"
+#include "material/edge_finish.hpp"
 
 #include <array>
 #include <string>
@@ -25,6 +26,8 @@ struct PanelEdge {
   double radius_m = 0;                                  // circle
   bool large_arc = false, sweep = false;                // circle, as in SVG with y up: see docs/pattern-format.md
   std::string label;                                    // "lower_interface" ... or empty
+  EdgeFinish finish;                                    // the file's extension "toile"
+  bool finish_given = false;                            // also to none
   Index file_number = -1;  // its number in the file, for messages; -1: its place in `edges`
 };
 
@@ -67,6 +70,10 @@ struct Pattern {
   double units_in_meter = 100;  // of the file; everything above is in metres already
   bool units_assumed = false;   // the file does not say: 100 was assumed
 };
+
+// Finishes the open edges for which the file says nothing: a hem on all, and a tape on those with a label, which shall lie on the body at
+// their length as cut: waists, collars, armholes, strapless tops.
+void finish_open_edges(Pattern& pattern, const EdgeFinish& finish);
 
 // Points of an edge from start to end, `count` + 1 of them (count >= 1), equally spaced by arc length to 1e-9 of the
 // length.  First and last point are the corners to the bit, and the edge reversed gives the same points reversed, to the

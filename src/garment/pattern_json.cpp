@@ -301,7 +301,8 @@ class PatternReader {
     const Json* json = extension_ != nullptr ? extension_->find(panel.name) : nullptr;
     if (json == nullptr) return;
     if (!json->is_object()) json->fail("an object", json->describe());
-    json->allow_only({"fabric", "rest_stretch_u", "rest_stretch_v", "folds"});
+    json->allow_only({"fabric", "rest_stretch_u", "rest_stretch_v", "folds", "edges"});
+    if (const Json* edges = json->find("edges")) read_finishes(panel, *edges);
     if (const Json* fabric = json->find("fabric"))
       panel.fabric = fabric_preset(fabric->string(), fabric->where(), fabric->pointer()).name;
     const auto rest_stretch = [&](const char* key) {
@@ -329,6 +330,27 @@ class PatternReader {
           }))
         entry.fail("a line through the panel", "a side of its outline");
       panel.folds.push_back(std::move(fold));
+    }
+  }
+
+  void read_finishes(Panel& panel, const Json& edges) const {
+    for (const Json& entry : edges.array()) {
+      if (!entry.is_object()) entry.fail("an edge: an object", entry.describe());
+      entry.allow_only({"edge", "hem_mm", "tape_mm"});
+      const Json& number = entry.at("edge");
+      const Index wanted = read_index_or_none(number, panel.edges.size(), "an edge");
+      const auto edge = std::find_if(panel.edges.begin(), panel.edges.end(),
+                                     [&](const PanelEdge& one) { return one.file_number == wanted; });
+      if (edge == panel.edges.end()) continue;  // leniently
+      if (edge->finish_given) number.fail("each edge once", "edge " + std::to_string(wanted) + " twice");
+      const auto width_m = [&](const char* key) {
+        const Json* width = entry.find(key);
+        if (width == nullptr) return 0.0;
+        if (!(width->number() >= 0 && width->number() <= 200)) width->fail("a number from 0 to 200", width->describe());
+        return 1e-3 * width->number();
+      };
+      edge->finish = {width_m("hem_mm"), width_m("tape_mm")};
+      edge->finish_given = true;
     }
   }
 

@@ -52,6 +52,17 @@ void PatternRepair::renumber_edges(std::string_view panel_name, Renumber&& numbe
       number_of(*value) = number(index_of(*value));
     }
   }
+  if (JsonValue::Array* finishes = finished_edges(panel_name)) {
+    for (JsonValue& finish : *finishes)
+      if (JsonValue* value = finish.find("edge")) number_of(*value) = number(index_of(*value));
+  }
+}
+
+JsonValue::Array* PatternRepair::finished_edges(std::string_view panel_name) {
+  JsonValue* panels = extension("panels");
+  JsonValue* extended = panels == nullptr ? nullptr : panels->find(panel_name);
+  JsonValue* edges = extended == nullptr ? nullptr : extended->find("edges");
+  return edges == nullptr ? nullptr : edges->array();
 }
 
 template <class Renumber>
@@ -116,6 +127,11 @@ void PatternRepair::reorder_edges(std::string_view panel_name, std::span<const I
 void PatternRepair::remove_edge(std::string_view panel_name, Index number) {
   JsonValue::Array& edges = *panel(panel_name).member("edges").array();
   edges.erase(edges.begin() + number);
+  if (JsonValue::Array* finishes = finished_edges(panel_name))
+    std::erase_if(*finishes, [&](JsonValue& finish) {
+      const JsonValue* value = finish.find("edge");
+      return value != nullptr && index_of(*value) == number;
+    });
   renumber_edges(panel_name, [&](Index e) { return double(e > number ? e - 1 : e); });
 }
 

@@ -44,6 +44,7 @@ class PatternRepair {
   JsonValue& edge(std::string_view panel_name, Index number);
   JsonValue::Array& stitches();
   JsonValue* extension(std::string_view key);
+  JsonValue::Array* finished_edges(std::string_view panel);  // of the extension; null: none
   template <class Renumber>
   void renumber_edges(std::string_view panel_name, Renumber&& number);
   template <class Renumber>

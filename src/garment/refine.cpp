@@ -36,6 +36,7 @@ class Halving {
     to.merged.insert(to.merged.end(), merged_.begin(), merged_.end());
     cut_triangles(to.mesh);
     cut_folds(to.mesh.folds);
+    cut_finished(to.mesh.finished);
     for (LabelledEdge& edge : to.labels) edge.particles = with_middles(edge.particles);
     add_pairs(to);
     return to;
@@ -139,6 +140,18 @@ class Halving {
         folds.push_back({*m, fold.b, fold.angle_rad});
       } else {
         folds.push_back(fold);
+      }
+    }
+  }
+
+  void cut_finished(std::vector<FinishedEdge>& finished) const {
+    finished.clear();
+    for (const FinishedEdge& edge : from_.mesh.finished) {
+      if (const auto m = middle(edge.a, edge.b)) {
+        finished.push_back({edge.a, *m, edge.hem_m, edge.tape_m});
+        finished.push_back({*m, edge.b, edge.hem_m, edge.tape_m});
+      } else {
+        finished.push_back(edge);
       }
     }
   }

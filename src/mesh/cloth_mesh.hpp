@@ -21,6 +21,11 @@ struct FoldedEdge {  // an edge whose hinge is not flat at rest
   double angle_rad = 0;  // theta of mesh/topology.hpp: > 0 is a ridge on the right side
 };
 
+struct FinishedEdge {  // an edge with a hem or a tape along it (material/edge_finish.hpp)
+  Index a = 0, b = 0;
+  double hem_m = 0, tape_m = 0;  // widths
+};
+
 struct ClothMesh {
   Index particle_count = 0;
   std::vector<Triangle> triangles;      // counter-clockwise in (u, v) and seen from the right side
@@ -29,6 +34,7 @@ struct ClothMesh {
   std::vector<std::string> panel_names;
   std::vector<PanelCloth> panel_cloth;  // as panel_names, or empty
   std::vector<FoldedEdge> folds;
+  std::vector<FinishedEdge> finished;
   // [triangle][corner], or empty: the shape at rest where a gathering thread holds the cloth together (garment/gathers.hpp); elsewhere uv.
   std::vector<std::array<Vec2, 3>> gathered_uv;
 

@@ -53,7 +53,7 @@ ClothCost::Seams seams_of(const Pattern& pattern, const std::string& file) {
 
 void refuse_beside(const Json& value, const ScenePattern&, const SceneCloth& chosen) {
   const std::string pattern = "a pattern beside it";
-  for (const std::string_view key : {"vertices", "resolution_cm"})
+  for (const std::string_view key : {"vertices", "resolution_cm", "hem_mm", "tape_mm"})
     if (const Json* given = value.find(key))
       given->fail(chosen.has_own_edge() ? pattern + ": other shapes have an edge_m" : pattern, given->describe());
 }
@@ -64,7 +64,8 @@ MeshedCloth load(const ScenePattern& given, const SceneCloth& whole, const TextS
   meshed.input_hash = hash_of_text(text);
   meshed.edge_m = whole.resolution_m;
   PatternFile as_read = read_pattern(text, file);
-  const Pattern& pattern = meshed.pattern.emplace(std::move(as_read.pattern));
+  Pattern& pattern = meshed.pattern.emplace(std::move(as_read.pattern));
+  finish_open_edges(pattern, given.finish);
   GarmentMesh& garment = meshed.garment;
   try {
     if (given.vertices) {

@@ -1,6 +1,7 @@
 // sim/cloth_pattern.hpp: sewn cloth: a pattern of panels and stitches.                                    docs/pattern-format.md
 #pragma once
 #include "garment/pattern_check.hpp"
+#include "material/edge_finish.hpp"
 #include "sim/cloth.hpp"
 
 #include <optional>
@@ -14,6 +15,8 @@ struct ScenePattern {
   static constexpr bool sewn = true;
   std::string path;             // resolved
   std::optional<int> vertices;  // of the welded garment; overrides the cloth's resolution_m
+  EdgeFinish finish{
+      0, 0.01};  // of open edges for which the pattern says nothing: a hem on all, a tape on those with a label
 };
 template <class V>
 void describe_choice(V& v, std::optional<ScenePattern>& pattern) {
@@ -24,6 +27,11 @@ void describe_beside(V& v, ScenePattern& pattern) {
   v.at_most_one({"resolution_cm", "vertices"});
   v.whole({"vertices", "instead: how many vertices the welded garment shall have, within 1 %", "by `resolution_cm`"},
           {20, 2e6}, pattern.vertices);
+  v.number(
+      {"hem_mm", "width of a hem on the pattern's open edges ([pattern-format.md](pattern-format.md#the-extension))"},
+      {0, 200, 1e-3}, pattern.finish.hem_m);
+  v.number({"tape_mm", "width of a tape on those that have a label: waists, collars, armholes, strapless tops"},
+           {0, 200, 1e-3}, pattern.finish.tape_m);
 }
 void refuse_beside(const Json& value, const ScenePattern& none, const SceneCloth& chosen);
 

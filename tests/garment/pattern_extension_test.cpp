@@ -47,6 +47,21 @@ TEST(PatternExtension, PressesSeams) {
   EXPECT_NEAR(pattern.stitches[1].angle_rad, 90 * degree, 1e-15);
 }
 
+TEST(PatternExtension, FinishesEdgesByTheirNumberInTheFile) {
+  Pattern pattern = parse(with(R"({"panels": {"front": {"edges": [{"edge": 2, "hem_mm": 20}, {"edge": 0}]}}})",
+                               std::string("[").append(stitch("front", 1, "back", 3)) + "]"));
+  EXPECT_EQ(pattern.panels[0].edges[2].finish, (EdgeFinish{0.02, 0}));
+  // What the file says nothing of: a hem on open edges, a tape on those with a label.
+  pattern.panels[0].edges[3].label = pattern.panels[0].edges[0].label = pattern.panels[1].edges[3].label = "waist";
+  finish_open_edges(pattern, {0.015, 0.01});
+  EXPECT_EQ(pattern.panels[0].edges[0].finish, (EdgeFinish{0, 0})) << "the file says that it has none";
+  EXPECT_EQ(pattern.panels[0].edges[1].finish, (EdgeFinish{0, 0})) << "sewn";
+  EXPECT_EQ(pattern.panels[0].edges[2].finish, (EdgeFinish{0.02, 0}));
+  EXPECT_EQ(pattern.panels[0].edges[3].finish, (EdgeFinish{0.015, 0.01}));
+  EXPECT_EQ(pattern.panels[1].edges[3].finish, (EdgeFinish{0, 0.01})) << "a seam with a label is taped";
+  EXPECT_EQ(pattern.panels[1].edges[0].finish, (EdgeFinish{0.015, 0}));
+}
+
 TEST(PatternExtension, AbsoluteFoldsMoveWithTheirPanel) {
   std::string text =
       with(R"({"panels": {"front": {"folds": [{"endpoints": [0, 2], "angle_deg": 9, "curvature": [20, 30]}]}}})");
@@ -70,6 +85,13 @@ TEST(PatternExtension, IsRefusedWhereItCannotBeMeant) {
   expect_error(folds(R"({"endpoints": [0, 2], "angle_deg": 171})"), {"angle_deg", "-170 and 170"});
   expect_error(folds(R"({"endpoints": [0, 4], "angle_deg": 10})"), {"endpoints", "0 to 3"});
   expect_error(folds(R"({"endpoints": [1, 0], "angle_deg": 10})"), {"/folds/0", "a side of its outline"});
+  const auto edges = [](const std::string& list) { return with(R"({"panels": {"front": {"edges": )" + list + "}}}"); };
+  expect_error(edges("3"), {"/toile/panels/front/edges", "an array"});
+  expect_error(edges(R"([{"hem_mm": 20}])"), {"edges/0", "edge"});
+  expect_error(edges(R"([{"edge": 4}])"), {"edges/0/edge", "0 to 3"});
+  expect_error(edges(R"([{"edge": 0, "hem": 20}])"), {"edges/0", "hem_mm"});
+  expect_error(edges(R"([{"edge": 0, "tape_mm": -1}])"), {"tape_mm", "0 to 200", "-1"});
+  expect_error(edges(R"([{"edge": 1}, {"edge": 1}])"), {"edges/1/edge", "each edge once"});
   expect_error(with(R"({"stitches": [{"stitch": 0, "angle_deg": 10}]})"), {"/toile/stitches/0/stitch"});
 }
 

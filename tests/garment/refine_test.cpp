@@ -27,6 +27,7 @@ GarmentMesh tube(double edge_m) {
   fold.line.end = 2;
   fold.angle_rad = 1;
   pattern.panels[0].folds.push_back(fold);
+  finish_open_edges(pattern, {0.02, 0.01});
   pattern.panels.push_back(test::back_rectangle(0.4, 0.1, {0, -0.2, -0.05}));
   pattern.panels.back().name = "tier";
   pattern.stitches.push_back(test::stitch(1, 0, 2, 2));
@@ -121,6 +122,24 @@ TEST(Refine, KeepsTheLengthOfASeamInItsPairs) {
     EXPECT_EQ(fine.merged[at(pair.a)], fine.merged[at(pair.b)]);
     EXPECT_GT(pair.share_m, 0);
   }
+}
+
+TEST(Refine, AndWeldKeepFinishedEdges) {
+  const GarmentMesh coarse = tube(0.03), fine = refine(coarse, 0.008).garment;
+  const auto length = [](const GarmentMesh& garment, double FinishedEdge::*width) {
+    double sum = 0;
+    for (const FinishedEdge& edge : garment.mesh.finished)
+      if (edge.*width > 0) sum += (garment.x[at(edge.a)] - garment.x[at(edge.b)]).norm();
+    return sum;
+  };
+  EXPECT_GT(fine.mesh.finished.size(), coarse.mesh.finished.size());
+  EXPECT_NEAR(length(coarse, &FinishedEdge::tape_m), 0.2, 1e-12) << "the labelled edge";
+  for (const auto width : {&FinishedEdge::hem_m, &FinishedEdge::tape_m})
+    EXPECT_NEAR(length(fine, width), length(coarse, width), 1e-12);
+  const WeldedMesh welded = weld(fine);
+  const auto edges = triangles_at(welded.mesh);
+  ASSERT_EQ(welded.mesh.finished.size(), fine.mesh.finished.size());
+  for (const FinishedEdge& edge : welded.mesh.finished) EXPECT_TRUE(edges.contains(std::minmax(edge.a, edge.b)));
 }
 
 TEST(Refine, LabelsFoldsAndOutlinesFollow) {

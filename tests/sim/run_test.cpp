@@ -272,7 +272,7 @@ TEST(Run, TheTShirtIsSewnWithoutACrossingWhereFourPanelsMeet) {
   }
 }
 
-// A label for the waist on what hangs from the shoulders does nothing; here on both hems of the T-shirt, 20 cm below her waist.
+// A label for the waist on what hangs from the shoulders holds nothing; here on both hems of the T-shirt, 20 cm below her waist.
 TEST(Run, WhatHangsFromTheShouldersIsNotHeldAtTheWaist) {
   std::array<std::string, 2> state;
   for (const bool labelled : {false, true}) {
@@ -284,8 +284,8 @@ TEST(Run, WhatHangsFromTheShouldersIsNotHeldAtTheWaist) {
             JsonValue(std::string("lower_interface"));
     std::ofstream(scratch / "tshirt.json") << to_text(root);
     const Report report = run(scratch, parse_scene(R"({"cloth": [{"pattern": ")" + (scratch / "tshirt.json") +
-                                                       R"(", "resolution_cm": 5}], "body": {"mannequin": "woman"},
-                                                       "time": {"seconds": 0.1}})",
+                                                       R"(", "resolution_cm": 5, "tape_mm": 0}],
+                                                       "body": {"mannequin": "woman"}, "time": {"seconds": 0.1}})",
                                                    "s.json"));
     ASSERT_EQ(report.ended, "time");
     state[labelled ? 1 : 0] = report.state_hash;

@@ -1,0 +1,44 @@
+#include "material/edge_finish.hpp"
+
+#include "material/plate.hpp"
+
+#include <Eigen/LU>  // inverse
+#include <algorithm>
+
+namespace toile::internal {
+namespace {
+
+constexpr double layers = 2;
+
+Vec3 moment_along(const Vec2& unit) { return {unit.x() * unit.x(), unit.y() * unit.y(), unit.x() * unit.y()}; }
+
+double strip_stretch_N_per_m(const Fabric& fabric, const Vec2& unit) {
+  const double c2 = unit.x() * unit.x(), s2 = unit.y() * unit.y();
+  const double shear = std::max(fabric.shear_N_per_m, 1e-6 * fabric.stretch_u_N_per_m);
+  return 1 / (c2 * c2 / fabric.stretch_u_N_per_m + s2 * s2 / fabric.stretch_v_N_per_m + c2 * s2 / shear);
+}
+
+double strip_rigidity_N_m(const Mat3& C, const Vec2& unit) {
+  const Vec3 m = moment_along(unit);
+  return 1 / m.dot(C.inverse() * m);
+}
+
+}  // namespace
+
+LineStiffness line_stiffness(const Fabric& fabric, const Vec2& along, const EdgeFinish& finish) {
+  const Vec2 unit = along.normalized(), warp(1, 0);
+  const Mat3 C = bending_rigidity(fabric);
+  LineStiffness line;
+  line.mass_kg_per_m = layers * (finish.hem_m + finish.tape_m) * fabric.density_kg_per_m2;
+  line.stretch_N = layers * (finish.hem_m * strip_stretch_N_per_m(fabric, unit) +
+                             finish.tape_m * strip_stretch_N_per_m(fabric, warp));
+  line.bend_N_m2 = layers * (finish.hem_m * strip_rigidity_N_m(C, unit) + finish.tape_m * strip_rigidity_N_m(C, warp));
+  return line;
+}
+
+Mat3 with_line(const Mat3& rigidity_N_m, const Vec2& along, double bend_N_m2, double side_m, double area_m2) {
+  const Vec3 m = moment_along(along.normalized());
+  return rigidity_N_m + (bend_N_m2 * side_m / area_m2) * m * m.transpose();
+}
+
+}  // namespace toile::internal
