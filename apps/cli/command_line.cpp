@@ -104,7 +104,7 @@ void add_garment_options(CLI::App& command, CommandLine& line) {
       ->check(CLI::Range(0.1, 20.0));
   command.add_option("--hem", line.hem_mm, "Width of a hem on a pattern's open edges, mm (default: none)")
       ->check(CLI::Range(0.0, 200.0));
-  command.add_option("--tape", line.tape_mm, "Width of a tape on edges with a label, mm (default: 10)")
+  command.add_option("--tape", line.tape_mm, "Width of a tape on open edges with a label, mm (default: 10)")
       ->check(CLI::Range(0.0, 200.0));
   command.add_option("--fps", line.fps, "Frames per second of the output")->check(CLI::Range(1.0, 1000.0));
   command.add_option("--quality", line.quality, "draft, good or final: resolution, step and tolerance")

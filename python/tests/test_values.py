@@ -126,6 +126,13 @@ def test_what_is_no_cloth_is_refused_with_its_place():
         toile.Cloth(holed, faces)
 
 
+def test_hems_and_tapes_have_widths():
+    assert "skirt" in repr(toile.Cloth.from_pattern("patterns/skirt.json", hem_m=0.02, tape_m=0))
+    for widths in ({"hem_m": -0.01}, {"tape_m": float("nan")}):
+        with pytest.raises(toile.InputError, match=next(iter(widths))):
+            toile.Cloth.from_pattern("patterns/skirt.json", **widths)
+
+
 def test_files_that_are_not_there_are_io_errors():
     for call in (lambda: toile.Simulation(toile.Cloth.from_pattern("/nowhere/pattern.json")), lambda: toile.State.load("/nowhere/state"),
                  lambda: toile.Simulation.from_scene("/nowhere/scene.json")):

@@ -34,8 +34,10 @@ Cloth::~Cloth() = default;
 Cloth Cloth::from_pattern(const std::string& path, const PatternOptions& options) {
   return translated([&] {
     require_above_zero("edge_m", options.edge_m);
+    require_at_least_zero("hem_m", options.hem_m);
+    require_at_least_zero("tape_m", options.tape_m);
     auto parts = std::make_unique<Parts>();
-    parts->cloth.kind = internal::ScenePattern{path, {}};
+    parts->cloth.kind = internal::ScenePattern{path, {}, {options.hem_m, options.tape_m}};
     parts->cloth.resolution_m = options.edge_m;
     parts->cloth.name = std::filesystem::path(path).stem().string();
     return Cloth(std::move(parts));

@@ -74,10 +74,11 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
       fabric.bend_uv_N_m = std::max(fabric.bend_uv_N_m, 0.5 * (1 - fabric.bend_poisson) * options.bend_N_m);
     fabric.strain_limit = 0;  // closing seams pull harder than worn cloth may be
   }
-  model_ = build_model(garment.mesh, stiff, weightless);
+  ClothMesh as_cut = garment.mesh;
+  as_cut.finished.clear();  // an armhole has to pass a raised arm
+  model_ = build_model(std::move(as_cut), stiff, weightless);
   soften_gathered_panels(model_, fabrics, stiff, weightless, options.gathered_bend_share);
   set_folds(model_, garment.pleated ? 1 : 0);
-  set_finishes(model_, 0);  // an armhole has to pass the arm
   set_gathers(model_, 0);
   state_ = {garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
   for (const SeamPair& pair : garment.pairs) {

@@ -207,7 +207,7 @@ void finish_open_edges(Pattern& pattern, const EdgeFinish& finish) {
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     for (std::size_t e = 0; e < sewn[p].size(); ++e) {
       PanelEdge& edge = pattern.panels[p].edges[e];
-      if (!edge.finish_given) edge.finish = {sewn[p][e] ? 0 : finish.hem_m, edge.label.empty() ? 0 : finish.tape_m};
+      if (!sewn[p][e] && !edge.finish_given) edge.finish = {finish.hem_m, edge.label.empty() ? 0 : finish.tape_m};
     }
   }
 }

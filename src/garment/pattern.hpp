@@ -71,7 +71,7 @@ struct Pattern {
   bool units_assumed = false;   // the file does not say: 100 was assumed
 };
 
-// Finishes the open edges for which the file says nothing: a hem on all, and a tape on those with a label, which shall lie on the body at
+// Finishes the open edges for which the file says nothing: a hem on all, and a tape on those of them with a label, which shall lie on the body at
 // their length as cut: waists, collars, armholes, strapless tops.
 void finish_open_edges(Pattern& pattern, const EdgeFinish& finish);
 

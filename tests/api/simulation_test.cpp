@@ -310,6 +310,21 @@ TEST(Simulation, ACancelledDressIsAsItWasBefore) {
   EXPECT_TRUE(sim.dress().ok());
 }
 
+TEST(Simulation, HemsAndTapesAreThoseOfThePatternsOptions) {
+  const auto worn = [](const PatternOptions& options) {
+    Simulation sim(Cloth::from_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/skirt.json", options),
+                   Body::mannequin("woman"));
+    EXPECT_TRUE(sim.dress().ok());
+    return sim.state_hash();
+  };
+  const std::string usual = worn({.edge_m = 0.06});
+  EXPECT_EQ(worn({.edge_m = 0.06, .hem_m = 0, .tape_m = 0.01}), usual);
+  EXPECT_NE(worn({.edge_m = 0.06, .tape_m = 0}), usual);
+  EXPECT_NE(worn({.edge_m = 0.06, .hem_m = 0.03}), usual);
+  EXPECT_THROW(Cloth::from_pattern("p.json", {.hem_m = -0.01}), InputError);
+  EXPECT_THROW(Cloth::from_pattern("p.json", {.tape_m = std::numeric_limits<double>::infinity()}), InputError);
+}
+
 TEST(Simulation, ACancelledAdvanceIsGoneOnWith) {
   bool cancel = true;
   Simulation sim(sheet(1), Body::none(), {.cancelled = [&] { return cancel; }});
