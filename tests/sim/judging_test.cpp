@@ -323,7 +323,7 @@ TEST(Judging, AGarmentWithAWaistThatLiesBelowTheHipsIsNotWorn) {
 }
 
 // It would lie on the floor until its folds rest, for four seconds.  A ring of 120 cm that is drawn at the waist falls straight; 2 cm higher it comes to
-// lean on one hip, and goes down askew.
+// lean on one hip, and goes down askew.  With a tape it leans at the first height.
 TEST(Judging, ASkirtThatHasComePastTheHipsEndsEarlyAndBothGirthsAreSaid) {
   for (const auto& [drawn_cm, frames] : {std::pair{"88", 50}, std::pair{"90", 300}}) {
     const Scratch scratch;
@@ -335,11 +335,11 @@ TEST(Judging, ASkirtThatHasComePastTheHipsEndsEarlyAndBothGirthsAreSaid) {
       "edges": [{"endpoints": [0,1]}, {"endpoints": [1,2], "label": "lower_interface"}, {"endpoints": [2,3]}, {"endpoints": [3,0]}]}},
     "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 2}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 0}]]},
     "properties": {"units_in_meter": 100}})";
-    const Report report = judged(
-        scratch, parse_scene(R"({"cloth": [{"pattern": ")" + (scratch / "skirt.json") + R"(", "resolution_cm": 5}],
+    const Report report = judged(scratch, parse_scene(R"({"cloth": [{"pattern": ")" + (scratch / "skirt.json") +
+                                                          R"(", "resolution_cm": 5, "tape_mm": 0}],
           "body": {"mannequin": "woman"}, "time": {"seconds": 10},
           "solids": [{"box": {"size_m": [2, 0.1, 2]}, "placement": {"translation_m": [0, -0.1, 0]}}]})",
-                             "s.json"));
+                                                      "s.json"));
     ASSERT_EQ(report.verdict.reasons.size(), 1u);
     EXPECT_EQ(report.ended, "fell_off");
     EXPECT_EQ(report.verdict.reasons.front().code, "fell_off");
