@@ -89,8 +89,8 @@ class Cloth(Made):
         """The panels of a sewing pattern (GarmentCode's JSON), which Simulation.dress() sews around the body.
 
         edge_m: length of the triangles' edges.  hem_m, tape_m: widths, where the file says nothing, of a hem on open edges and of a
-        tape on those with a label (waists, collars, armholes); 0 is none.  The file is read when a simulation is made of it, which raises IoError where it
-        cannot be read and InputError where it is no such pattern (check_pattern() tells all that is wrong with it).
+        tape on those with a label (waists, collars, armholes); 0 is none.  The file is read when a simulation is made of it, which
+        raises IoError where it cannot be read and InputError where it is no such pattern (check_pattern() tells all that is wrong with it).
         """
         return cls._make("from_pattern", path=file_path(path), edge_m=edge_m, hem_m=hem_m, tape_m=tape_m)
 

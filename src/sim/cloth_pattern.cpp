@@ -55,7 +55,8 @@ void refuse_beside(const Json& value, const ScenePattern&, const SceneCloth& cho
   const std::string pattern = "a pattern beside it";
   for (const std::string_view key : {"vertices", "resolution_cm", "hem_mm", "tape_mm"})
     if (const Json* given = value.find(key))
-      given->fail(chosen.has_own_edge() ? pattern + ": other shapes have an edge_m" : pattern, given->describe());
+      given->fail(key == "resolution_cm" && chosen.has_own_edge() ? pattern + ": other shapes have an edge_m" : pattern,
+                  given->describe());
 }
 
 MeshedCloth load(const ScenePattern& given, const SceneCloth& whole, const TextSource& read) {

@@ -323,7 +323,7 @@ TEST(Judging, AGarmentWithAWaistThatLiesBelowTheHipsIsNotWorn) {
 }
 
 // It would lie on the floor until its folds rest, for four seconds.  A ring of 120 cm that is drawn at the waist falls straight; 2 cm higher it comes to
-// lean on one hip, and goes down askew.  With a tape it leans at the first height.
+// lean on one hip, and goes down askew.  With a tape it leans at the first height, and falls past without touching at the second.
 TEST(Judging, ASkirtThatHasComePastTheHipsEndsEarlyAndBothGirthsAreSaid) {
   for (const auto& [drawn_cm, frames] : {std::pair{"88", 50}, std::pair{"90", 300}}) {
     const Scratch scratch;
