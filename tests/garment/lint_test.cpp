@@ -91,6 +91,20 @@ TEST(Lint, NumbersOfTheExtensionFollowARepair) {
   EXPECT_GT(mended.stitches[1].angle_rad, 0.5);
 }
 
+TEST(Lint, FinishesFollowTheirEdgesAndGoWithThem) {
+  const std::string text = R"({"pattern": {"panels": {
+    "a": {"translation": [0, 80, 20], "rotation": [0, 0, 0], "vertices": [[0, 0], [50, 0], [50, 50], [0, 50]],
+      "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]}},
+    "stitches": []},
+    "toile": {"panels": {"a": {"edges": [{"edge": 3, "hem_mm": 20}, {"edge": 1, "hem_mm": 5}]}}},
+    "properties": {"units_in_meter": 100}})";
+  const LintReport report = lint_pattern(text, "p.json");
+  EXPECT_TRUE(report.usable) << list(report);
+  const Pattern mended = parse_pattern(report.mended_text, "p.json");
+  ASSERT_EQ(mended.panels[0].edges.size(), 4U);
+  for (const PanelEdge& edge : mended.panels[0].edges) EXPECT_EQ(edge.finish.hem_m, edge.start == 2 ? 0.02 : 0);
+}
+
 TEST(Lint, APanelKeepsItsPlaceWhenItsCornersAreCentred) {
   // normalize_panel_translation turns a panel about the mean of its corners, which a corner too many has moved.
   const std::string panels = R"({"a": {"translation": [3, 80, 20], "rotation": [10, 40, 20],
