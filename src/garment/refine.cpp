@@ -35,8 +35,8 @@ class Halving {
     to.on_panel_edge.insert(to.on_panel_edge.end(), on_panel_edge_.begin(), on_panel_edge_.end());
     to.merged.insert(to.merged.end(), merged_.begin(), merged_.end());
     cut_triangles(to.mesh);
-    cut_folds(to.mesh.folds);
-    cut_finished(to.mesh.finished);
+    to.mesh.folds = cut<FoldedEdge>(from_.mesh.folds);
+    to.mesh.finished = cut<FinishedEdge>(from_.mesh.finished);
     for (LabelledEdge& edge : to.labels) edge.particles = with_middles(edge.particles);
     add_pairs(to);
     return to;
@@ -132,28 +132,19 @@ class Halving {
     }
   }
 
-  void cut_folds(std::vector<FoldedEdge>& folds) const {
-    folds.clear();
-    for (const FoldedEdge& fold : from_.mesh.folds) {
-      if (const auto m = middle(fold.a, fold.b)) {
-        folds.push_back({fold.a, *m, fold.angle_rad});
-        folds.push_back({*m, fold.b, fold.angle_rad});
-      } else {
-        folds.push_back(fold);
-      }
+  // Both halves of an edge that is cut are folded, or finished, as the whole was.
+  template <class Edge>
+  std::vector<Edge> cut(std::span<const Edge> edges) const {
+    std::vector<Edge> all;
+    for (const Edge& edge : edges) {
+      const auto m = middle(edge.a, edge.b);
+      all.push_back(edge);
+      if (!m) continue;
+      all.back().b = *m;
+      all.push_back(edge);
+      all.back().a = *m;
     }
-  }
-
-  void cut_finished(std::vector<FinishedEdge>& finished) const {
-    finished.clear();
-    for (const FinishedEdge& edge : from_.mesh.finished) {
-      if (const auto m = middle(edge.a, edge.b)) {
-        finished.push_back({edge.a, *m, edge.hem_m, edge.tape_m});
-        finished.push_back({*m, edge.b, edge.hem_m, edge.tape_m});
-      } else {
-        finished.push_back(edge);
-      }
-    }
+    return all;
   }
 
   std::vector<Index> with_middles(std::span<const Index> line) const {
