@@ -1,6 +1,9 @@
 #include "dress/label_springs.hpp"
 
+#include "garment/pattern_figures.hpp"
+
 #include <algorithm>
+#include <iterator>
 
 namespace toile::internal {
 namespace {
@@ -20,15 +23,19 @@ LabelSprings::LabelSprings(const GarmentMesh& garment, std::span<const LabelHeig
   }
 }
 
-LabelSprings LabelSprings::as_placed(const GarmentMesh& garment, std::string_view label) {
+LabelSprings LabelSprings::of_bodice(const GarmentMesh& garment) {
   std::vector<char> sewn(garment.x.size(), 0);
   for (const SeamPair& pair : garment.pairs) sewn[at(pair.a)] = sewn[at(pair.b)] = 1;
   LabelSprings springs;
   for (const LabelledEdge& edge : garment.labels) {
     const bool draws =
         std::all_of(edge.particles.begin(), edge.particles.end(), [&](Index i) { return sewn[at(i)] != 0; });
-    if (edge.label == label && draws) springs.hold(garment, edge, std::nullopt);
+    if (edge.label == edge_label::waist && draws) springs.hold(garment, edge, std::nullopt);
   }
+  if (springs.empty()) return springs;
+  for (const LabelledEdge& edge : garment.labels)
+    if (std::count(std::begin(edge_label::collars), std::end(edge_label::collars), edge.label) > 0)
+      springs.hold(garment, edge, std::nullopt);
   return springs;
 }
 

@@ -11,7 +11,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace toile::internal {
@@ -27,8 +26,8 @@ class LabelSprings {
   // Labels without an edge do nothing.
   LabelSprings(const GarmentMesh& garment, std::span<const LabelHeight> heights);
 
-  // Sewn edges with this label; each particle is held at 5 cm below its present place.
-  static LabelSprings as_placed(const GarmentMesh& garment, std::string_view label);
+  // Of a bodice to whose waist something is sewn: waist and neckline; each particle is held at 5 cm below its present place.
+  static LabelSprings of_bodice(const GarmentMesh& garment);
 
   bool empty() const { return held_.empty(); }
   // Appends one row per particle below its height; `strength` 0 ... 1 scales the force.

@@ -59,7 +59,7 @@ void soften_gathered_panels(ClothModel& model, std::span<const Fabric> fabrics, 
 Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, BodySurface* body, const StepOptions& step,
                const SewingOptions& options)
     : garment_(&garment), options_(options), labels_(garment, options.label_heights) {
-  if (!options.kept_label.empty()) kept_ = LabelSprings::as_placed(garment, options.kept_label);
+  if (options.keeps_bodice) kept_ = LabelSprings::of_bodice(garment);
   ModelOptions weightless;
   weightless.gravity_m_per_s2.setZero();
   weightless.drag_per_s = options.drag_per_s;

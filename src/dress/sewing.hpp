@@ -52,8 +52,8 @@ struct SewingOptions {
   Index held_particles = 0;                // these first particles stand still: the garments already worn underneath
   std::vector<LabelHeight> label_heights;  // of labelled edges; they are held once the seams are closed
   bool labels_hold_panels = false;         // from the start: else heavy panels would pull a waist down
-  // Edges that may sink no farther than 5 cm until every l is 0: else wide tiers would pull a bodice off the shoulders.
-  std::string kept_label;
+  // Waist and neckline may sink no farther than 5 cm until every l is 0: else wide tiers would pull a bodice off the shoulders.
+  bool keeps_bodice = false;
   std::function<bool()> stop;  // asked before every step
 };
 

@@ -96,7 +96,7 @@ bool Simulation::sew(std::size_t k) {
   std::vector<std::string> told_before;
   sewing_options.label_heights = heights_of(k, resumed ? told_before : report_.warnings);
   sewing_options.labels_hold_panels = k == 0 && dressing_body_ && !on_shoulders_;
-  if (k == 0 && on_shoulders_) sewing_options.kept_label = edge_label::waist;
+  sewing_options.keeps_bodice = k == 0 && on_shoulders_;
   sewing_options.stop = stop();
   Dressing dressing(outfit_, garment, cloth.fabrics, cloth.rest_stretch, body(), step_, sewing_options);
   Sewing& sewing = dressing.sewing();

@@ -62,33 +62,46 @@ TEST(Sewing, ABandThatIsHeldDrawsHeavierPanelsUpToItself) {
   EXPECT_LT(fallen_m[1], 0.02);
 }
 
-// A bodice of 30 cm above wide tiers: its lower end is not drawn down to them, and goes nowhere of itself where nothing is sewn to it.
+// A bodice of 30 cm above wide tiers: neither its lower end nor its neckline is drawn down to them.
 TEST(Sewing, ABodiceThatIsKeptSinksNoFartherThanFiveCentimetres) {
   Pattern pattern = two_tubes(test::tube_pattern(0.2, 0.3, 0.1, Vec3(0, 0.2, 0)),
                               test::tube_pattern(0.2, 0.5, 0.1, Vec3(0, -0.4, 0)));
-  for (const std::size_t panel : {2, 3}) pattern.panels[panel].edges[0].label = "hem";
-  std::array<double, 2> fallen_m{};
-  for (const std::string kept : {"", "lower_interface"}) {
+  for (const std::size_t panel : {0, 1}) pattern.panels[panel].edges[2].label = "left_collar";
+  std::array<double, 2> waist_m{}, collar_m{};
+  for (const bool kept : {false, true}) {
     SewingOptions options;
-    options.kept_label = kept;
+    options.keeps_bodice = kept;
     SewingRun run(pattern, 0.02, nullptr, options);
-    const std::size_t k = kept.empty() ? 0 : 1;
-    options.kept_label = "hem";
-    SewingRun hem(pattern, 0.02, nullptr, options);
     run.run(20);
-    hem.run(20);
-    const Vec3s hem_kept = hem.sewing->state().x;
     ASSERT_EQ(run.sewing->status(), SewingStatus::sewing);
-    fallen_m[k] = height_of(run.garment, "lower_interface", run.garment.x) -
-                  height_of(run.garment, "lower_interface", run.sewing->state().x);
-    if (k == 0) {
-      EXPECT_EQ(hem_kept, run.sewing->state().x) << "nothing is sewn to a hem";
-    }
+    const auto fallen_m = [&](const std::string& label) {
+      return height_of(run.garment, label, run.garment.x) - height_of(run.garment, label, run.sewing->state().x);
+    };
+    waist_m[kept ? 1 : 0] = fallen_m("lower_interface");
+    collar_m[kept ? 1 : 0] = fallen_m("left_collar");
     run.run(300);
     expect_closed_without_crossings(run);
   }
-  EXPECT_GT(fallen_m[0], 0.09);
-  EXPECT_LT(fallen_m[1], 0.06) << "it may sink by 5 cm";
+  EXPECT_GT(waist_m[0], 0.09);
+  EXPECT_LT(waist_m[1], 0.06) << "it may sink by 5 cm";
+  EXPECT_GT(collar_m[0], 0.09);
+  EXPECT_LT(collar_m[1], 0.06);
+}
+
+// Where no panel draws, it goes nowhere of itself, and not a bit changes.
+TEST(Sewing, ABodiceToWhichNothingIsSewnIsNotKept) {
+  Pattern pattern = test::tube_pattern(0.2, 0.3, 0.1, Vec3(0, 0.2, 0));
+  for (Panel& panel : pattern.panels) {
+    panel.edges[0].label = "lower_interface";
+    panel.edges[2].label = "left_collar";
+  }
+  SewingOptions options;
+  SewingRun free(pattern, 0.02, nullptr, options);
+  options.keeps_bodice = true;
+  SewingRun kept(pattern, 0.02, nullptr, options);
+  free.run(20);
+  kept.run(20);
+  EXPECT_EQ(free.sewing->state().x, kept.sewing->state().x);
 }
 
 // A band of 75 cm, 20 cm high, is closed around a ball of 94 cm: it goes up, to where it is as wide as the ball, and its upper edge, which is
