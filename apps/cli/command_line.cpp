@@ -220,6 +220,16 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
   preview->add_option("--frames", line.frames, "Frames of the motion (or of the cloth) to show side by side, 8,13,35")
       ->delimiter(',')
       ->check(CLI::Range(0, 1000000));
+  preview
+      ->add_option("--style", line.style,
+                   "technical: cloth as simulated, with a grid along its threads; studio: smooth, thick, woven, sewn")
+      ->check(CLI::IsMember({"technical", "studio"}))
+      ->default_str("technical");
+  preview
+      ->add_option("--close-up", line.close_up_m, "30 cm around this point in the last frame, X,Y,Z in m: close-up.png")
+      ->delimiter(',')
+      ->expected(3);
+  preview->add_flag("--turntable", line.turntable, "Once around the last frame: turntable.mp4");
 
   CLI::App* resume = app.add_subcommand("resume", "Go on with a run that was interrupted, to the same bits");
   resume->add_option("DIR", line.inputs, "Directory of the run")->required()->expected(1);

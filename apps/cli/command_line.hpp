@@ -24,6 +24,9 @@ struct CommandLine {
   std::vector<std::string> targets;
   std::string svg, repair;          // of check: files to write; empty: none
   std::vector<int> frames;          // of preview
+  std::string style = "technical";  // likewise, of the pictures
+  std::vector<double> close_up_m;   // likewise; empty: none
+  bool turntable = false;           // likewise
   std::string to, of = "cloth";     // of export
   std::optional<int> export_frame;  // of export; absent: the last
   bool all = false;                 // of export

@@ -190,8 +190,10 @@ ExitCode preview_command(const CommandLine& line) {
   const std::string& directory = line.inputs.front();
   const RunFolder folder(directory, RunFolder::Use::pictures, {}, {});
   ProgressBar bar(line);
-  PictureOptions pictures;
+  PictureOptions pictures = line.style == "studio" ? studio_pictures() : PictureOptions{};
   pictures.frames = line.frames;
+  if (!line.close_up_m.empty()) pictures.close_up_m = Vec3(line.close_up_m[0], line.close_up_m[1], line.close_up_m[2]);
+  pictures.turntable = line.turntable;
   picture_run(
       directory, pictures,
       [&](double share) {
@@ -199,16 +201,18 @@ ExitCode preview_command(const CommandLine& line) {
       },
       interrupted);
   bar.clear();
-  const std::string png = folder.path("preview.png"), mp4 = folder.path("preview.mp4");
+  std::vector<std::pair<const char*, std::string>> made = {{"png", "preview.png"}, {"mp4", "preview.mp4"}};
+  if (!line.frames.empty()) made.emplace_back("frames", "frames.png");
+  if (pictures.close_up_m) made.emplace_back("close_up", "close-up.png");
+  if (line.turntable) made.emplace_back("turntable", "turntable.mp4");
   JsonText json(0);
   json.begin_object();
-  json.member("png", png);
-  json.member("mp4", mp4);
+  for (const auto& [key, name] : made) json.member(key, folder.path(name));
   json.end_object();
   if (line.json) {
     print(json.str() + '\n');
   } else if (!line.quiet) {
-    print(png + '\n' + mp4 + '\n');
+    for (const auto& [key, name] : made) print(folder.path(name) + '\n');
   }
   return ExitCode::ok;
 }

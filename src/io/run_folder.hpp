@@ -23,13 +23,13 @@
 namespace toile::internal {
 
 // Every file name that Toile may use in a run folder.
-inline constexpr std::array<std::string_view, 16> run_file_names = {
-    "report.json",   "cloth.obj",       "cloth.pc2",      "body.obj",       "body.pc2",    "sewing.obj",
-    "sewing.pc2",    "sewing_body.obj", "offenders.obj",  "preview.png",    "preview.mp4", "frames.png",
-    "crossings.png", "thumbnail.png",   "checkpoint.bin", "unfinished.json"};
+inline constexpr std::array<std::string_view, 18> run_file_names = {
+    "report.json",   "cloth.obj",       "cloth.pc2",     "body.obj",      "body.pc2",       "sewing.obj",
+    "sewing.pc2",    "sewing_body.obj", "offenders.obj", "preview.png",   "preview.mp4",    "frames.png",
+    "crossings.png", "thumbnail.png",   "close-up.png",  "turntable.mp4", "checkpoint.bin", "unfinished.json"};
 // The pictures among them, drawn of a finished run.
-inline constexpr std::array<std::string_view, 5> picture_file_names = {"preview.png", "preview.mp4", "frames.png",
-                                                                       "crossings.png", "thumbnail.png"};
+inline constexpr std::array<std::string_view, 7> picture_file_names = {
+    "preview.png", "preview.mp4", "frames.png", "crossings.png", "thumbnail.png", "close-up.png", "turntable.mp4"};
 
 // The contents of unfinished.json.
 struct UnfinishedRun {

@@ -25,7 +25,7 @@ struct RayScene::Device {};
 // No RayScene can be made, so its other functions are unreachable.
 RayScene::RayScene() { require_pictures(); }
 RayScene::~RayScene() = default;
-void RayScene::build(const PreviewScene&, const Vec3&) { require_pictures(); }
+void RayScene::build(const PreviewScene&, const Vec3&, double) { require_pictures(); }
 bool RayScene::nearest(const Vec3f&, const Vec3f&, RayHit&) const {
   require_pictures();
   return false;

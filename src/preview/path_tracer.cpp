@@ -13,6 +13,12 @@ constexpr int bounces_of_a_path = 2;   // surfaces after the first
 constexpr float pixel_filter = 0.85f;  // half width of the tent, in pixels
 constexpr float grid_filter = 0.75f;   // the grid's box filter, in pixels; the tent adds to it
 constexpr float last_bounce = 0.6f;    // share of the sky that is assumed to reach the surface after the last
+constexpr float least_albedo = 0.02f;  // by which a highlight is divided
+// Of sewing as it is seen, m, and how much darker or less see-through it is.
+constexpr float seam_width = 6e-4f, seam_depth = 0.5f;
+constexpr double seam_seen_m = 0.003;
+constexpr float stitch_inside = 2e-3f, stitch_width = 5e-4f, stitch_period = 4e-3f, stitch_length = 2.8e-3f,
+                stitch_opacity = 0.8f, hem_line = 6e-4f, hem_seen = 2e-3f;
 const Vec3f ground_albedo(0.55f, 0.55f, 0.55f);
 const Vec3f background_top(0.60f, 0.62f, 0.64f);
 const Vec3f background_bottom(0.92f, 0.91f, 0.89f);
@@ -47,6 +53,8 @@ struct PathTracer::Surface {
   Vec3f geometric, normal;  // unit, both on the side that the ray came from
   Vec3f albedo;             // without grid detail
   const RayMesh* mesh = nullptr;
+  const ClothLook* look = nullptr;  // of cloth as in a studio
+  bool right_side = true;
   std::size_t triangle = 0;
   float b1 = 0, b2 = 0;
 };
@@ -82,8 +90,14 @@ PathTracer::Surface PathTracer::surface_at(const RayHit& hit, const Vec3f& origi
   const bool right_side = s.geometric.dot(direction) < 0;
   const float side = right_side ? 1.0f : -1.0f;
   s.geometric *= side;
-  s.albedo = right_side ? s.mesh->right_side : s.mesh->wrong_side;
-  if (!s.mesh->uv.empty()) s.albedo *= grid_mean_;
+  s.right_side = right_side;
+  if (s.mesh->display) {
+    s.look = s.mesh->look[static_cast<std::size_t>(s.mesh->display->source[s.triangle])];
+    s.albedo = mean_colour(*s.look, right_side);
+  } else {
+    s.albedo = right_side ? s.mesh->right_side : s.mesh->wrong_side;
+    if (!s.mesh->uv.empty()) s.albedo *= grid_mean_;
+  }
 
   const Vec3f n0 = side * s.mesh->normals[hit.triangle][0], n1 = side * s.mesh->normals[hit.triangle][1],
               n2 = side * s.mesh->normals[hit.triangle][2];
@@ -108,6 +122,51 @@ PathTracer::Surface PathTracer::surface_at(const RayHit& hit, const Vec3f& origi
   return s;
 }
 
+// Threads, seams, and the stitches of hems.
+Vec3f PathTracer::sewn_colour(const Surface& s, const Vec2& at, const Vec2f& extent) const {
+  const ClothLook& look = *s.look;
+  Vec3f colour = thread_colour(look, s.right_side, at, extent);
+  const EdgeDistance edge = edge_distance(*s.mesh->display, s.mesh->display->source[s.triangle], at);
+  const float blur = std::max(extent.x(), extent.y());
+  if (edge.sewn_m < seam_seen_m)
+    colour *= 1.0f - seam_depth * line_cover(static_cast<float>(edge.sewn_m), blur, seam_width);
+  const float below_hem = static_cast<float>(edge.open_m) - look.hem_m;
+  if (below_hem < hem_seen) {
+    const float stitch =
+        line_cover(below_hem + stitch_inside, blur, stitch_width) *
+        band_cover(static_cast<float>(std::fmod(edge.along_m, 64 * static_cast<double>(stitch_period))), blur,
+                   stitch_period, stitch_length);
+    colour = mix(colour, look.stitch, stitch_opacity * stitch);
+    colour *= 1.0f - (s.right_side ? 0.15f : 0.4f) * line_cover(below_hem, blur, hem_line);
+  }
+  return colour;
+}
+
+// The mirrored view blurred by the cloth's roughness: a sample of a cosine lobe around it.  Reflectance rises to 1 at grazing view (Schlick).
+template <class Sampler>
+Vec3f PathTracer::highlight(const Surface& s, const Vec3f& direction, Sampler& sampler) const {
+  const Vec3f view = direction.normalized();
+  const float facing = std::clamp(-view.dot(s.normal), 0.0f, 1.0f);
+  const float grazing = std::pow(1.0f - facing, 5.0f);
+  const float reflectance = s.look->gloss + (1.0f - s.look->gloss) * 0.3f * grazing;
+  const Vec3f mirrored = view + 2.0f * facing * s.normal;
+  const float power = 2.0f / (s.look->roughness * s.look->roughness);
+  const Vec2f u = sampler.next();
+  const float height = std::pow(1.0f - u.x(), 1.0f / (power + 1.0f));
+  const float radius = std::sqrt(std::max(0.0f, 1.0f - height * height)), angle = 6.28318531f * u.y();
+  Vec3f sample = along_normal(mirrored.normalized(), radius * std::cos(angle), radius * std::sin(angle), height);
+  const float out = sample.dot(s.geometric);
+  if (out < 0.01f) sample = (sample + (0.02f - 2.0f * out) * s.geometric).normalized();
+  bool blocked = false;
+  Vec3f light = incoming(s.origin, sample, sampler, 0, blocked);
+  // The sun's disc, which no sampled ray meets: its part of the lobe.
+  const Vec3f to_sun = light_.sun_direction(sampler.next());
+  const float toward = mirrored.normalized().dot(to_sun);
+  if (toward > 0 && s.normal.dot(to_sun) > 0 && !scene_.occluded(s.origin, to_sun))
+    light += 0.5f * (power + 1.0f) * std::pow(toward, power) * light_.sun();  // sun() is its irradiance over pi
+  return reflectance * light;
+}
+
 Vec3f PathTracer::albedo_of(const Surface& s, const Vec3f& direction, const Vec3f& step_x, const Vec3f& step_y) const {
   if (!s.mesh->cloth) return s.albedo;
   Vec3f albedo = s.albedo;
@@ -130,14 +189,19 @@ Vec3f PathTracer::albedo_of(const Surface& s, const Vec3f& direction, const Vec3
       const Vec2f across = uv_step(step_x), down = uv_step(step_y);
       // The box around the pixel's parallelogram in (u, v) would blur slanted views too much: its diagonal is enough.
       const Vec2f extent = grid_filter * (across.cwiseAbs2() + down.cwiseAbs2()).cwiseSqrt();
-      const float shade = weave_shade(static_cast<float>(at.x()), static_cast<float>(at.y()), extent.x(), extent.y(),
-                                      static_cast<float>(options_.grid_m));
-      if (std::isfinite(shade)) albedo *= shade / grid_mean_;
+      if (s.look) {
+        const Vec3f woven = sewn_colour(s, at, extent);
+        if (woven.allFinite()) albedo = woven;
+      } else {
+        const float shade = weave_shade(static_cast<float>(at.x()), static_cast<float>(at.y()), extent.x(), extent.y(),
+                                        static_cast<float>(options_.grid_m));
+        if (std::isfinite(shade)) albedo *= shade / grid_mean_;
+      }
     }
   }
   // Sheen: fibres that stand off the cloth catch light where it is seen edge-on.
   const float edge = 1.0f - std::min(1.0f, std::abs(s.normal.dot(direction)) / direction.norm());
-  const float sheen = 0.30f * edge * edge * edge;
+  const float sheen = (s.look ? s.look->sheen : 0.30f) * edge * edge * edge;
   return albedo + sheen * (0.06f * Vec3f::Ones() + 0.94f * albedo);
 }
 
@@ -232,7 +296,9 @@ PixelLight PathTracer::trace(int x, int y) const {
       };
       const Vec3f albedo =
           albedo_of(s, direction, plane_step(camera_.step_x * camera_.right), plane_step(camera_.step_y * camera_.up));
-      const Vec3f light = illumination(s, sampler, bounces_of_a_path);
+      Vec3f light = illumination(s, sampler, bounces_of_a_path);
+      if (s.look && s.look->gloss > 0)
+        light += highlight(s, direction, sampler).cwiseQuotient(albedo.cwiseMax(least_albedo));
       pixel.radiance += albedo.cwiseProduct(light);
       covered.add(albedo, light, s.normal, s.position);
     } else {

@@ -1,8 +1,9 @@
 // preview/path_tracer.hpp: path tracing of the pixels.                             [Kajiya 1986]
 //
-// All surfaces are diffuse: L = albedo * illumination, with
+// Surfaces are diffuse: L = albedo * illumination, with
 //   illumination = sun * cos * visible + (mean of incoming radiance over cosine-distributed directions),
 // the sun by a shadow ray towards a point of its disc, the rest by one bounced ray per path, up to three surfaces.
+// A glossy cloth, where it is seen directly, adds what comes from directions around the mirrored view.
 //
 // The ground is not an object but a shadow on the background: background * (incident light / incident light without the
 // scene).  So it has no edge, no horizon and no noise where it is not shaded.
@@ -40,6 +41,9 @@ class PathTracer {
   struct Surface;
   Surface surface_at(const RayHit& hit, const Vec3f& origin, const Vec3f& direction) const;
   Vec3f albedo_of(const Surface& surface, const Vec3f& direction, const Vec3f& step_x, const Vec3f& step_y) const;
+  Vec3f sewn_colour(const Surface& surface, const Vec2& at, const Vec2f& extent) const;
+  template <class Sampler>
+  Vec3f highlight(const Surface& surface, const Vec3f& direction, Sampler& sampler) const;
   Vec3f background(int x, int y) const;
   // The weight of the ground's shadow at a point, 0 far from the subject.
   float shadow_strength(const Vec3f& point) const;

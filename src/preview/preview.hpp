@@ -1,5 +1,5 @@
-// preview/preview.hpp: pictures of cloth on a body for visual inspection: path traced, soft light, ground, fabric with a
-// visible grid along u and v.
+// preview/preview.hpp: pictures of cloth on a body: path traced, soft light, ground.  Cloth is drawn for inspection, as simulated and with a
+// visible grid along u and v, or as in a studio: smooth, thick, woven, hemmed and stitched (preview/cloth_look.hpp).
 //
 // Same scene, camera and options: the same bits, for any number of threads.  Positions are in metres, y up; colours are linear
 // RGB in [0, 1] (sRGB primaries); pictures are 8-bit sRGB.
@@ -31,11 +31,16 @@ struct Image {
   std::vector<std::uint8_t> rgb;  // row by row from the top, 3 * width * height bytes
 };
 
+struct ClothLook;
+
 struct PreviewCloth {
   std::span<const Triangle> triangles;
   std::span<const std::array<Vec2, 3>> uv;  // m, drawn as a grid, one line per `grid_m`; empty: no grid
   std::span<const Vec3> positions;          // of the frame to draw
   Vec3 colour{0.35, 0.45, 0.62};            // linear RGB of the right side; the wrong side is drawn duller
+  // As in a studio, if there are looks: instead of grid and colour.
+  std::span<const ClothLook> looks = {};
+  std::span<const Index> look = {};  // [triangle] of looks
 };
 
 // The spans must stay alive during the call that takes the scene, not longer.
@@ -70,6 +75,7 @@ struct RenderOptions {
   int samples = 24;               // paths per pixel, [1, 65536]; 6 to 8 are enough for films, as the light is smoothed
   double grid_m = 0.02;           // lines at every grid_m, bolder at every fifth; 0: none
   bool denoise = true;            // smooths the light where the samples are noisy, never the cloth's grid or outline
+  double display_edge_m = 0.004;  // to which cloth with a look is subdivided for smooth outlines
 };
 
 // Keeps the ray tracing device and its buffers between the pictures of a film.  Each picture depends only on its own scene,

@@ -91,25 +91,51 @@ void let_light_into_rooms(const RTCFilterFunctionNArguments* arguments) {
     arguments->valid[0] = 0;
 }
 
-RayMesh ray_mesh(const std::string& place, std::span<const Triangle> triangles, std::span<const Vec3> positions,
-                 const Vec3& origin, bool cloth) {
-  RayMesh mesh;
-  mesh.cloth = cloth;
+void check_corners(const std::string& place, std::span<const Triangle> triangles, std::size_t positions) {
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (const Index v : triangles[i]) {
-      if (v < 0 || static_cast<std::size_t>(v) >= positions.size()) {
+      if (v < 0 || static_cast<std::size_t>(v) >= positions) {
         throw InputError("", place + ": triangle " + std::to_string(i),
-                         "corners in 0.." + std::to_string(static_cast<std::ptrdiff_t>(positions.size()) - 1),
+                         "corners in 0.." + std::to_string(static_cast<std::ptrdiff_t>(positions) - 1),
                          std::to_string(v));
       }
     }
   }
+}
+
+RayMesh ray_mesh(const std::string& place, std::span<const Triangle> triangles, std::span<const Vec3> positions,
+                 const Vec3& origin, bool cloth) {
+  RayMesh mesh;
+  mesh.cloth = cloth;
+  check_corners(place, triangles, positions.size());
   mesh.positions.reserve(positions.size() + 1);
   for (const Vec3& p : positions) mesh.positions.push_back((p - origin).cast<float>());
   mesh.positions.push_back(Vec3f::Zero());
   mesh.triangles = triangles;
   mesh.normals = corner_normals(mesh.positions, triangles, !cloth);
   if (!cloth) mesh.room = rooms_of(triangles, positions);
+  return mesh;
+}
+
+void check_looks(const std::string& place, const PreviewCloth& cloth) {
+  if (cloth.look.size() != cloth.triangles.size())
+    throw InputError("", place, "a look for each of " + std::to_string(cloth.triangles.size()) + " triangles",
+                     std::to_string(cloth.look.size()));
+  for (const Index k : cloth.look)
+    if (k < 0 || static_cast<std::size_t>(k) >= cloth.looks.size())
+      throw InputError("", place, "looks below " + std::to_string(cloth.looks.size()), std::to_string(k));
+}
+
+RayMesh studio_mesh(const std::string& place, const PreviewCloth& cloth, const Vec3& origin, double display_edge_m) {
+  check_looks(place, cloth);
+  check_corners(place, cloth.triangles, cloth.positions.size());
+  std::vector<const ClothLook*> look;
+  for (const Index k : cloth.look) look.push_back(&cloth.looks[static_cast<std::size_t>(k)]);
+  auto display = std::make_unique<DisplayMesh>(display_mesh(cloth, look, display_edge_m));
+  RayMesh mesh = ray_mesh(place, display->triangles, display->positions, origin, true);
+  mesh.uv = display->uv;
+  mesh.look = std::move(look);
+  mesh.display = std::move(display);
   return mesh;
 }
 
@@ -154,7 +180,7 @@ void require_pictures() {}
 RayScene::RayScene() : device_(std::make_unique<Device>()) {}
 RayScene::~RayScene() = default;
 
-void RayScene::build(const PreviewScene& scene, const Vec3& origin) {
+void RayScene::build(const PreviewScene& scene, const Vec3& origin, double display_edge_m) {
   device_->release();
   meshes_.clear();
   for (std::size_t c = 0; c < scene.cloths.size(); ++c) {
@@ -164,11 +190,15 @@ void RayScene::build(const PreviewScene& scene, const Vec3& origin) {
       throw InputError("", place, "uv for each of " + std::to_string(cloth.triangles.size()) + " triangles or for none",
                        std::to_string(cloth.uv.size()));
     }
-    RayMesh mesh = ray_mesh(place, cloth.triangles, cloth.positions, origin, true);
-    mesh.uv = cloth.uv;
-    mesh.right_side = cloth.colour.cast<float>().cwiseMax(0.0f).cwiseMin(1.0f);
-    mesh.wrong_side = wrong_side_of(mesh.right_side);
-    meshes_.push_back(std::move(mesh));
+    if (cloth.looks.empty() || cloth.uv.empty()) {
+      RayMesh mesh = ray_mesh(place, cloth.triangles, cloth.positions, origin, true);
+      mesh.uv = cloth.uv;
+      mesh.right_side = cloth.colour.cast<float>().cwiseMax(0.0f).cwiseMin(1.0f);
+      mesh.wrong_side = wrong_side_of(mesh.right_side);
+      meshes_.push_back(std::move(mesh));
+    } else {
+      meshes_.push_back(studio_mesh(place, cloth, origin, display_edge_m));
+    }
   }
   meshes_.push_back(ray_mesh("preview: body", scene.body_triangles, scene.body_positions, origin, false));
   meshes_.back().right_side = meshes_.back().wrong_side = body_colour;

@@ -3,6 +3,8 @@
 // Mind: coordinates are float and relative to the `origin` given to build(), so that a scene far from the world's origin keeps
 // its precision.
 #pragma once
+#include "preview/cloth_look.hpp"
+#include "preview/display_mesh.hpp"
 #include "preview/preview.hpp"
 #include "preview/vec3f.hpp"
 
@@ -18,6 +20,8 @@ struct RayMesh {
   std::span<const std::array<Vec2, 3>> uv;  // empty: none
   Vec3f right_side, wrong_side;             // linear RGB
   bool cloth = false;
+  std::vector<const ClothLook*> look;    // [simulated triangle]; empty: drawn as simulated, with a grid
+  std::unique_ptr<DisplayMesh> display;  // what is drawn instead, then
   // [triangle] of a body's part that faces inwards, a room: seen from inside only, and light comes through it.  Empty: none.
   std::vector<char> room;
 };
@@ -36,7 +40,7 @@ class RayScene {
   RayScene& operator=(const RayScene&) = delete;
 
   // Throws InputError when sizes or indices do not fit together.  Reads the scene's spans until the next build.
-  void build(const PreviewScene& scene, const Vec3& origin);
+  void build(const PreviewScene& scene, const Vec3& origin, double display_edge_m);
 
   // The first triangle along the ray; the direction need not be normalised.
   bool nearest(const Vec3f& origin, const Vec3f& direction, RayHit& hit) const;

@@ -103,7 +103,7 @@ Image Renderer::render(const PreviewScene& scene, const Camera& camera) {
   const auto [low, high] = bounds(scene);
   const Vec3 centre = 0.5 * (low + high);
   const CameraAxes axes = camera_axes(camera, options.width, options.height);
-  state_->scene.build(scene, centre);
+  state_->scene.build(scene, centre, options.display_edge_m);
 
   const LightRig light(axes.forward.cast<float>());
   const CameraRays rays(axes, options.width, options.height, centre);

@@ -8,6 +8,7 @@
 #include "io/pc2.hpp"
 #include "io/run_folder.hpp"
 #include "io/sequence_writer.hpp"
+#include "sim/panel_fabrics.hpp"
 
 #include <fmt/printf.h>
 
@@ -56,40 +57,6 @@ Writer writer_of(const ExportOptions& options) {
   return writer;
 }
 
-// The fabrics by garment and panel, where the report lists them.
-std::map<std::pair<std::string, std::string>, std::string> fabrics_of(const fs::path& directory) {
-  std::map<std::pair<std::string, std::string>, std::string> fabrics;
-  const std::string path = (directory / "report.json").string();
-  if (!fs::exists(path)) return fabrics;
-  const Json report = Json::parse(read_file(path, Json::text_limit), printable(path));
-  const Json* const known = report.find("fabrics");
-  if (known == nullptr) return fabrics;
-  for (const Json& panel : known->array())
-    fabrics.try_emplace({name_on_one_line(panel.at("garment").string()), name_on_one_line(panel.at("panel").string())},
-                        panel.at("fabric").string());
-  return fabrics;
-}
-
-// A group for each panel of each garment, with its fabric: panels of the same name in two garments are one group in the file.
-void settle_groups(SurfaceMesh& mesh, const fs::path& directory) {
-  if (mesh.group.empty() || mesh.object.empty()) return;
-  const auto fabrics = fabrics_of(directory);
-  std::map<std::pair<Index, Index>, Index> numbers;
-  std::vector<std::string> names;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::pair<Index, Index> panel(mesh.object[t], mesh.group[t]);
-    const auto [place, is_new] = numbers.try_emplace(panel, static_cast<Index>(names.size()));
-    if (is_new) {
-      const std::string &garment = mesh.object_names[at(panel.first)], &name = mesh.group_names[at(panel.second)];
-      const auto fabric = fabrics.find({garment, name});
-      names.push_back(name);
-      mesh.group_material.push_back(fabric == fabrics.end() ? std::string() : fabric->second);
-    }
-    mesh.group[t] = place->second;
-  }
-  mesh.group_names = std::move(names);
-}
-
 std::string numbered(const std::string& of, int frame, int frames, std::string_view ending) {
   const int width = std::max<int>(4, static_cast<int>(std::to_string(frames - 1).size()));
   return of + '_' + fmt::sprintf("%0*d", width, frame) + std::string(ending);
@@ -121,7 +88,7 @@ class RunSurface {
  public:
   RunSurface(const fs::path& folder, const std::string& of) : of_(of), pc2_((folder / (of + ".pc2")).string()) {
     mesh = load_obj((folder / (of + ".obj")).string());
-    settle_groups(mesh, folder);
+    settle_groups(mesh, folder.string());
     reader_ = std::make_unique<Pc2Reader>(pc2_, Pc2End::cut);
     if (at(reader_->points()) != mesh.positions.size())
       throw InputError(printable(pc2_), "points", std::to_string(mesh.positions.size()) + ", as in " + of + ".obj",

@@ -5,15 +5,21 @@
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
 #include "io/run_folder.hpp"
+#include "preview/cloth_look.hpp"
 #include "preview/preview.hpp"
+#include "sim/panel_fabrics.hpp"
 #include "sim/picture_state.hpp"
 #include "verify/crossings.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace toile::internal {
@@ -25,14 +31,18 @@ struct Take {  // one cache and the surface that it moves
   struct Piece {
     std::vector<Triangle> triangles;
     std::vector<std::array<Vec2, 3>> uv;
+    std::vector<Index> look;
   };
   std::vector<Piece> pieces;
+  std::vector<ClothLook> looks;  // of every garment in every fabric; empty: technical
   std::unique_ptr<Pc2Reader> frames;
 
-  bool open(const std::filesystem::path& directory, const std::string& name) {
+  bool open(const std::filesystem::path& directory, const std::string& name,
+            PictureStyle style = PictureStyle::technical) {
     const std::string obj_path = (directory / (name + ".obj")).string();
     if (!std::filesystem::exists(obj_path)) return false;
     obj = load_obj(obj_path);
+    settle_groups(obj, directory.string());
     frames = std::make_unique<Pc2Reader>((directory / (name + ".pc2")).string(), Pc2End::cut);
     if (static_cast<std::size_t>(frames->points()) != obj.positions.size())
       throw InputError(printable((directory / (name + ".pc2")).string()), "points",
@@ -48,9 +58,27 @@ struct Take {  // one cache and the surface that it moves
       for (std::size_t k = 0; k < 3; ++k)
         if (obj.texcoord[t][k] >= 0) three[k] = obj.texcoords[static_cast<std::size_t>(obj.texcoord[t][k])];
       piece.uv.push_back(three);
+      if (style == PictureStyle::studio) piece.look.push_back(look_of_triangle(t));
     }
     return true;
   }
+
+ private:
+  // The first garment in its fabric's own colour, others dyed.
+  Index look_of_triangle(std::size_t t) {
+    const Index garment = obj.object.empty() ? 0 : obj.object[t];
+    const std::string fabric = obj.group.empty() || obj.group_material.empty()
+                                   ? std::string()
+                                   : obj.group_material[static_cast<std::size_t>(obj.group[t])];
+    const auto [known, is_new] = numbers_.try_emplace({garment, fabric}, static_cast<Index>(looks.size()));
+    if (is_new) {
+      const auto k = static_cast<std::size_t>(garment) % garment_colours.size();
+      looks.push_back(k == 0 ? look_of(fabric) : dyed(look_of(fabric), garment_colours[k].cast<float>()));
+    }
+    return known->second;
+  }
+
+  std::map<std::pair<Index, std::string>, Index> numbers_;
 };
 
 struct Shot {
@@ -125,8 +153,11 @@ void add_shots(const Take& take, int first, int last, int count, std::vector<Sho
 // The surfaces of the take at those positions.
 std::vector<PreviewCloth> cloths_of(const Take& take, const Vec3s& x) {
   std::vector<PreviewCloth> cloths;
-  for (std::size_t k = 0; k < take.pieces.size(); ++k)
-    cloths.push_back({take.pieces[k].triangles, take.pieces[k].uv, x, garment_colours[k % garment_colours.size()]});
+  for (std::size_t k = 0; k < take.pieces.size(); ++k) {
+    const Take::Piece& piece = take.pieces[k];
+    cloths.push_back(
+        {piece.triangles, piece.uv, x, garment_colours[k % garment_colours.size()], take.looks, piece.look});
+  }
   return cloths;
 }
 
@@ -151,14 +182,56 @@ Timing timing_of(const std::filesystem::path& folder) {
   return timing;
 }
 
+// 30 cm around a point, from the front and a little from its left.
+Image close_up(const PreviewScene& scene, const Vec3& point) {
+  if (!point.allFinite()) throw InputError("", "close-up", "a point", "a number that is not finite");
+  RenderOptions options;
+  options.width = options.height = 1080;
+  options.samples = 32;
+  options.display_edge_m = 0.0015;
+  const Vec3 half = Vec3::Constant(0.09);
+  return render(scene, frame_subject(point - half, point + half, 20, 12, 1), options);
+}
+
+constexpr int turntable_frames = 90;
+constexpr double turntable_fps = 15;
+
+void film_turntable(const std::string& path, const PreviewScene& scene, const std::array<Vec3, 2>& box,
+                    const RenderOptions& options, const std::function<bool()>& stop) {
+  Renderer renderer(options);
+  const double aspect = static_cast<double>(options.width) / options.height;
+  write_mp4(
+      path, turntable_frames, turntable_fps,
+      [&](int k) {
+        if (stop && stop()) throw Error(ErrorKind::interrupted, "interrupted while the film was made");
+        return renderer.render(scene, frame_subject(box[0], box[1], 360.0 * k / turntable_frames, 8, aspect));
+      },
+      stop);
+}
+
 }  // namespace
+
+PictureOptions studio_pictures() {
+  PictureOptions options;
+  options.style = PictureStyle::studio;
+  options.sheet_width = 618;
+  options.sheet_height = 1032;
+  options.sheet_samples = 16;
+  options.film_width = 720;
+  options.film_height = 960;
+  options.film_samples = 8;
+  options.film_fps = 30;
+  options.most_film_frames = 120;
+  options.most_motion_frames = std::numeric_limits<int>::max();
+  return options;
+}
 
 void picture_run(const std::string& directory, const PictureOptions& options,
                  const std::function<void(double)>& progress, const std::function<bool()>& stop) {
   require_pictures();
   const std::filesystem::path folder(directory);
   Take sewing, cloth, body;
-  const bool sewn = sewing.open(folder, "sewing"), draped = cloth.open(folder, "cloth"),
+  const bool sewn = sewing.open(folder, "sewing", options.style), draped = cloth.open(folder, "cloth", options.style),
              dressed = body.open(folder, "body");
   if (!sewn && !draped) throw IoError((folder / "cloth.obj").string(), "no such file: this directory holds no run");
 
@@ -205,6 +278,7 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   sheet.samples = options.sheet_samples;
   write_png((folder / "preview.png").string(), three_views(scene, x, 0, sheet));
   scene.red_segments.clear();
+  if (options.close_up_m) write_png((folder / "close-up.png").string(), close_up(scene, *options.close_up_m));
   const Timing timing = timing_of(folder);
   if (draped && !options.frames.empty()) {
     std::vector<Image> pictures;
@@ -247,6 +321,13 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   film.width = options.film_width;
   film.height = options.film_height;
   film.samples = options.film_samples;
+  film.display_edge_m = options.film_edge_m;
+  if (options.turntable) {
+    std::array<Vec3, 2> held{Vec3::Constant(1e30), Vec3::Constant(-1e30)};
+    grow(held, x);
+    const Vec3 around = Vec3::Constant(0.05);
+    film_turntable((folder / "turntable.mp4").string(), scene, {held[0] - around, held[1] + around}, film, stop);
+  }
   Renderer renderer(film);
   const double aspect = static_cast<double>(film.width) / film.height;
   // The garment fills the picture: a body is shown only as far as the cloth reaches, and a little farther.
@@ -290,9 +371,7 @@ void picture_crossings(const std::string& directory, int frame, const std::strin
   cloth.frames->read(frame, x);
   if (dressed) body.frames->read(frame, body_x);
   PreviewScene scene;
-  for (std::size_t k = 0; k < cloth.pieces.size(); ++k)
-    scene.cloths.push_back(
-        {cloth.pieces[k].triangles, cloth.pieces[k].uv, x, garment_colours[k % garment_colours.size()]});
+  scene.cloths = cloths_of(cloth, x);
   scene.body_triangles = body.obj.triangles;
   scene.body_positions = body_x;
   std::array<Vec3, 2> box{Vec3::Constant(1e30), Vec3::Constant(-1e30)};

@@ -1,23 +1,39 @@
 // sim/picture_run.hpp: a still and a film of a finished run, from its files.                         docs/command-line.md#preview
 //
-//   preview.png   front, side and back of the last frame; crossings in red
-//   preview.mp4   the sewing, if there was one, then the drape, then the motion in real time; 4 s, or 12 s with a motion
-//   frames.png    chosen frames side by side, when any are chosen
+//   preview.png     front, side and back of the last frame; crossings in red
+//   preview.mp4     the sewing, if there was one, then the drape, then the motion in real time: 4 s, or 12 s with a motion; in studio style at full length
+//   frames.png      chosen frames side by side, when any are chosen
+//   close-up.png    the last frame around a point, when one is given
+//   turntable.mp4   once around the last frame, when asked for
 #pragma once
+#include "core/types.hpp"
+
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace toile::internal {
 
+enum class PictureStyle {
+  technical,  // cloth as simulated, with a grid along its threads: to judge it
+  studio,     // smooth, thick, woven, with seams and hems: to show it
+};
+
 struct PictureOptions {
+  PictureStyle style = PictureStyle::technical;
   int sheet_width = 400, sheet_height = 560, sheet_samples = 12;  // of one view
   int film_width = 360, film_height = 480, film_samples = 6;
   double film_fps = 15;
   int most_film_frames = 60, most_motion_frames = 120;
+  double film_edge_m = 0.01;  // RenderOptions::display_edge_m
+  std::optional<Vec3> close_up_m;
+  bool turntable = false;
   std::vector<int>
       frames;  // of frames.png, counted from the first frame of the motion, or of the cloth if there is none
 };
+// Three views, 1918 x 1080 together, and a film in 720 x 960 of the whole motion.
+PictureOptions studio_pictures();
 
 // `progress` gets the share done and may be empty; `stop` may be empty.  Throws IoError or InputError for files that are missing or wrong,
 // and Error (usage) where Toile is built without pictures, before any file is read (preview/preview.hpp: can_draw).

@@ -99,6 +99,30 @@ TEST(Run, WritesTheFilesOfTheContractAndVerifyAgrees) {
     EXPECT_NEAR(judged.at("stretch").at(part).number(), report.at("stretch").at(part).number(), 1e-4) << part;
 }
 
+TEST(Run, PicturesAsInAStudio) {
+  const Scratch scratch;
+  scratch.put(
+      "s.json",
+      R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05}, "pins": [{"near_m": [0, 0.1, 0]}]}],
+    "time": {"seconds": 0.1}})");
+  ASSERT_EQ(run_toile(scratch, {"run", "s.json", "--out", "a", "--no-preview"}).exit_code, 0);
+  const auto expect_drawn = [&](const std::vector<std::string>& words, const std::vector<const char*>& keys) {
+    const Ended drawn = run_toile(scratch, words);
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    const Json made = Json::parse(drawn.out, "stdout");
+    for (const char* key : keys)
+      EXPECT_GT(std::filesystem::file_size(scratch / made.at(key).string()), 1000u) << key;
+  };
+  expect_drawn({"preview", "a", "--style", "studio", "--close-up", "0,0,0", "--json"}, {"png", "mp4", "close_up"});
+  const std::string studio = scratch.get("a/preview.png");
+  expect_drawn({"preview", "a", "--close-up", "0,0,0", "--turntable", "--json"},
+               {"png", "mp4", "close_up", "turntable"});
+  EXPECT_NE(scratch.get("a/preview.png"), studio);
+  EXPECT_EQ(run_toile(scratch, {"preview", "a", "--style", "oil"}).exit_code, 2);
+  EXPECT_EQ(run_toile(scratch, {"preview", "a", "--close-up", "0,0"}).exit_code, 2);
+  EXPECT_EQ(run_toile(scratch, {"preview", "a", "--close-up", "0,nan,0"}).exit_code, 3);
+}
+
 TEST(Run, TheJudgeNamesAndDrawsCrossings) {
   const Scratch scratch;
   scratch.put(

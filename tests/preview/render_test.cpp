@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "preview/cloth_look.hpp"
 #include "preview/pictures.hpp"
 #include "preview/preview.hpp"
 
@@ -43,6 +44,49 @@ TEST(Render, IsTheSameToTheBitOnAnyNumberOfThreads) {
     with_threads(threads, [&] { many = render(stage.scene(), front, small()); });
     EXPECT_EQ(one.rgb, many.rgb) << threads << " threads";
   }
+}
+
+// The same stage as in a studio: the square is silk.
+struct Studio : Stage {
+  std::vector<ClothLook> looks{look_of("silk")};
+  std::vector<Index> look = std::vector<Index>(square.triangles.size(), 0);
+  PreviewScene scene() const {
+    PreviewScene s = Stage::scene();
+    s.cloths[0].looks = looks;
+    s.cloths[0].look = look;
+    return s;
+  }
+};
+
+TEST(Render, AStudioPictureIsTheSameToTheBitOnAnyNumberOfThreads) {
+  const Studio studio;
+  Image one;
+  with_threads(1, [&] { one = render(studio.scene(), front, small()); });
+  EXPECT_NE(one.rgb, render(studio.Stage::scene(), front, small()).rgb);
+  for (const int threads : {2, 5}) {
+    Image many;
+    with_threads(threads, [&] { many = render(studio.scene(), front, small()); });
+    EXPECT_EQ(one.rgb, many.rgb) << threads << " threads";
+  }
+}
+
+TEST(Render, AStudioPictureNamesLooksThatDoNotFit) {
+  Studio studio;
+  studio.look.pop_back();
+  EXPECT_THROW(render(studio.scene(), front, small()), InputError);
+  studio.look.push_back(1);
+  EXPECT_THROW(render(studio.scene(), front, small()), InputError);
+}
+
+// A square that reflects the key light to the camera is brighter where it is glossy, and its colour is that of the light.
+TEST(Render, GlossAddsTheLightThatIsMirrored) {
+  Studio studio;
+  const auto middle = [&](float gloss) {
+    studio.looks[0].gloss = gloss;
+    return pixel(render(studio.scene(), Camera{{0.25, 0.6, 3}, {0.25, 0.6, 0.4}, 10}, small(48, 48, 64)), 24, 24);
+  };
+  const std::array<int, 3> matt = middle(0), glossy = middle(0.3f);
+  EXPECT_GT(brightness(glossy), brightness(matt) + 15);
 }
 
 TEST(Render, DoesNotDependOnThePicturesBefore) {
