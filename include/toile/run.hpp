@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,8 +56,16 @@ struct ExportOptions {
 TOILE_EXPORT std::vector<std::string> export_run(const std::string& folder, const std::string& out,
                                                  const ExportOptions& options = {});
 
-// Writes preview.png and preview.mp4 into a run folder.  Throws Error(usage) when the library was built without pictures.
-TOILE_EXPORT void preview(const std::string& folder);
+struct PreviewOptions {
+  std::string style =
+      "technical";  // cloth as simulated, with a grid along its threads; "studio": smooth, thick, woven, sewn
+  std::optional<Point> close_up_m = {};  // also close-up.png: 30 cm around this point, in the last frame
+  bool turntable = false;                // also turntable.mp4: once around the last frame
+};
+
+// Writes preview.png and preview.mp4 into a run folder.  Throws Error(usage) when the library was built without pictures, InputError for another
+// style.
+TOILE_EXPORT void preview(const std::string& folder, const PreviewOptions& options = {});
 
 // A still image in memory.
 struct PictureOptions {

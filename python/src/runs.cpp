@@ -4,6 +4,8 @@
 
 #include <toile/run.hpp>
 
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -46,7 +48,12 @@ void bind_runs(nb::module_& module) {
       [](const std::string& folder, const std::string& out, const std::string& to, const std::string& of, int frame,
          bool all) { return export_run(folder, out, {.to = to, .of = of, .frame = frame, .all = all}); },
       nb::call_guard<nb::gil_scoped_release>(), "folder"_a, "out"_a, "to"_a, "of"_a, "frame"_a, "all"_a);
-  module.def("preview", &preview, nb::call_guard<nb::gil_scoped_release>(), "folder"_a);
+  module.def(
+      "preview",
+      [](const std::string& folder, const std::string& style, std::optional<Point> close_up_m, bool turntable) {
+        preview(folder, {.style = style, .close_up_m = close_up_m, .turntable = turntable});
+      },
+      nb::call_guard<nb::gil_scoped_release>(), "folder"_a, "style"_a, "close_up_m"_a.none(), "turntable"_a);
 }
 
 }  // namespace toile::python

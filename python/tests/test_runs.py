@@ -95,3 +95,17 @@ def test_preview_draws_a_picture_or_says_why_not(draped, tmp_path):
     thread.start()
     thread.join()
     assert worker == [True]
+
+
+def test_preview_as_in_a_studio(draped, tmp_path):
+    with toile.RunWriter(tmp_path / "run", draped) as run:
+        draped.advance(1 / 30)
+        run.add()
+    try:
+        toile.preview(tmp_path / "run", style="studio", close_up_m=(0, 1, 0))
+    except toile.Error as error:
+        assert error.code == "usage" and "pictures" in str(error)
+        return
+    assert (tmp_path / "run/close-up.png").stat().st_size > 1000
+    with pytest.raises(toile.InputError, match="style"):
+        toile.preview(tmp_path / "run", style="oil")

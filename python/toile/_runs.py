@@ -6,7 +6,9 @@ import base64
 import html
 import os
 import tempfile
+from collections.abc import Sequence
 from types import TracebackType
+from typing import Literal
 
 from . import _toile
 from ._errors import Error, InputError, IoError
@@ -150,6 +152,16 @@ def _usdc(folder: Path, out: Path, of: str, frame: int | None) -> str:
     return target
 
 
-def preview(folder: Path) -> None:
-    """Draws preview.png and preview.mp4 into a run folder.  Raises Error where Toile was built without pictures."""
-    _toile.preview(os.fspath(folder))
+def preview(
+    folder: Path,
+    *,
+    style: Literal["technical", "studio"] = "technical",
+    close_up_m: Sequence[float] | None = None,
+    turntable: bool = False,
+) -> None:
+    """Draws preview.png and preview.mp4 into a run folder.
+
+    `style`: "technical" shows cloth as simulated, with a grid along its threads; "studio" smooth, thick, woven and sewn.
+    `close_up_m` (3,): also close-up.png, 30 cm around this point in the last frame.  `turntable`: also turntable.mp4, once around the last frame.
+    Raises Error where Toile was built without pictures, InputError for another style."""
+    _toile.preview(os.fspath(folder), style, None if close_up_m is None else tuple(map(float, close_up_m)), turntable)

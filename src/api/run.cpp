@@ -137,10 +137,17 @@ std::vector<std::string> export_run(const std::string& folder, const std::string
   });
 }
 
-void preview(const std::string& folder) {
+void preview(const std::string& folder, const PreviewOptions& options) {
   translated([&] {
+    if (options.style != "technical" && options.style != "studio")
+      throw internal::InputError("", "style", "\"technical\" or \"studio\"", options.style);
+    internal::PictureOptions wanted =
+        options.style == "studio" ? internal::studio_pictures() : internal::PictureOptions{};
+    if (const auto& point = options.close_up_m)
+      wanted.close_up_m = internal::Vec3((*point)[0], (*point)[1], (*point)[2]);
+    wanted.turntable = options.turntable;
     const internal::RunFolder pictures(folder, internal::RunFolder::Use::pictures, {}, {});
-    internal::picture_run(folder, {}, {}, {});
+    internal::picture_run(folder, wanted, {}, {});
   });
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <filesystem>
 
 namespace toile {
 namespace {
@@ -62,6 +63,21 @@ TEST(Picture, OfARunIsThatOfItsLastFrame) {
   run.finish();
   EXPECT_EQ(picture(scratch / "run", small), last);
   EXPECT_THROW(picture(scratch / "none", small), IoError);
+}
+
+TEST(Picture, OfARunAsInAStudio) {
+  if (!internal::can_draw()) GTEST_SKIP() << "built without pictures";
+  const Scratch scratch;
+  Simulation sim = sheet();
+  RunWriter run(scratch / "run", sim, 30);
+  sim.advance(1.0 / 30);
+  run.add(sim);
+  run.finish();
+  EXPECT_THROW(preview(scratch / "run", {.style = "oil"}), InputError);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "run/preview.png"));
+  preview(scratch / "run", {.style = "studio", .close_up_m = Point{0, 0.1, 0}});
+  EXPECT_EQ(size_of(scratch.get("run/close-up.png")), (std::array<std::uint32_t, 2>{1080, 1080}));
+  EXPECT_EQ(size_of(scratch.get("run/preview.png"))[1], 1080u);
 }
 
 }  // namespace

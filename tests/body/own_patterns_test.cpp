@@ -137,13 +137,15 @@ TEST_P(OwnPattern, HasClosedLoopsWhoseNormalsPointAwayFromTheBody) {
   }
 }
 
-TEST_P(OwnPattern, SewsEachEdgeOnceToOneOfTheSameLength) {
+TEST_P(OwnPattern, SewsEachEdgeOnceToOneOfItsLength) {
   const Draft draft = load(GetParam());
   std::set<std::pair<std::string, std::size_t>> used;
   for (const auto& [a, b] : draft.stitches) {
     EXPECT_TRUE(used.insert({a.panel, a.edge}).second) << a.panel << " " << a.edge;
     EXPECT_TRUE(used.insert({b.panel, b.edge}).second) << b.panel << " " << b.edge;
-    EXPECT_NEAR(draft.length(a) / draft.length(b), 1, 0.02) << a.panel << " " << a.edge;
+    // A neckband draws its neckline in.
+    const double ratio = a.panel.starts_with("band_") && !b.panel.starts_with("band_") ? 0.945 : 1;
+    EXPECT_NEAR(draft.length(a) / draft.length(b), ratio, 0.02) << a.panel << " " << a.edge;
   }
 }
 
@@ -153,7 +155,9 @@ TEST_P(OwnPattern, SewsTheEndsThatLieNearEachOther) {
     const auto [p, q] = draft.sewn(stitch);
     const double as_sewn = (p.front() - q.front()).norm() + (p.back() - q.back()).norm();
     const double twisted = (p.front() - q.back()).norm() + (p.back() - q.front()).norm();
-    EXPECT_LT(as_sewn, twisted - 0.01) << stitch.first.panel << " " << stitch.first.edge;
+    // The ends of a band, 2 cm wide, are as far apart either way.
+    const double margin_m = (p.front() - p.back()).norm() > 0.05 ? 0.01 : 0;
+    EXPECT_LT(as_sewn, twisted - margin_m) << stitch.first.panel << " " << stitch.first.edge;
     const double apart =
         0.01 * std::abs(draft.panel(stitch.first).translation.z() - draft.panel(stitch.second).translation.z());
     EXPECT_LT((p.front() - q.front()).norm(), apart + 0.06);

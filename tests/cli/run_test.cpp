@@ -110,8 +110,7 @@ TEST(Run, PicturesAsInAStudio) {
     const Ended drawn = run_toile(scratch, words);
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     const Json made = Json::parse(drawn.out, "stdout");
-    for (const char* key : keys)
-      EXPECT_GT(std::filesystem::file_size(scratch / made.at(key).string()), 1000u) << key;
+    for (const char* key : keys) EXPECT_GT(std::filesystem::file_size(scratch / made.at(key).string()), 1000u) << key;
   };
   expect_drawn({"preview", "a", "--style", "studio", "--close-up", "0,0,0", "--json"}, {"png", "mp4", "close_up"});
   const std::string studio = scratch.get("a/preview.png");
