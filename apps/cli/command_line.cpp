@@ -229,6 +229,7 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
       ->add_option("--close-up", line.close_up_m, "30 cm around this point in the last frame, X,Y,Z in m: close-up.png")
       ->delimiter(',')
       ->expected(3);
+  preview->add_flag("--no-film", line.no_film, "Stills only");
   preview->add_flag("--turntable", line.turntable, "Once around the last frame: turntable.mp4");
 
   CLI::App* resume = app.add_subcommand("resume", "Go on with a run that was interrupted, to the same bits");

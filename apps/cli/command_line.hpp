@@ -22,14 +22,14 @@ struct CommandLine {
 
   std::string body, body_unit, body_up, measurements, motion, clip, bones, rig, weights, quality, start;
   std::vector<std::string> targets;
-  std::string svg, repair;          // of check: files to write; empty: none
-  std::vector<int> frames;          // of preview
-  std::string style = "technical";  // likewise, of the pictures
-  std::vector<double> close_up_m;   // likewise; empty: none
-  bool turntable = false;           // likewise
-  std::string to, of = "cloth";     // of export
-  std::optional<int> export_frame;  // of export; absent: the last
-  bool all = false;                 // of export
+  std::string svg, repair;                  // of check: files to write; empty: none
+  std::vector<int> frames;                  // of preview
+  std::string style = "technical";          // likewise, of the pictures
+  std::vector<double> close_up_m;           // likewise; empty: none
+  bool turntable = false, no_film = false;  // likewise
+  std::string to, of = "cloth";             // of export
+  std::optional<int> export_frame;          // of export; absent: the last
+  bool all = false;                         // of export
   std::optional<std::string> fabric;
   std::optional<double> resolution_cm, hem_mm, tape_mm, fps, seconds;
   bool strict_start = false;

@@ -194,6 +194,7 @@ ExitCode preview_command(const CommandLine& line) {
   pictures.frames = line.frames;
   if (!line.close_up_m.empty()) pictures.close_up_m = Vec3(line.close_up_m[0], line.close_up_m[1], line.close_up_m[2]);
   pictures.turntable = line.turntable;
+  pictures.film = !line.no_film;
   picture_run(
       directory, pictures,
       [&](double share) {
@@ -201,7 +202,8 @@ ExitCode preview_command(const CommandLine& line) {
       },
       interrupted);
   bar.clear();
-  std::vector<std::pair<const char*, std::string>> made = {{"png", "preview.png"}, {"mp4", "preview.mp4"}};
+  std::vector<std::pair<const char*, std::string>> made = {{"png", "preview.png"}};
+  if (pictures.film) made.emplace_back("mp4", "preview.mp4");
   if (!line.frames.empty()) made.emplace_back("frames", "frames.png");
   if (pictures.close_up_m) made.emplace_back("close_up", "close-up.png");
   if (line.turntable) made.emplace_back("turntable", "turntable.mp4");

@@ -328,6 +328,7 @@ void picture_run(const std::string& directory, const PictureOptions& options,
     const Vec3 around = Vec3::Constant(0.05);
     film_turntable((folder / "turntable.mp4").string(), scene, {held[0] - around, held[1] + around}, film, stop);
   }
+  if (!options.film) return;
   Renderer renderer(film);
   const double aspect = static_cast<double>(film.width) / film.height;
   // The garment fills the picture: a body is shown only as far as the cloth reaches, and a little farther.

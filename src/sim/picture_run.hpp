@@ -28,7 +28,7 @@ struct PictureOptions {
   int most_film_frames = 60, most_motion_frames = 120;
   double film_edge_m = 0.01;  // RenderOptions::display_edge_m
   std::optional<Vec3> close_up_m;
-  bool turntable = false;
+  bool turntable = false, film = true;
   std::vector<int>
       frames;  // of frames.png, counted from the first frame of the motion, or of the cloth if there is none
 };

@@ -31,7 +31,7 @@ TEST(CheckPattern, NamesFindingsAndKeepsTheLineOfTheReader) {
   EXPECT_EQ(ended.exit_code, 3);
   EXPECT_EQ(ended.err_lines(), 1);
   EXPECT_NE(ended.err.find("p.json:"), std::string::npos);
-  EXPECT_NE(ended.out.find("1. error loop_reversed: panel \"front\", edge 1, at (24.6, 17.5) cm"), std::string::npos)
+  EXPECT_NE(ended.out.find("1. error loop_reversed: panel \"front\", edge 1, at (24.4, 17.5) cm"), std::string::npos)
       << ended.out;
   EXPECT_NE(ended.out.find("/pattern/panels/front/edges/1"), std::string::npos);
   EXPECT_NE(ended.out.find("can be mended: turned round"), std::string::npos);

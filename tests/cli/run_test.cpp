@@ -112,7 +112,9 @@ TEST(Run, PicturesAsInAStudio) {
     const Json made = Json::parse(drawn.out, "stdout");
     for (const char* key : keys) EXPECT_GT(std::filesystem::file_size(scratch / made.at(key).string()), 1000u) << key;
   };
-  expect_drawn({"preview", "a", "--style", "studio", "--close-up", "0,0,0", "--json"}, {"png", "mp4", "close_up"});
+  expect_drawn({"preview", "a", "--style", "studio", "--close-up", "0,0,0", "--no-film", "--json"},
+               {"png", "close_up"});
+  EXPECT_FALSE(std::filesystem::exists(scratch / "a/preview.mp4"));
   const std::string studio = scratch.get("a/preview.png");
   expect_drawn({"preview", "a", "--close-up", "0,0,0", "--turntable", "--json"},
                {"png", "mp4", "close_up", "turntable"});
@@ -232,8 +234,8 @@ TEST(Check, CountsAPatternAndSpeaksJson) {
   const Json json = Json::parse(ended.out, "stdout");
   const Json& shirt = json.at("files").array().at(0);
   EXPECT_EQ(shirt.at("kind").string(), "pattern");
-  EXPECT_EQ(shirt.at("panels").integer(), 6);
-  EXPECT_EQ(shirt.at("stitches").integer(), 12);
+  EXPECT_EQ(shirt.at("panels").integer(), 8);
+  EXPECT_EQ(shirt.at("stitches").integer(), 16);
   EXPECT_GT(shirt.at("mesh").at("min_angle_deg").number(), 20);
   EXPECT_EQ(json.at("files").array().at(1).at("body_vertices").integer(), 322) << "the paper's solid";
 }
