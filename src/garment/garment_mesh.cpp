@@ -55,7 +55,7 @@ MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_inde
   garment.mesh.particle_count += static_cast<Index>(planar.points.size());
   garment.mesh.panel_names.push_back(panel.name);
   garment.panel_labels.push_back(panel.label);
-  garment.mesh.panel_cloth.push_back({panel.fabric, panel.rest_stretch});
+  garment.mesh.panel_cloth.push_back({panel.fabric, panel.rest_stretch, panel.interfacing});
   for (std::size_t f = 0; f < panel.folds.size(); ++f) {
     for (const auto& [a, b] : mesh.folded.line[f])
       garment.mesh.folds.push_back({first + a, first + b, panel.folds[f].angle_rad});

@@ -9,6 +9,7 @@
 #include "core/types.hpp"
 #include "io/json_places.hpp"
 #include "material/edge_finish.hpp"
+#include "mesh/cloth_mesh.hpp"
 
 #include <array>
 #include <string>
@@ -43,7 +44,8 @@ struct Panel {
   std::vector<Vec2> corners;     // m
   std::vector<PanelEdge> edges;  // one closed loop, in order; may be clockwise (the normal then points to -z)
   // The file's extension "toile":
-  std::string fabric;            // a preset's name (material/fabric.hpp); empty: the garment's
+  std::string fabric;  // a preset's name (material/fabric.hpp); empty: the garment's
+  Interfacing interfacing;
   Vec2 rest_stretch{1, 1};       // b of the warp (up the panel) and of the weft; below 1 it is elastic
   std::vector<PanelFold> folds;  // do not cross each other or the outline
 

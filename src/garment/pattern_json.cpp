@@ -301,10 +301,16 @@ class PatternReader {
     const Json* json = extension_ != nullptr ? extension_->find(panel.name) : nullptr;
     if (json == nullptr) return;
     if (!json->is_object()) json->fail("an object", json->describe());
-    json->allow_only({"fabric", "rest_stretch_u", "rest_stretch_v", "folds", "edges"});
+    json->allow_only({"fabric", "interfacing", "interfacing_mm", "rest_stretch_u", "rest_stretch_v", "folds", "edges"});
     if (const Json* edges = json->find("edges")) read_finishes(panel, *edges);
     if (const Json* fabric = json->find("fabric"))
       panel.fabric = fabric_preset(fabric->string(), fabric->where(), fabric->pointer()).name;
+    if (const Json* fabric = json->find("interfacing"))
+      panel.interfacing.fabric = fabric_preset(fabric->string(), fabric->where(), fabric->pointer()).name;
+    if (const Json* apart = json->find("interfacing_mm")) {
+      if (!(apart->number() >= 0 && apart->number() <= 10)) apart->fail("a number from 0 to 10", apart->describe());
+      panel.interfacing.apart_m = 1e-3 * apart->number();
+    }
     const auto rest_stretch = [&](const char* key) {
       const Json* b = json->find(key);
       if (b == nullptr) return 1.0;

@@ -89,6 +89,25 @@ const Fabric& fabric_preset(std::string_view name, std::string_view where, std::
   throw InputError(where, place, expected, "\"" + printable(name) + "\"");
 }
 
+Fabric fused(const Fabric& cloth, const Fabric& interfacing, double apart_m) {
+  const auto twist = [](const Fabric& one) {
+    return one.bend_uv_N_m > 0 ? one.bend_uv_N_m
+                               : 0.5 * (1 - one.bend_poisson) * 0.5 * (one.bend_u_N_m + one.bend_v_N_m);
+  };
+  const auto sandwich = [&](double k_1, double k_2) {
+    return k_1 + k_2 > 0 ? apart_m * apart_m * k_1 * k_2 / (k_1 + k_2) : 0;
+  };
+  Fabric both = cloth;
+  both.density_kg_per_m2 += interfacing.density_kg_per_m2;
+  both.stretch_u_N_per_m += interfacing.stretch_u_N_per_m;
+  both.stretch_v_N_per_m += interfacing.stretch_v_N_per_m;
+  both.shear_N_per_m += interfacing.shear_N_per_m;
+  both.bend_u_N_m += interfacing.bend_u_N_m + sandwich(cloth.stretch_u_N_per_m, interfacing.stretch_u_N_per_m);
+  both.bend_v_N_m += interfacing.bend_v_N_m + sandwich(cloth.stretch_v_N_per_m, interfacing.stretch_v_N_per_m);
+  both.bend_uv_N_m = twist(cloth) + twist(interfacing) + sandwich(cloth.shear_N_per_m, interfacing.shear_N_per_m);
+  return both;
+}
+
 void check_fabric(const Fabric& fabric, std::string_view where, std::string_view place) {
   const auto check = [&](std::string_view key, double value, bool may_be_zero) {
     if (std::isfinite(value) && (may_be_zero ? value >= 0 : value > 0)) return;

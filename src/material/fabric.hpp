@@ -35,6 +35,13 @@ std::span<const Fabric> fabric_presets();  // silk, cotton, wool, denim, knit
 // Throws InputError(where, place, ...) with the nearest preset when there is none of that name.
 const Fabric& fabric_preset(std::string_view name, std::string_view where, std::string_view place);
 
+// The cloth with another fused to it all over, the middles of the two `apart_m` from each other: collars, cuffs, fronts of coats.  Layers that cannot
+// slide on each other bend as a sandwich, along each thread and for twist:
+//   D = D_1 + D_2 + d^2 k_1 k_2 / (k_1 + k_2)          k: stretch of the thread; of the twist D_uv, shear
+// Mass, stretch and shear add up; glue keeps threads from buckling, so compression_ratio does not count.  All else is the cloth's.
+constexpr double fused_apart_m = 0.3e-3;  // of two shirtings
+Fabric fused(const Fabric& cloth, const Fabric& interfacing, double apart_m);
+
 // Throws InputError naming the key (place + "/" + key) of a value that is not finite, negative, or zero where it may
 // not be: density, stretch and thickness.
 void check_fabric(const Fabric& fabric, std::string_view where, std::string_view place);

@@ -11,9 +11,15 @@
 
 namespace toile::internal {
 
+struct Interfacing {      // fused to a panel (material/fabric.hpp)
+  std::string fabric;     // a preset's name; empty: none
+  double apart_m = 3e-4;  // fused_apart_m
+};
+
 struct PanelCloth {         // the panel's own wishes; a scene may override them
   std::string fabric;       // a preset's name; empty: the garment's
   Vec2 rest_stretch{1, 1};  // (b_u, b_v)
+  Interfacing interfacing;
 };
 
 struct FoldedEdge {  // an edge whose hinge is not flat at rest

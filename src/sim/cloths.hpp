@@ -39,7 +39,8 @@ using ClothKind = std::variant<ScenePattern, SceneClothMesh, SceneGrid, SceneTub
 
 struct ScenePanel : PanelInTime {  // the settings of one panel
   std::string name;
-  std::optional<Fabric> fabric;
+  std::optional<Fabric> fabric, interfacing;
+  std::optional<double> interfacing_mm;
   std::optional<double> rest_stretch_u,
       rest_stretch_v;  // b of the warp and the weft, < 1 pulls together; absent: the pattern's
 };

@@ -82,6 +82,12 @@ void describe(V& v, ScenePanel& panel) {
   constexpr std::string_view as_pattern = "the pattern's";
   constexpr Range shrunk_or_not{0.2, 5};
   v.object({"fabric", "of this panel", "the pattern's, or the cloth's"}, panel.fabric, fabric_by_name);
+  v.object(
+      {"interfacing", "another cloth fused to this panel: a collar, a cuff ([fabrics](theory/fabrics.md#interfacing))",
+       "the pattern's, or none"},
+      panel.interfacing, fabric_by_name);
+  v.number({"interfacing_mm", "from the middle of the cloth to the middle of the interfacing", "the pattern's, or 0.3"},
+           {0, 10}, panel.interfacing_mm);
   v.number({"rest_stretch_u",
             "of the warp, up the panel; 0.9 is an elastic that wants to be 10 % shorter, and pulls after the sewing",
             as_pattern},

@@ -21,8 +21,14 @@ std::string path_of_cloth(std::size_t k) { return "/cloth/" + std::to_string(k);
 std::vector<Fabric> fabrics_of(const Scene& scene, std::size_t k, const ClothMesh& mesh) {
   const SceneCloth& cloth = scene.cloth[k];
   std::vector<Fabric> fabrics(mesh.panel_names.size(), cloth.fabric);
-  for (std::size_t p = 0; p < mesh.panel_cloth.size(); ++p)
-    if (!mesh.panel_cloth[p].fabric.empty()) fabrics[p] = fabric_preset(mesh.panel_cloth[p].fabric, "", "fabric");
+  std::vector<std::optional<Fabric>> interfacing(fabrics.size());
+  std::vector<double> apart_m(fabrics.size(), fused_apart_m);
+  for (std::size_t p = 0; p < mesh.panel_cloth.size(); ++p) {
+    const PanelCloth& own = mesh.panel_cloth[p];
+    if (!own.fabric.empty()) fabrics[p] = fabric_preset(own.fabric, "", "fabric");
+    if (!own.interfacing.fabric.empty()) interfacing[p] = fabric_preset(own.interfacing.fabric, "", "interfacing");
+    apart_m[p] = own.interfacing.apart_m;
+  }
   for (const ScenePanel& panel : cloth.panels) {
     const auto place = std::find(mesh.panel_names.begin(), mesh.panel_names.end(), panel.name);
     if (place == mesh.panel_names.end()) {
@@ -33,8 +39,13 @@ std::vector<Fabric> fabrics_of(const Scene& scene, std::size_t k, const ClothMes
           '"' + printable(panel.name) + '"')
           .of(path_of_cloth(k) + "/panels" + pointer_step(panel.name));
     }
-    if (panel.fabric) fabrics[static_cast<std::size_t>(place - mesh.panel_names.begin())] = *panel.fabric;
+    const auto p = static_cast<std::size_t>(place - mesh.panel_names.begin());
+    if (panel.fabric) fabrics[p] = *panel.fabric;
+    if (panel.interfacing) interfacing[p] = panel.interfacing;
+    if (panel.interfacing_mm) apart_m[p] = 1e-3 * *panel.interfacing_mm;
   }
+  for (std::size_t p = 0; p < fabrics.size(); ++p)
+    if (interfacing[p]) fabrics[p] = fused(fabrics[p], *interfacing[p], apart_m[p]);
   for (Fabric& fabric : fabrics) {
     fabric.thickness_m = scene.contact_thickness_m.value_or(fabric.thickness_m);
     fabric.friction = scene.contact_friction.value_or(fabric.friction);

@@ -78,6 +78,8 @@ TEST(PatternExtension, IsRefusedWhereItCannotBeMeant) {
   expect_error(with(R"({"panels": {"front": {"rest_stretch": 0.9}}})"), {"rest_stretch_u"});
   expect_error(with(R"({"panels": {"front": {"rest_stretch_u": 0.1}}})"), {"rest_stretch_u", "0.2 to 5", "0.1"});
   expect_error(with(R"({"panels": {"front": {"fabric": "denin"}}})"), {"fabric", "denim"});
+  expect_error(with(R"({"panels": {"front": {"interfacing": "cottn"}}})"), {"interfacing", "cotton"});
+  expect_error(with(R"({"panels": {"front": {"interfacing_mm": -1}}})"), {"interfacing_mm", "0 to 10", "-1"});
   const auto folds = [](const std::string& fold) {
     return with(R"({"panels": {"front": {"folds": [)" + fold + "]}}}");
   };

@@ -108,6 +108,51 @@ TEST(Fabric, ABadValueIsNamedByItsSceneKey) {
             "scene.json:14: /cloth/0/fabric/density_kg_per_m2: expected a number above zero, got -0.2");
 }
 
+// A plate of thickness h has k = E h, S = G h, D = E h^3 / 12 (Poisson ratio 0) and D_uv = G h^3 / 12.  Two of them, fused, are one of 2 h.
+TEST(Fabric, TwoFusedHalvesBendAsTheWholePlate) {
+  const auto plate = [](double h) {
+    const double E_u = 3e6, E_v = 2e6, G = 7e4;
+    Fabric one;
+    one.density_kg_per_m2 = 500 * h;
+    one.stretch_u_N_per_m = E_u * h;
+    one.stretch_v_N_per_m = E_v * h;
+    one.shear_N_per_m = G * h;
+    one.bend_u_N_m = E_u * h * h * h / 12;
+    one.bend_v_N_m = E_v * h * h * h / 12;
+    one.bend_poisson = 0;
+    one.bend_uv_N_m = G * h * h * h / 12;
+    return one;
+  };
+  const double h = 3e-4;
+  const Fabric whole = plate(2 * h), halves = fused(plate(h), plate(h), h);
+  for (const double Fabric::*value :
+       {&Fabric::density_kg_per_m2, &Fabric::stretch_u_N_per_m, &Fabric::stretch_v_N_per_m, &Fabric::shear_N_per_m,
+        &Fabric::bend_u_N_m, &Fabric::bend_v_N_m, &Fabric::bend_uv_N_m})
+    EXPECT_NEAR(halves.*value, whole.*value, 1e-12 * whole.*value);
+  // Unequal layers: the parallel axes about the common middle, sum of k_i z_i^2.
+  const double H = 5e-4;
+  const Fabric thick = plate(H), both = fused(thick, plate(h), (H + h) / 2), sum = plate(H + h);
+  EXPECT_NEAR(both.bend_u_N_m, sum.bend_u_N_m, 1e-12 * sum.bend_u_N_m);
+  EXPECT_NEAR(both.bend_uv_N_m, sum.bend_uv_N_m, 1e-12 * sum.bend_uv_N_m);
+}
+
+// Without a distance layers slide: rigidities add up, that of the twist by the rule of the Poisson ratio.
+TEST(Fabric, InterfacingAddsUpAndTheRestIsTheCloths) {
+  const Fabric cotton = fabric_preset("cotton", "", ""), silk = fabric_preset("silk", "", "");
+  const Fabric both = fused(cotton, silk, 0);
+  EXPECT_DOUBLE_EQ(both.density_kg_per_m2, cotton.density_kg_per_m2 + silk.density_kg_per_m2);
+  EXPECT_DOUBLE_EQ(both.bend_u_N_m, cotton.bend_u_N_m + silk.bend_u_N_m);
+  EXPECT_DOUBLE_EQ(both.bend_uv_N_m, 0.35 * 1.25e-5 + 0.35 * 0.5 * (silk.bend_u_N_m + silk.bend_v_N_m));
+  EXPECT_EQ(both.name, "cotton");
+  EXPECT_EQ(both.friction, cotton.friction);
+  EXPECT_EQ(both.compression_ratio, cotton.compression_ratio);
+  Fabric no_threads = silk;
+  no_threads.shear_N_per_m = 0;
+  Fabric none = cotton;
+  none.shear_N_per_m = 0;
+  EXPECT_TRUE(std::isfinite(fused(none, no_threads, 1e-3).bend_uv_N_m));
+}
+
 TEST(Fabric, AnUnknownNameIsAnsweredWithTheNearest) {
   try {
     fabric_preset("coton", "scene.json:3", "/cloth/0/fabric");

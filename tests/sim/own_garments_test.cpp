@@ -115,5 +115,32 @@ TEST(OwnGarmentsTogether, AScenesPanelKeepsWhatItDoesNotName) {
   }
 }
 
+// By the pattern, by the scene, and with the scene's distance alone.
+TEST(OwnGarmentsTogether, InterfacingIsFusedToThePanelsThatHaveIt) {
+  const auto bend_of = [](const LoadedCloth& cloth, const std::string& panel) {
+    const auto& names = cloth.garment.mesh.panel_names;
+    return cloth.fabrics[static_cast<std::size_t>(std::find(names.begin(), names.end(), panel) - names.begin())]
+        .bend_u_N_m;
+  };
+  const LoadedCloth plain = loaded("man_pants");
+  const LoadedCloth scene =
+      loaded("man_pants", R"(, "panels": {"waistband_front": {"interfacing": {"base": "cotton", "bend_u_N_m": 1e-4}},
+                                   "waistband_back": {"interfacing": "cotton", "interfacing_mm": 1}})");
+  EXPECT_EQ(bend_of(plain, "waistband_front"), 1.25e-5);
+  EXPECT_NEAR(bend_of(scene, "waistband_front"), 1.25e-5 + 1e-4 + 9e-8 * 1500, 1e-12);
+  EXPECT_NEAR(bend_of(scene, "waistband_back"), 2.5e-5 + 1e-6 * 1500, 1e-12);
+  EXPECT_EQ(bend_of(scene, "left_front"), 1.25e-5);
+
+  std::string text = read_text_file(TOILE_SOURCE_DIR "/patterns/tshirt.json");
+  const std::string band = R"("band_front": {"fabric": "knit"})";
+  ASSERT_NE(text.find(band), std::string::npos);
+  text.replace(text.find(band), band.size(),
+               R"("band_front": {"fabric": "knit", "interfacing": "silk", "interfacing_mm": 0})");
+  const Scene shirt = parse_scene(R"({"cloth": [{"pattern": "p.json", "resolution_cm": 3}]})", "s.json");
+  const LoadedCloth own = load_cloth(shirt, 0, [&](const std::string&) { return text; });
+  EXPECT_NEAR(bend_of(own, "band_front"), 7e-6 + 1.2e-6, 1e-15);
+  EXPECT_NEAR(bend_of(own, "band_back"), 7e-6, 1e-15);
+}
+
 }  // namespace
 }  // namespace toile::internal

@@ -69,7 +69,7 @@ inline constexpr std::array<std::string_view, 11> scenes_with_every_setting = {
 })",
     R"({
   "cloth": [{"pattern": "p.json", "resolution_cm": 1.5, "fabric": "wool", "label_heights_m": {"waist": 1.1, "hem": 0.5},
-    "panels": {"front": {"fabric": {"base": "knit", "friction": 0.6}, "rest_stretch_u": 0.9, "rest_stretch_v": 1.1,
+    "panels": {"front": {"fabric": {"base": "knit", "friction": 0.6}, "interfacing": {"base": "cotton"}, "interfacing_mm": 0.4, "rest_stretch_u": 0.9, "rest_stretch_v": 1.1,
       "rest_stretch_path": [[0.5, 0.9, 0.8], [1, 0.7, 0.6]], "stiffness_path": [[0.25, 1, 2, 3], [1, 4, 5, 6]],
       "pressure_Pa": 250}, "back": {"pressure_path": [[0.5, 0], [2, -120]]}}}],
   "body": {"mannequin": "man", "motion": {"name": "walk", "lead_in_s": 0.5}}
