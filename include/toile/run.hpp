@@ -57,10 +57,11 @@ TOILE_EXPORT std::vector<std::string> export_run(const std::string& folder, cons
                                                  const ExportOptions& options = {});
 
 struct PreviewOptions {
-  std::string style =
-      "technical";  // cloth as simulated, with a grid along its threads; "studio": smooth, thick, woven, sewn
+  // "technical": cloth as simulated, with a grid along its threads; "studio": smooth, thick, woven, sewn.
+  std::string style = "technical";
   std::optional<Point> close_up_m = {};  // also close-up.png: 30 cm around this point, in the last frame
   bool turntable = false;                // also turntable.mp4: once around the last frame
+  bool film = true;                      // preview.mp4
 };
 
 // Writes preview.png and preview.mp4 into a run folder.  Throws Error(usage) when the library was built without pictures, InputError for another

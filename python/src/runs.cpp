@@ -50,10 +50,11 @@ void bind_runs(nb::module_& module) {
       nb::call_guard<nb::gil_scoped_release>(), "folder"_a, "out"_a, "to"_a, "of"_a, "frame"_a, "all"_a);
   module.def(
       "preview",
-      [](const std::string& folder, const std::string& style, std::optional<Point> close_up_m, bool turntable) {
-        preview(folder, {.style = style, .close_up_m = close_up_m, .turntable = turntable});
+      [](const std::string& folder, const std::string& style, std::optional<Point> close_up_m, bool turntable,
+         bool film) {
+        preview(folder, {.style = style, .close_up_m = close_up_m, .turntable = turntable, .film = film});
       },
-      nb::call_guard<nb::gil_scoped_release>(), "folder"_a, "style"_a, "close_up_m"_a.none(), "turntable"_a);
+      nb::call_guard<nb::gil_scoped_release>(), "folder"_a, "style"_a, "close_up_m"_a.none(), "turntable"_a, "film"_a);
 }
 
 }  // namespace toile::python

@@ -102,10 +102,11 @@ def test_preview_as_in_a_studio(draped, tmp_path):
         draped.advance(1 / 30)
         run.add()
     try:
-        toile.preview(tmp_path / "run", style="studio", close_up_m=(0, 1, 0))
+        toile.preview(tmp_path / "run", style="studio", close_up_m=(0, 1, 0), film=False)
     except toile.Error as error:
         assert error.code == "usage" and "pictures" in str(error)
         return
     assert (tmp_path / "run/close-up.png").stat().st_size > 1000
+    assert not (tmp_path / "run/preview.mp4").exists()
     with pytest.raises(toile.InputError, match="style"):
         toile.preview(tmp_path / "run", style="oil")

@@ -158,10 +158,11 @@ def preview(
     style: Literal["technical", "studio"] = "technical",
     close_up_m: Sequence[float] | None = None,
     turntable: bool = False,
+    film: bool = True,
 ) -> None:
     """Draws preview.png and preview.mp4 into a run folder.
 
     `style`: "technical" shows cloth as simulated, with a grid along its threads; "studio" smooth, thick, woven and sewn.
     `close_up_m` (3,): also close-up.png, 30 cm around this point in the last frame.  `turntable`: also turntable.mp4, once around the last frame.
-    Raises Error where Toile was built without pictures, InputError for another style."""
-    _toile.preview(os.fspath(folder), style, None if close_up_m is None else tuple(map(float, close_up_m)), turntable)
+    `film`: preview.mp4.  Raises Error where Toile was built without pictures, InputError for another style."""
+    _toile.preview(os.fspath(folder), style, None if close_up_m is None else tuple(map(float, close_up_m)), turntable, film)

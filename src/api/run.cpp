@@ -146,6 +146,7 @@ void preview(const std::string& folder, const PreviewOptions& options) {
     if (const auto& point = options.close_up_m)
       wanted.close_up_m = internal::Vec3((*point)[0], (*point)[1], (*point)[2]);
     wanted.turntable = options.turntable;
+    wanted.film = options.film;
     const internal::RunFolder pictures(folder, internal::RunFolder::Use::pictures, {}, {});
     internal::picture_run(folder, wanted, {}, {});
   });

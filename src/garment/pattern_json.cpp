@@ -309,6 +309,7 @@ class PatternReader {
       panel.interfacing.fabric = fabric_preset(fabric->string(), fabric->where(), fabric->pointer()).name;
     if (const Json* apart = json->find("interfacing_mm")) {
       if (!(apart->number() >= 0 && apart->number() <= 10)) apart->fail("a number from 0 to 10", apart->describe());
+      if (panel.interfacing.fabric.empty()) apart->fail("`interfacing` beside it", "none");
       panel.interfacing.apart_m = 1e-3 * apart->number();
     }
     const auto rest_stretch = [&](const char* key) {

@@ -5,15 +5,16 @@
 #pragma once
 #include "core/types.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace toile::internal {
 
-struct Interfacing {      // fused to a panel (material/fabric.hpp)
-  std::string fabric;     // a preset's name; empty: none
-  double apart_m = 3e-4;  // fused_apart_m
+struct Interfacing {              // fused to a panel (material/fabric.hpp)
+  std::string fabric;             // a preset's name; empty: none
+  std::optional<double> apart_m;  // absent: fused_apart_m
 };
 
 struct PanelCloth {         // the panel's own wishes; a scene may override them

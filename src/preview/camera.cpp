@@ -85,6 +85,18 @@ Camera frame_subject(const Vec3& low, const Vec3& high, double azimuth_deg, doub
   return camera;
 }
 
+std::vector<Camera> turntable(const Vec3& low, const Vec3& high, double elevation_deg, double aspect, int count) {
+  if (count < 0) throw InputError("", "turntable", "0 cameras or more", std::to_string(count));
+  std::vector<Camera> cameras;
+  double farthest = 0;
+  for (int k = 0; k < count; ++k) {
+    cameras.push_back(frame_subject(low, high, 360.0 * k / count, elevation_deg, aspect));
+    farthest = std::max(farthest, (cameras.back().eye - cameras.back().target).norm());
+  }
+  for (Camera& camera : cameras) camera.eye = camera.target + farthest * (camera.eye - camera.target).normalized();
+  return cameras;
+}
+
 Vec3 project(const Camera& camera, int width, int height, const Vec3& point) {
   const CameraAxes axes = camera_axes(camera, width, height);
   const Vec3 p = point - axes.eye;

@@ -3,6 +3,7 @@
 
 #include "preview/low_discrepancy.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -11,7 +12,10 @@ namespace {
 
 constexpr float pi = 3.14159265f;
 constexpr int twill_repeat = 4, satin_repeat = 8;  // threads: warp over all but one
-constexpr double row_height = 0.8;                 // of a jersey's stitch, in wales
+// Of a twill whose threads are too fine to be drawn: the first harmonic of a repeat in which one thread of four is the weft's is
+// (2/pi) sin(pi/4) = 0.45, softened by eye; and the hollow between two ribs, by eye.
+constexpr float rib_hue = 0.32f, rib_shade = 0.06f;
+constexpr double row_height = 0.8;  // of a jersey's stitch, in wales
 
 // In [-1, 1], the same for a thread every time.
 float chance(int thread, std::uint32_t kind) {
@@ -81,54 +85,76 @@ float stitch_shade(float x, float y) {
   return (0.55f + 0.45f * std::sin(pi * fraction(y + 0.6f * x))) / mean * (1.0f - valley) / (1.0f - valley_mean);
 }
 
+struct FabricLook {
+  std::string_view fabric;
+  ClothLook look;
+};
+
+// By the names of material/fabric.hpp, in the order of ClothLook.  Thicknesses are measured ones, which contact cannot resolve.
+const std::array<FabricLook, 5>& fabric_looks() {
+  static const std::array<FabricLook, 5> looks{{
+      {"cotton",
+       {.weave = Weave::plain,
+        .warp = Vec3f(0.19f, 0.28f, 0.43f),
+        .weft = Vec3f(0.38f, 0.45f, 0.55f),
+        .stitch = Vec3f(0.30f, 0.36f, 0.44f),
+        .thread_m = 3e-4f,
+        .uneven = 0.06f,
+        .thickness_m = 4e-4f,
+        .hem_m = 0.015f,
+        .sheen = 0.3f}},
+      {"silk",
+       {.weave = Weave::satin,
+        .warp = Vec3f(0.60f, 0.41f, 0.34f),
+        .weft = Vec3f(0.60f, 0.41f, 0.34f),
+        .stitch = Vec3f(0.48f, 0.33f, 0.27f),
+        .thread_m = 1.2e-4f,
+        .uneven = 0.02f,
+        .thickness_m = 2.2e-4f,
+        .hem_m = 0.006f,
+        .sheen = 0.12f,
+        .gloss = 0.05f,
+        .roughness = 0.42f}},
+      {"wool",
+       {.weave = Weave::twill,
+        .warp = Vec3f(0.30f, 0.20f, 0.125f),
+        .weft = Vec3f(0.38f, 0.27f, 0.18f),
+        .stitch = Vec3f(0.30f, 0.22f, 0.14f),
+        .thread_m = 4.5e-4f,
+        .uneven = 0.08f,
+        .thickness_m = 7e-4f,
+        .hem_m = 0.03f,
+        .sheen = 0.45f}},
+      {"denim",
+       {.weave = Weave::twill,
+        .warp = Vec3f(0.028f, 0.052f, 0.115f),
+        .weft = Vec3f(0.30f, 0.32f, 0.33f),
+        .stitch = Vec3f(0.55f, 0.27f, 0.07f),
+        .thread_m = 4.5e-4f,
+        .uneven = 0.09f,
+        .thickness_m = 9e-4f,
+        .hem_m = 0.015f,
+        .sheen = 0.2f}},
+      {"knit",
+       {.weave = Weave::knit,
+        .warp = Vec3f(0.33f, 0.37f, 0.34f),
+        .weft = Vec3f(0.33f, 0.37f, 0.34f),
+        .stitch = Vec3f(0.26f, 0.30f, 0.27f),
+        .thread_m = 9e-4f,
+        .uneven = 0.03f,
+        .thickness_m = 8e-4f,
+        .hem_m = 0.02f,
+        .sheen = 0.4f}},
+  }};
+  return looks;
+}
+
 }  // namespace
 
 ClothLook look_of(std::string_view fabric) {
-  ClothLook look;
-  if (fabric == "silk") {
-    look.weave = Weave::satin;
-    look.warp = look.weft = Vec3f(0.60f, 0.41f, 0.34f);
-    look.thread_m = 1.2e-4f;
-    look.thickness_m = 2.2e-4f;
-    look.hem_m = 0.006f;
-    look.sheen = 0.12f;
-    look.gloss = 0.05f;
-    look.roughness = 0.42f;
-    look.uneven = 0.02f;
-  } else if (fabric == "wool") {
-    look.uneven = 0.08f;
-    look.weave = Weave::twill;
-    look.warp = Vec3f(0.30f, 0.20f, 0.125f);
-    look.weft = Vec3f(0.38f, 0.27f, 0.18f);
-    look.thread_m = 4.5e-4f;
-    look.thickness_m = 7e-4f;
-    look.hem_m = 0.03f;
-    look.sheen = 0.45f;
-  } else if (fabric == "denim") {
-    look.weave = Weave::twill;
-    look.warp = Vec3f(0.028f, 0.052f, 0.115f);
-    look.weft = Vec3f(0.30f, 0.32f, 0.33f);
-    look.stitch = Vec3f(0.55f, 0.27f, 0.07f);
-    look.thread_m = 4.5e-4f;
-    look.thickness_m = 9e-4f;
-    look.uneven = 0.09f;
-    look.sheen = 0.2f;
-    return look;
-  } else if (fabric == "knit") {
-    look.weave = Weave::knit;
-    look.warp = look.weft = Vec3f(0.33f, 0.37f, 0.34f);
-    look.thread_m = 9e-4f;
-    look.thickness_m = 8e-4f;
-    look.hem_m = 0.02f;
-    look.uneven = 0.03f;
-    look.sheen = 0.4f;
-  } else {
-    look.warp = Vec3f(0.19f, 0.28f, 0.43f);
-    look.weft = Vec3f(0.38f, 0.45f, 0.55f);
-    look.uneven = 0.06f;
-  }
-  look.stitch = 0.8f * look.weft;
-  return look;
+  for (const FabricLook& one : fabric_looks())
+    if (one.fabric == fabric) return one.look;
+  return fabric_looks().front().look;
 }
 
 ClothLook dyed(const ClothLook& look, const Vec3f& colour) {
@@ -174,7 +200,7 @@ Vec3f thread_colour(const ClothLook& look, bool right_side, const Vec2& point, c
     // The diagonal ribs, as cosines, where threads are too fine.
     const double diagonal = (threads_at.x() - threads_at.y() + 0.5) / twill_repeat;
     const float rib = ribs * std::cos(2.0f * pi * static_cast<float>(diagonal - std::floor(diagonal)));
-    far += 0.32f * rib * (right_side ? 1.0f : -1.0f) * (look.weft - look.warp) + 0.06f * rib * mean;
+    far += rib_hue * rib * (right_side ? 1.0f : -1.0f) * (look.weft - look.warp) + rib_shade * rib * mean;
   }
   return mix(far, close, threads).cwiseMax(0.0f);
 }

@@ -14,11 +14,13 @@ constexpr float pixel_filter = 0.85f;  // half width of the tent, in pixels
 constexpr float grid_filter = 0.75f;   // the grid's box filter, in pixels; the tent adds to it
 constexpr float last_bounce = 0.6f;    // share of the sky that is assumed to reach the surface after the last
 constexpr float least_albedo = 0.02f;  // by which a highlight is divided
+constexpr float grazing_share = 0.3f;
 // Of sewing as it is seen, m, and how much darker or less see-through it is.
 constexpr float seam_width = 6e-4f, seam_depth = 0.5f;
 constexpr double seam_seen_m = 0.003;
 constexpr float stitch_inside = 2e-3f, stitch_width = 5e-4f, stitch_period = 4e-3f, stitch_length = 2.8e-3f,
-                stitch_opacity = 0.8f, hem_line = 6e-4f, hem_seen = 2e-3f;
+                stitch_opacity = 0.8f, hem_line = 6e-4f, hem_seen = 2e-3f, hem_depth_outside = 0.15f,
+                hem_depth_inside = 0.4f;
 const Vec3f ground_albedo(0.55f, 0.55f, 0.55f);
 const Vec3f background_top(0.60f, 0.62f, 0.64f);
 const Vec3f background_bottom(0.92f, 0.91f, 0.89f);
@@ -137,18 +139,20 @@ Vec3f PathTracer::sewn_colour(const Surface& s, const Vec2& at, const Vec2f& ext
         band_cover(static_cast<float>(std::fmod(edge.along_m, 64 * static_cast<double>(stitch_period))), blur,
                    stitch_period, stitch_length);
     colour = mix(colour, look.stitch, stitch_opacity * stitch);
-    colour *= 1.0f - (s.right_side ? 0.15f : 0.4f) * line_cover(below_hem, blur, hem_line);
+    // Where a hem ends is seen from inside; outside it shows through.
+    colour *= 1.0f - (s.right_side ? hem_depth_outside : hem_depth_inside) * line_cover(below_hem, blur, hem_line);
   }
   return colour;
 }
 
-// The mirrored view blurred by the cloth's roughness: a sample of a cosine lobe around it.  Reflectance rises to 1 at grazing view (Schlick).
+// The mirrored view blurred by the cloth's roughness: a sample of a cosine lobe around it.  Reflectance rises at grazing view as Schlick's does, to
+// grazing_share: yarn is rough, and shadows itself there.
 template <class Sampler>
 Vec3f PathTracer::highlight(const Surface& s, const Vec3f& direction, Sampler& sampler) const {
   const Vec3f view = direction.normalized();
   const float facing = std::clamp(-view.dot(s.normal), 0.0f, 1.0f);
   const float grazing = std::pow(1.0f - facing, 5.0f);
-  const float reflectance = s.look->gloss + (1.0f - s.look->gloss) * 0.3f * grazing;
+  const float reflectance = s.look->gloss + (grazing_share - s.look->gloss) * grazing;
   const Vec3f mirrored = view + 2.0f * facing * s.normal;
   const float power = 2.0f / (s.look->roughness * s.look->roughness);
   const Vec2f u = sampler.next();

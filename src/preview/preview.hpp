@@ -66,6 +66,10 @@ struct Camera {
 // the middle 92 % of the picture.  Throws InputError for numbers that are not finite or an aspect that is not positive.
 Camera frame_subject(const Vec3& low, const Vec3& high, double azimuth_deg, double elevation_deg, double aspect);
 
+// `count` cameras once around the box, the first from the front, all as far away as the farthest of them has to be.  Throws as frame_subject, and
+// InputError for a negative count.
+std::vector<Camera> turntable(const Vec3& low, const Vec3& high, double elevation_deg, double aspect, int count);
+
 // The projection of `point` into a picture of that size: pixels from the left and from the top, and the distance along the viewing
 // direction in metres, which is <= 0 behind the eye (then x and y are meaningless).
 Vec3 project(const Camera& camera, int width, int height, const Vec3& point);

@@ -184,7 +184,6 @@ Timing timing_of(const std::filesystem::path& folder) {
 
 // 30 cm around a point, from the front and a little from its left.
 Image close_up(const PreviewScene& scene, const Vec3& point) {
-  if (!point.allFinite()) throw InputError("", "close-up", "a point", "a number that is not finite");
   RenderOptions options;
   options.width = options.height = 1080;
   options.samples = 32;
@@ -196,15 +195,20 @@ Image close_up(const PreviewScene& scene, const Vec3& point) {
 constexpr int turntable_frames = 90;
 constexpr double turntable_fps = 15;
 
-void film_turntable(const std::string& path, const PreviewScene& scene, const std::array<Vec3, 2>& box,
-                    const RenderOptions& options, const std::function<bool()>& stop) {
+// Of the cloth at x.
+void film_turntable(const std::string& path, const PreviewScene& scene, const Vec3s& x, const RenderOptions& options,
+                    const std::function<bool()>& stop) {
+  std::array<Vec3, 2> box{Vec3::Constant(1e30), Vec3::Constant(-1e30)};
+  grow(box, x);
+  const Vec3 margin = Vec3::Constant(0.05);
+  const std::vector<Camera> cameras = turntable(box[0] - margin, box[1] + margin, 8,
+                                                static_cast<double>(options.width) / options.height, turntable_frames);
   Renderer renderer(options);
-  const double aspect = static_cast<double>(options.width) / options.height;
   write_mp4(
       path, turntable_frames, turntable_fps,
       [&](int k) {
         if (stop && stop()) throw Error(ErrorKind::interrupted, "interrupted while the film was made");
-        return renderer.render(scene, frame_subject(box[0], box[1], 360.0 * k / turntable_frames, 8, aspect));
+        return renderer.render(scene, cameras[static_cast<std::size_t>(k)]);
       },
       stop);
 }
@@ -229,6 +233,8 @@ PictureOptions studio_pictures() {
 void picture_run(const std::string& directory, const PictureOptions& options,
                  const std::function<void(double)>& progress, const std::function<bool()>& stop) {
   require_pictures();
+  if (options.close_up_m && !options.close_up_m->allFinite())
+    throw InputError("", "close-up", "a point of three finite numbers", "one that is not finite");
   const std::filesystem::path folder(directory);
   Take sewing, cloth, body;
   const bool sewn = sewing.open(folder, "sewing", options.style), draped = cloth.open(folder, "cloth", options.style),
@@ -279,6 +285,12 @@ void picture_run(const std::string& directory, const PictureOptions& options,
   write_png((folder / "preview.png").string(), three_views(scene, x, 0, sheet));
   scene.red_segments.clear();
   if (options.close_up_m) write_png((folder / "close-up.png").string(), close_up(scene, *options.close_up_m));
+  RenderOptions film;
+  film.width = options.film_width;
+  film.height = options.film_height;
+  film.samples = options.film_samples;
+  film.display_edge_m = options.film_edge_m;
+  if (options.turntable) film_turntable((folder / "turntable.mp4").string(), scene, x, film, stop);
   const Timing timing = timing_of(folder);
   if (draped && !options.frames.empty()) {
     std::vector<Image> pictures;
@@ -316,17 +328,6 @@ void picture_run(const std::string& directory, const PictureOptions& options,
     const double seconds = (last_frame - still) / timing.fps;
     add_shots(cloth, still, last_frame,
               std::min(static_cast<int>(std::lround(options.film_fps * seconds)), options.most_motion_frames), shots);
-  }
-  RenderOptions film;
-  film.width = options.film_width;
-  film.height = options.film_height;
-  film.samples = options.film_samples;
-  film.display_edge_m = options.film_edge_m;
-  if (options.turntable) {
-    std::array<Vec3, 2> held{Vec3::Constant(1e30), Vec3::Constant(-1e30)};
-    grow(held, x);
-    const Vec3 around = Vec3::Constant(0.05);
-    film_turntable((folder / "turntable.mp4").string(), scene, {held[0] - around, held[1] + around}, film, stop);
   }
   if (!options.film) return;
   Renderer renderer(film);

@@ -27,7 +27,7 @@ std::vector<Fabric> fabrics_of(const Scene& scene, std::size_t k, const ClothMes
     const PanelCloth& own = mesh.panel_cloth[p];
     if (!own.fabric.empty()) fabrics[p] = fabric_preset(own.fabric, "", "fabric");
     if (!own.interfacing.fabric.empty()) interfacing[p] = fabric_preset(own.interfacing.fabric, "", "interfacing");
-    apart_m[p] = own.interfacing.apart_m;
+    apart_m[p] = own.interfacing.apart_m.value_or(fused_apart_m);
   }
   for (const ScenePanel& panel : cloth.panels) {
     const auto place = std::find(mesh.panel_names.begin(), mesh.panel_names.end(), panel.name);
@@ -43,6 +43,10 @@ std::vector<Fabric> fabrics_of(const Scene& scene, std::size_t k, const ClothMes
     if (panel.fabric) fabrics[p] = *panel.fabric;
     if (panel.interfacing) interfacing[p] = panel.interfacing;
     if (panel.interfacing_mm) apart_m[p] = 1e-3 * *panel.interfacing_mm;
+    if (panel.interfacing_mm && !interfacing[p])
+      throw InputError("cloth: panels", "", "an interfacing whose distance it is",
+                       "none, neither here nor in the pattern")
+          .of(path_of_cloth(k) + "/panels" + pointer_step(panel.name) + "/interfacing_mm");
   }
   for (std::size_t p = 0; p < fabrics.size(); ++p)
     if (interfacing[p]) fabrics[p] = fused(fabrics[p], *interfacing[p], apart_m[p]);

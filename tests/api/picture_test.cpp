@@ -75,9 +75,10 @@ TEST(Picture, OfARunAsInAStudio) {
   run.finish();
   EXPECT_THROW(preview(scratch / "run", {.style = "oil"}), InputError);
   EXPECT_FALSE(std::filesystem::exists(scratch / "run/preview.png"));
-  preview(scratch / "run", {.style = "studio", .close_up_m = Point{0, 0.1, 0}});
+  preview(scratch / "run", {.style = "studio", .close_up_m = Point{0, 0.1, 0}, .film = false});
   EXPECT_EQ(size_of(scratch.get("run/close-up.png")), (std::array<std::uint32_t, 2>{1080, 1080}));
-  EXPECT_EQ(size_of(scratch.get("run/preview.png"))[1], 1080u);
+  EXPECT_EQ(size_of(scratch.get("run/preview.png")), (std::array<std::uint32_t, 2>{1918, 1080}));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "run/preview.mp4"));
 }
 
 }  // namespace

@@ -99,13 +99,18 @@ TEST(Run, WritesTheFilesOfTheContractAndVerifyAgrees) {
     EXPECT_NEAR(judged.at("stretch").at(part).number(), report.at("stretch").at(part).number(), 1e-4) << part;
 }
 
-TEST(Run, PicturesAsInAStudio) {
-  const Scratch scratch;
+// A sheet that hangs by its top for three frames, in folder a.
+void run_hanging_sheet(const Scratch& scratch) {
   scratch.put(
       "s.json",
       R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05}, "pins": [{"near_m": [0, 0.1, 0]}]}],
     "time": {"seconds": 0.1}})");
   ASSERT_EQ(run_toile(scratch, {"run", "s.json", "--out", "a", "--no-preview"}).exit_code, 0);
+}
+
+TEST(Run, PicturesAsInAStudio) {
+  const Scratch scratch;
+  run_hanging_sheet(scratch);
   const auto expect_drawn = [&](const std::vector<std::string>& words, const std::vector<const char*>& keys) {
     const Ended drawn = run_toile(scratch, words);
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
@@ -126,11 +131,7 @@ TEST(Run, PicturesAsInAStudio) {
 
 TEST(Run, TheJudgeNamesAndDrawsCrossings) {
   const Scratch scratch;
-  scratch.put(
-      "s.json",
-      R"({"cloth": [{"grid": {"width_m": 0.2, "height_m": 0.2, "edge_m": 0.05}, "pins": [{"near_m": [0, 0.1, 0]}]}],
-    "time": {"seconds": 0.1}})");
-  ASSERT_EQ(run_toile(scratch, {"run", "s.json", "--out", "a", "--no-preview"}).exit_code, 0);
+  run_hanging_sheet(scratch);
   // In frame 2 the two ends of an edge are put on either side of the middle.
   std::string cache = scratch.get("a/cloth.pc2");
   std::int32_t points = 0;

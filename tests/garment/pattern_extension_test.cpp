@@ -79,7 +79,9 @@ TEST(PatternExtension, IsRefusedWhereItCannotBeMeant) {
   expect_error(with(R"({"panels": {"front": {"rest_stretch_u": 0.1}}})"), {"rest_stretch_u", "0.2 to 5", "0.1"});
   expect_error(with(R"({"panels": {"front": {"fabric": "denin"}}})"), {"fabric", "denim"});
   expect_error(with(R"({"panels": {"front": {"interfacing": "cottn"}}})"), {"interfacing", "cotton"});
-  expect_error(with(R"({"panels": {"front": {"interfacing_mm": -1}}})"), {"interfacing_mm", "0 to 10", "-1"});
+  expect_error(with(R"({"panels": {"front": {"interfacing": "silk", "interfacing_mm": -1}}})"),
+               {"interfacing_mm", "0 to 10", "-1"});
+  expect_error(with(R"({"panels": {"front": {"interfacing_mm": 1}}})"), {"interfacing_mm", "`interfacing` beside it"});
   const auto folds = [](const std::string& fold) {
     return with(R"({"panels": {"front": {"folds": [)" + fold + "]}}}");
   };

@@ -57,6 +57,30 @@ TEST(Camera, FramesAPointFromAFiniteDistance) {
   EXPECT_TRUE(camera.eye.allFinite());
 }
 
+// A camera that was framed anew for each view would come and go as the box turns.
+TEST(Camera, ATurntableKeepsItsDistanceAndHoldsTheBoxAllTheWay) {
+  const Vec3 low(-0.3, 0.8, -0.1), high(0.5, 1.5, 0.2);
+  const std::vector<Camera> cameras = turntable(low, high, 8, 0.75, 24);
+  ASSERT_EQ(cameras.size(), 24u);
+  EXPECT_LT(
+      (cameras[0].eye - frame_subject(low, high, 0, 8, 0.75).eye).cross(cameras[0].eye - cameras[0].target).norm(),
+      1e-9);
+  for (const Camera& camera : cameras) {
+    EXPECT_NEAR((camera.eye - camera.target).norm(), (cameras[0].eye - cameras[0].target).norm(), 1e-12);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 p((corner & 1) ? high.x() : low.x(), (corner & 2) ? high.y() : low.y(),
+                   (corner & 4) ? high.z() : low.z());
+      const Vec3 seen = project(camera, 300, 400, p);
+      EXPECT_GT(seen.x(), 0.04 * 300 - 1e-6);
+      EXPECT_LT(seen.x(), 0.96 * 300 + 1e-6);
+      EXPECT_GT(seen.y(), 0.04 * 400 - 1e-6);
+      EXPECT_LT(seen.y(), 0.96 * 400 + 1e-6);
+    }
+  }
+  EXPECT_THROW(turntable(low, high, 8, 0.75, -1), InputError);
+  EXPECT_TRUE(turntable(low, high, 8, 0.75, 0).empty());
+}
+
 TEST(Camera, RefusesWhatCannotBeFramed) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(frame_subject({0, 0, nan}, {1, 1, 1}, 0, 0, 1), InputError);

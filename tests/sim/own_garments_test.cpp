@@ -140,6 +140,23 @@ TEST(OwnGarmentsTogether, InterfacingIsFusedToThePanelsThatHaveIt) {
   const LoadedCloth own = load_cloth(shirt, 0, [&](const std::string&) { return text; });
   EXPECT_NEAR(bend_of(own, "band_front"), 7e-6 + 1.2e-6, 1e-15);
   EXPECT_NEAR(bend_of(own, "band_back"), 7e-6, 1e-15);
+  const Scene wider = parse_scene(
+      R"({"cloth": [{"pattern": "p.json", "resolution_cm": 3, "panels": {"band_front": {"interfacing_mm": 1}}}]})",
+      "s.json");
+  const LoadedCloth apart = load_cloth(wider, 0, [&](const std::string&) { return text; });
+  EXPECT_NEAR(bend_of(apart, "band_front"), 8.2e-6 + 1e-6 * 350 * 1200 / 1550, 1e-12)
+      << "the pattern's, at the scene's distance";
+}
+
+TEST(OwnGarmentsTogether, ADistanceWithoutInterfacingIsRefused) {
+  try {
+    loaded("man_pants", R"(, "panels": {"waistband_front": {"interfacing_mm": 1}})");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("/cloth/0/panels/waistband_front/interfacing_mm"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("expected an interfacing"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace
