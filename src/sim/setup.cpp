@@ -44,9 +44,9 @@ std::vector<Fabric> fabrics_of(const Scene& scene, std::size_t k, const ClothMes
     if (panel.interfacing) interfacing[p] = panel.interfacing;
     if (panel.interfacing_mm) apart_m[p] = 1e-3 * *panel.interfacing_mm;
     if (panel.interfacing_mm && !interfacing[p])
-      throw InputError("cloth: panels", "", "an interfacing whose distance it is",
+      throw InputError("cloth: panels", "/interfacing_mm", "an interfacing whose distance it is",
                        "none, neither here nor in the pattern")
-          .of(path_of_cloth(k) + "/panels" + pointer_step(panel.name) + "/interfacing_mm");
+          .of(path_of_cloth(k) + "/panels" + pointer_step(panel.name));
   }
   for (std::size_t p = 0; p < fabrics.size(); ++p)
     if (interfacing[p]) fabrics[p] = fused(fabrics[p], *interfacing[p], apart_m[p]);
