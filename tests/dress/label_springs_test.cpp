@@ -10,7 +10,9 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace toile::internal {
 namespace {
@@ -62,46 +64,57 @@ TEST(Sewing, ABandThatIsHeldDrawsHeavierPanelsUpToItself) {
   EXPECT_LT(fallen_m[1], 0.02);
 }
 
-// A bodice of 30 cm above wide tiers: neither its lower end nor its neckline is drawn down to them.
+// A bodice of 30 cm above wide tiers: its lower end is not drawn down to them.
 TEST(Sewing, ABodiceThatIsKeptSinksNoFartherThanFiveCentimetres) {
   Pattern pattern = two_tubes(test::tube_pattern(0.2, 0.3, 0.1, Vec3(0, 0.2, 0)),
                               test::tube_pattern(0.2, 0.5, 0.1, Vec3(0, -0.4, 0)));
-  for (const std::size_t panel : {0, 1}) pattern.panels[panel].edges[2].label = "left_collar";
-  std::array<double, 2> waist_m{}, collar_m{};
+  std::array<double, 2> fallen_m{};
   for (const bool kept : {false, true}) {
     SewingOptions options;
     options.keeps_bodice = kept;
     SewingRun run(pattern, 0.02, nullptr, options);
     run.run(20);
     ASSERT_EQ(run.sewing->status(), SewingStatus::sewing);
-    const auto fallen_m = [&](const std::string& label) {
-      return height_of(run.garment, label, run.garment.x) - height_of(run.garment, label, run.sewing->state().x);
-    };
-    waist_m[kept ? 1 : 0] = fallen_m("lower_interface");
-    collar_m[kept ? 1 : 0] = fallen_m("left_collar");
+    fallen_m[kept ? 1 : 0] = height_of(run.garment, "lower_interface", run.garment.x) -
+                             height_of(run.garment, "lower_interface", run.sewing->state().x);
     run.run(300);
     expect_closed_without_crossings(run);
   }
-  EXPECT_GT(waist_m[0], 0.09);
-  EXPECT_LT(waist_m[1], 0.06) << "it may sink by 5 cm";
-  EXPECT_GT(collar_m[0], 0.09);
-  EXPECT_LT(collar_m[1], 0.06);
+  EXPECT_GT(fallen_m[0], 0.09);
+  EXPECT_LT(fallen_m[1], 0.06) << "it may sink by 5 cm";
 }
 
-// Where no panel draws, it goes nowhere of itself, and not a bit changes.
-TEST(Sewing, ABodiceToWhichNothingIsSewnIsNotKept) {
-  Pattern pattern = test::tube_pattern(0.2, 0.3, 0.1, Vec3(0, 0.2, 0));
-  for (Panel& panel : pattern.panels) {
-    panel.edges[0].label = "lower_interface";
-    panel.edges[2].label = "left_collar";
-  }
-  SewingOptions options;
-  SewingRun free(pattern, 0.02, nullptr, options);
-  options.keeps_bodice = true;
-  SewingRun kept(pattern, 0.02, nullptr, options);
-  free.run(20);
-  kept.run(20);
-  EXPECT_EQ(free.sewing->state().x, kept.sewing->state().x);
+// Waist and neckline of a bodice to whose waist something is sewn, and nothing else: once 5 cm below their places, not before.
+TEST(LabelSprings, OfABodiceHoldWaistAndNecklineFromFiveCentimetresBelow) {
+  const auto tube = test::tube_pattern(0.2, 0.3, 0.1, Vec3(0, 0.2, 0));
+  Pattern sewn = two_tubes(tube, test::tube_pattern(0.2, 0.5, 0.1, Vec3(0, -0.4, 0))), alone = tube;
+  for (Pattern* pattern : {&sewn, &alone})
+    for (const std::size_t panel : {0, 1}) {
+      pattern->panels[panel].edges[0].label = "lower_interface";
+      pattern->panels[panel].edges[1].label = "left_armhole";
+      pattern->panels[panel].edges[2].label = "left_collar";
+    }
+  EXPECT_TRUE(LabelSprings::of_bodice(SewingRun(alone, 0.02, nullptr, {}).garment).empty())
+      << "no panel draws, and it goes nowhere of itself";
+
+  const GarmentMesh garment = SewingRun(sewn, 0.02, nullptr, {}).garment;
+  std::set<Index> labelled;
+  for (const LabelledEdge& edge : garment.labels)
+    if (edge.label != "left_armhole") labelled.insert(edge.particles.begin(), edge.particles.end());
+  const auto held_at = [&](double below_m) {
+    ClothState state{garment.x, Vec3s(garment.x.size(), Vec3::Zero())};
+    for (Vec3& x : state.x) x.y() -= below_m;
+    std::vector<LinearSpring> springs;
+    LabelSprings::of_bodice(garment).append(state, 1, springs);
+    std::set<Index> held;
+    for (const LinearSpring& spring : springs) {
+      EXPECT_GT(spring.force_N * spring.direction.y(), 0);
+      held.insert(spring.particle[0]);
+    }
+    return held;
+  };
+  EXPECT_EQ(held_at(0.06), labelled);
+  EXPECT_TRUE(held_at(0.04).empty());
 }
 
 // A band of 75 cm, 20 cm high, is closed around a ball of 94 cm: it goes up, to where it is as wide as the ball, and its upper edge, which is
