@@ -99,7 +99,9 @@ void add_batch_options(CLI::App& command, CommandLine& line) {
 }
 
 void add_garment_options(CLI::App& command, CommandLine& line) {
-  command.add_option("--fabric", line.fabric, "silk, cotton, wool, denim or knit");
+  command.add_option("--fabric", line.fabric,
+                     "a preset: silk, cotton, wool, denim, knit, chiffon, satin, jersey, rib, poplin, linen, flannel, "
+                     "suiting, canvas, leather or neoprene");
   command.add_option("--resolution", line.resolution_cm, "Edge length of the cloth's triangles, cm")
       ->check(CLI::Range(0.1, 20.0));
   command.add_option("--hem", line.hem_mm, "Width of a hem on a pattern's open edges, mm (default: none)")

@@ -33,6 +33,11 @@ constexpr Field fields[] = {
      "How much cloth bent along one thread wants to bend the other way along the other; in [0, 0.5]."},
     {"bend_uv_N_m", &Fabric::bend_uv_N_m,
      "Rigidity against twist, N·m; 0: (1 - bend_poisson) / 2 times the mean of the other two."},
+    {"bend_friction_N", &Fabric::bend_friction_N,
+     "Moment per width that rubbing threads hold, N; half of KES-F's 2HB."},
+    {"bend_friction_curvature_per_m", &Fabric::bend_friction_curvature_per_m, "Curvature at which it is reached, 1/m."},
+    {"bend_set", &Fabric::bend_set, "Share of the bending rigidity that follows a bend; in [0, 1]."},
+    {"bend_set_s", &Fabric::bend_set_s, "Time over which it follows, s."},
     {"stretch_damping_s", &Fabric::stretch_damping_s, "Damping / stiffness of stretch, s."},
     {"shear_damping_s", &Fabric::shear_damping_s, "Damping / stiffness of shear, s."},
     {"bend_damping_s", &Fabric::bend_damping_s, "Damping / stiffness of bending, s."},
@@ -41,11 +46,12 @@ constexpr Field fields[] = {
 };
 
 // For editors and type checkers; a test compares it with the fields.
-#define TOILE_FABRIC_FIELDS                                                                                  \
-  "name: str = ..., density_kg_per_m2: float = ..., stretch_u_N_per_m: float = ..., "                        \
-  "stretch_v_N_per_m: float = ..., shear_N_per_m: float = ..., compression_ratio: float = ..., "             \
-  "strain_limit: float = ..., bend_u_N_m: float = ..., bend_v_N_m: float = ..., bend_poisson: float = ..., " \
-  "bend_uv_N_m: float = ..., stretch_damping_s: float = ..., shear_damping_s: float = ..., "                 \
+#define TOILE_FABRIC_FIELDS                                                                                        \
+  "name: str = ..., density_kg_per_m2: float = ..., stretch_u_N_per_m: float = ..., "                              \
+  "stretch_v_N_per_m: float = ..., shear_N_per_m: float = ..., compression_ratio: float = ..., "                   \
+  "strain_limit: float = ..., bend_u_N_m: float = ..., bend_v_N_m: float = ..., bend_poisson: float = ..., "       \
+  "bend_uv_N_m: float = ..., bend_friction_N: float = ..., bend_friction_curvature_per_m: float = ..., "           \
+  "bend_set: float = ..., bend_set_s: float = ..., stretch_damping_s: float = ..., shear_damping_s: float = ..., " \
   "bend_damping_s: float = ..., friction: float = ..., thickness_m: float = ..."
 
 const Field& field(std::string_view name) {

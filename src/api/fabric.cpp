@@ -21,6 +21,10 @@ To converted(const From& from) {
   to.bend_v_N_m = from.bend_v_N_m;
   to.bend_poisson = from.bend_poisson;
   to.bend_uv_N_m = from.bend_uv_N_m;
+  to.bend_friction_N = from.bend_friction_N;
+  to.bend_friction_curvature_per_m = from.bend_friction_curvature_per_m;
+  to.bend_set = from.bend_set;
+  to.bend_set_s = from.bend_set_s;
   to.stretch_damping_s = from.stretch_damping_s;
   to.shear_damping_s = from.shear_damping_s;
   to.bend_damping_s = from.bend_damping_s;

@@ -156,6 +156,8 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
       model.plate_compliance.push_back(
           plate_compliance(model.mesh.uv[t], rigidity[rigidity.size() == 1 ? 0 : at(model.mesh.panel[t])]));
   }
+  if (plates && std::any_of(fabrics.begin(), fabrics.end(), [](const Fabric& f) { return bend_hysteresis(f).any(); }))
+    for (const Fabric& fabric : fabrics) model.hysteresis.push_back(bend_hysteresis(fabric));
   if (!options.paper_scaling) finish_edges(model, fabrics, plates);
   model.bend.reserve(model.topology.hinges.size());
   for (const Hinge& hinge : model.topology.hinges) {

@@ -1,6 +1,7 @@
 // assembly/cloth_model.hpp: the integrator's model of a cloth: particles, elements, masses.  Built once, then constant.
 #pragma once
 #include "material/bend.hpp"
+#include "material/bend_hysteresis.hpp"
 #include "material/fabric.hpp"
 #include "material/membrane.hpp"
 #include "material/plate.hpp"
@@ -58,6 +59,7 @@ struct ClothModel {
   std::vector<MembraneStiffness> stiffness;        // [panel], or one for all
   std::vector<BendRest> bend;                      // [hinge]
   std::vector<Mat3> plate_compliance;              // [triangle], rad/(N m); empty: hinges alone
+  std::vector<BendHysteresis> hysteresis;          // [panel], or one for all; empty: bends are forgotten
   std::vector<EdgeThread> threads;                 // along mesh.finished
   std::vector<double> mass_kg;                     // [particle]
   std::vector<double> thickness_m;                 // [particle] contact distance of two layers

@@ -46,6 +46,7 @@ Elements::Elements(const ClothModel& model)
     plates_.emplace(model);
     turned_.resize(hinges_.size());
     plate_moment_.resize(hinges_.size());
+    if (!model.hysteresis.empty()) memory_.emplace(model);
   }
   pattern_ = std::make_shared<const BlockPattern>(pattern_of_cloth(model.particle_count(), triangles_, hinges_));
   if (!model.threads.empty()) threads_.emplace(model, *pattern_);
@@ -130,7 +131,21 @@ void Elements::evaluate(const ClothModel& model, const ClothState& state) {
     turned_[h] =
         bend_[h].degenerate ? 0 : bend_[h].theta - bend_rest_[h].theta_0 + bend_rest_[h].tau_s * bend_[h].theta_dot;
   });
+  if (memory_) memory_->subtract_rest(turned_);
   plates_->solve(turned_, plate_moment_);
+}
+
+void Elements::follow_bends(const ClothModel& model, std::span<const Vec3> x, double h_s) {
+  if (!memory_) return;
+  parallel_for(hinges_.size(), element_grain, [&](std::size_t h) {
+    std::array<Vec3, 4> corners;
+    for (std::size_t c = 0; c < 4; ++c) corners[c] = x[at(hinges_[h].particle[c])];
+    const BendResponse still = bend_response({}, corners, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
+    turned_[h] = still.degenerate ? 0 : still.theta - bend_rest_[h].theta_0;
+  });
+  memory_->subtract_rest(turned_);
+  plates_->solve(turned_, plate_moment_);
+  memory_->follow(model, plate_moment_, h_s);
 }
 
 double Elements::energy_J() {
@@ -138,6 +153,7 @@ double Elements::energy_J() {
   if (plates_) {
     for (std::size_t h = 0; h < hinges_.size(); ++h)
       turned_[h] = bend_[h].degenerate ? 0 : bend_[h].theta - bend_rest_[h].theta_0;
+    if (memory_) memory_->subtract_rest(turned_);
     std::vector<double> moment(hinges_.size());
     plates_->solve(turned_, moment);
     for (std::size_t h = 0; h < hinges_.size(); ++h) energy += 0.5 * moment[h] * turned_[h];

@@ -6,6 +6,7 @@
 //                       are the same at any thread count; a halved step evaluates no element again
 //   subtract_stiffness  K y element by element in double, for the right-hand side (momentum is kept to rounding)
 #pragma once
+#include "assembly/bend_memory.hpp"
 #include "assembly/block_kernels.hpp"
 #include "assembly/cloth_model.hpp"
 #include "assembly/edge_threads.hpp"
@@ -37,6 +38,10 @@ class Elements {
   // f_i -= (K displacement + D velocity)_i, with D likewise; an empty velocity is none.
   void subtract_stiffness(std::span<const Vec3> displacement, std::span<const Vec3> velocity, std::span<Vec3> f) const;
 
+  // Bends that stay follow those at x, where a step of h_s has ended (bend_memory.hpp).  Costs nothing where fabrics have none.
+  void follow_bends(const ClothModel& model, std::span<const Vec3> x, double h_s);
+  const BendMemory* bend_memory() const { return memory_ ? &*memory_ : nullptr; }
+
   // Off-diagonal blocks of h D + h^2 K.  A.grounded() must hold the mass; the diagonal is updated here.
   template <class T>
   void assemble(double h_s, BlockMatrix<T>& A);
@@ -55,6 +60,12 @@ class Elements {
   // Per-element access for diagnosis and tests.
   MembraneResponse membrane(Index triangle) const;
   const BendResponse& bend(Index hinge) const { return bend_[static_cast<std::size_t>(hinge)]; }
+
+  // State that outlives a step (core/state_archive.hpp).
+  template <class Archive>
+  void remember(Archive& archive) {
+    if (memory_) archive(*memory_);
+  }
 
  private:
   void add_incidence(const ClothModel& model);
@@ -84,6 +95,7 @@ class Elements {
   mutable std::vector<double> of_hinges_;
   std::optional<EdgeThreads> threads_;  // none without finished edges
   std::optional<PlateMoments> plates_;
+  std::optional<BendMemory> memory_;           // none where no fabric remembers its bends
   std::vector<double> turned_, plate_moment_;  // [hinge], empty without plates
   std::vector<double> beyond_linear_;          // [triangle]
   void gather(std::span<Vec3> f, double sign) const;

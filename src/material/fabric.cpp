@@ -9,62 +9,6 @@
 namespace toile::internal {
 namespace {
 
-// Where each number comes from: docs/theory/fabrics.md.  Cotton is the default member values of Fabric.
-const std::array<Fabric, 5>& presets() {
-  static const std::array<Fabric, 5> list = {
-      Fabric{.name = "silk",
-             .density_kg_per_m2 = 0.07,
-             .stretch_u_N_per_m = 1200,
-             .stretch_v_N_per_m = 1000,
-             .shear_N_per_m = 40,
-             .bend_u_N_m = 1.2e-6,
-             .bend_v_N_m = 1e-6,
-             .stretch_damping_s = 1e-3,
-             .shear_damping_s = 1e-3,
-             .bend_damping_s = 2e-3,
-             .friction = 0.25,
-             .thickness_m = 2e-3},
-      Fabric{},
-      Fabric{.name = "wool",
-             .density_kg_per_m2 = 0.23,
-             .stretch_u_N_per_m = 2000,
-             .stretch_v_N_per_m = 1200,
-             .shear_N_per_m = 40,
-             .bend_u_N_m = 1.3e-5,
-             .bend_v_N_m = 1e-5,
-             .stretch_damping_s = 3e-3,
-             .shear_damping_s = 3e-3,
-             .bend_damping_s = 2e-3,
-             .friction = 0.40,
-             .thickness_m = 3e-3},
-      Fabric{.name = "denim",
-             .density_kg_per_m2 = 0.35,
-             .stretch_u_N_per_m = 8000,
-             .stretch_v_N_per_m = 6000,
-             .shear_N_per_m = 150,
-             .bend_u_N_m = 8e-5,
-             .bend_v_N_m = 5e-5,
-             .stretch_damping_s = 3e-3,
-             .shear_damping_s = 3e-3,
-             .bend_damping_s = 2e-3,
-             .friction = 0.50,
-             .thickness_m = 3e-3},
-      Fabric{.name = "knit",
-             .density_kg_per_m2 = 0.18,
-             .stretch_u_N_per_m = 350,
-             .stretch_v_N_per_m = 250,
-             .shear_N_per_m = 90,
-             .bend_u_N_m = 7e-6,
-             .bend_v_N_m = 5e-6,
-             .stretch_damping_s = 5e-3,
-             .shear_damping_s = 5e-3,
-             .bend_damping_s = 2e-3,
-             .friction = 0.40,
-             .thickness_m = 3e-3},
-  };
-  return list;
-}
-
 std::string number(double value) {
   std::array<char, 32> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
@@ -72,22 +16,6 @@ std::string number(double value) {
 }
 
 }  // namespace
-
-std::span<const Fabric> fabric_presets() { return presets(); }
-
-const Fabric& fabric_preset(std::string_view name, std::string_view where, std::string_view place) {
-  for (const Fabric& fabric : presets())
-    if (fabric.name == name) return fabric;
-
-  std::array<std::string_view, 5> names;
-  std::string expected = "a fabric, one of ";
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    names[i] = presets()[i].name;
-    expected.append(i == 0 ? "" : ", ").append(names[i]);
-  }
-  expected.append("; nearest is \"").append(nearest_name(name, names.data(), names.size())).append("\"");
-  throw InputError(where, place, expected, "\"" + printable(name) + "\"");
-}
 
 Fabric fused(const Fabric& cloth, const Fabric& interfacing, double apart_m) {
   const auto twist = [](const Fabric& one) {
@@ -104,6 +32,7 @@ Fabric fused(const Fabric& cloth, const Fabric& interfacing, double apart_m) {
   both.shear_N_per_m += interfacing.shear_N_per_m;
   both.bend_u_N_m += interfacing.bend_u_N_m + sandwich(cloth.stretch_u_N_per_m, interfacing.stretch_u_N_per_m);
   both.bend_v_N_m += interfacing.bend_v_N_m + sandwich(cloth.stretch_v_N_per_m, interfacing.stretch_v_N_per_m);
+  both.bend_friction_N += interfacing.bend_friction_N;
   both.bend_uv_N_m = twist(cloth) + twist(interfacing) + sandwich(cloth.shear_N_per_m, interfacing.shear_N_per_m);
   return both;
 }
@@ -132,6 +61,13 @@ void check_fabric(const Fabric& fabric, std::string_view where, std::string_view
     throw InputError(where, std::string(place) + (place.empty() ? "" : "/") + "bend_poisson", "at most 0.5",
                      number(fabric.bend_poisson));
   check("bend_uv_N_m", fabric.bend_uv_N_m, true);
+  check("bend_friction_N", fabric.bend_friction_N, true);
+  check("bend_friction_curvature_per_m", fabric.bend_friction_curvature_per_m, false);
+  check("bend_set", fabric.bend_set, true);
+  if (fabric.bend_set > 1)
+    throw InputError(where, std::string(place) + (place.empty() ? "" : "/") + "bend_set", "at most 1",
+                     number(fabric.bend_set));
+  check("bend_set_s", fabric.bend_set_s, false);
   check("stretch_damping_s", fabric.stretch_damping_s, true);
   check("shear_damping_s", fabric.shear_damping_s, true);
   check("bend_damping_s", fabric.bend_damping_s, true);

@@ -1,4 +1,4 @@
-// material/fabric.hpp: the material parameters of a cloth, in SI, with five presets.  Sources: docs/theory/fabrics.md
+// material/fabric.hpp: the material parameters of a cloth, in SI, and presets.  Sources: docs/theory/fabrics.md
 //
 // A member has the name of its key in a scene.  Stiffness is force per width (stretch, shear) and moment per width per
 // curvature (bend), so none of them depends on the mesh.
@@ -19,6 +19,10 @@ struct Fabric {
   double bend_u_N_m = 1.25e-5, bend_v_N_m = 1.25e-5;
   double bend_poisson = 0.3;  // how much bending along one thread bends the other way along the other; in [0, 0.5]
   double bend_uv_N_m = 0;     // rigidity against twist; 0: (1 - bend_poisson)/2 times the mean of the other two
+  // Bending that stays (material/bend_hysteresis.hpp).  Rubbing threads hold a moment per width of up to bend_friction_N, half of KES-F's
+  // 2HB, which they reach within bend_friction_curvature_per_m; bend_set of the rigidity follows the bend over bend_set_s.
+  double bend_friction_N = 0, bend_friction_curvature_per_m = 20;
+  double bend_set = 0, bend_set_s = 60;
   double stretch_damping_s = 2e-3, shear_damping_s = 2e-3, bend_damping_s = 2e-3;  // k_d / k
   double friction = 0.35;
   double thickness_m = 2.5e-3;  // rest distance of two layers in contact, and of cloth from a body
@@ -30,7 +34,7 @@ struct PairFriction {
   double friction = 0;
 };
 
-std::span<const Fabric> fabric_presets();  // silk, cotton, wool, denim, knit
+std::span<const Fabric> fabric_presets();  // silk, cotton, wool, denim, knit, chiffon ...: fabric_presets.cpp
 
 // Throws InputError(where, place, ...) with the nearest preset when there is none of that name.
 const Fabric& fabric_preset(std::string_view name, std::string_view where, std::string_view place);

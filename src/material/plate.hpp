@@ -17,11 +17,15 @@ namespace toile::internal {
 //    C = | D_1  D_v       |      D_uv = (1 - nu)/2 sqrt(D_u D_v) unless the fabric says otherwise
 //        |           D_uv |
 //
-// A rigidity of zero becomes 1e-12 N m, a ten millionth of cotton's: a moment needs an inverse.
+// A rigidity of zero becomes 1e-12 N m, a ten millionth of cotton's: a moment needs an inverse.  With bending friction it is that against bends
+// too small to make threads slip, C (1 + D_f/D) of bend_hysteresis.hpp.
 Mat3 bending_rigidity(const Fabric& fabric);
 
 // F, rad/(N m), of a triangle with corners uv in m; side k joins corners k and k + 1.  No side is stiffer than a thousand times the
 // largest entry of C, which slivers would be.
 Mat3 plate_compliance(const std::array<Vec2, 3>& uv, const Mat3& rigidity_N_m);
+
+// B = A W^T, m: a curvature (S_uu, S_vv, 2 S_uv) of the triangle turns its three sides by phi = B S.
+Mat3 side_turns(const std::array<Vec2, 3>& uv);
 
 }  // namespace toile::internal

@@ -51,6 +51,8 @@ float warp_share(Weave weave, bool right_side) {
       return right_side ? 1.0f - 1.0f / satin_repeat : 1.0f / satin_repeat;
     case Weave::knit:
       return 1.0f;
+    case Weave::none:
+      return right_side ? 1.0f : 0.0f;
   }
   return 1.0f;
 }
@@ -66,6 +68,7 @@ bool is_warp_over(Weave weave, int warp, int weft) {
     case Weave::satin:
       return modulo(3 * warp - weft, satin_repeat) != 0;
     case Weave::knit:
+    case Weave::none:
       return true;
   }
   return true;
@@ -91,8 +94,8 @@ struct FabricLook {
 };
 
 // By the names of material/fabric.hpp, in the order of ClothLook.  Thicknesses are measured ones, which contact cannot resolve.
-const std::array<FabricLook, 5>& fabric_looks() {
-  static const std::array<FabricLook, 5> looks{{
+const std::array<FabricLook, 16>& fabric_looks() {
+  static const std::array<FabricLook, 16> looks{{
       {"cotton",
        {.weave = Weave::plain,
         .warp = Vec3f(0.19f, 0.28f, 0.43f),
@@ -145,6 +148,120 @@ const std::array<FabricLook, 5>& fabric_looks() {
         .thickness_m = 8e-4f,
         .hem_m = 0.02f,
         .sheen = 0.4f}},
+      {"chiffon",
+       {.weave = Weave::plain,
+        .warp = Vec3f(0.62f, 0.56f, 0.52f),
+        .weft = Vec3f(0.66f, 0.60f, 0.56f),
+        .stitch = Vec3f(0.55f, 0.50f, 0.46f),
+        .thread_m = 1.5e-4f,
+        .uneven = 0.02f,
+        .thickness_m = 1.5e-4f,
+        .hem_m = 0.004f,
+        .sheen = 0.15f}},
+      {"satin",
+       {.weave = Weave::satin,
+        .warp = Vec3f(0.17f, 0.25f, 0.26f),
+        .weft = Vec3f(0.17f, 0.25f, 0.26f),
+        .stitch = Vec3f(0.13f, 0.20f, 0.21f),
+        .thread_m = 1.2e-4f,
+        .uneven = 0.01f,
+        .thickness_m = 2.5e-4f,
+        .hem_m = 0.008f,
+        .sheen = 0.1f,
+        .gloss = 0.08f,
+        .roughness = 0.34f}},
+      {"jersey",
+       {.weave = Weave::knit,
+        .warp = Vec3f(0.42f, 0.42f, 0.42f),
+        .weft = Vec3f(0.42f, 0.42f, 0.42f),
+        .stitch = Vec3f(0.34f, 0.34f, 0.34f),
+        .thread_m = 7e-4f,
+        .uneven = 0.03f,
+        .thickness_m = 6e-4f,
+        .hem_m = 0.02f,
+        .sheen = 0.35f}},
+      {"rib",
+       {.weave = Weave::knit,
+        .warp = Vec3f(0.40f, 0.30f, 0.24f),
+        .weft = Vec3f(0.40f, 0.30f, 0.24f),
+        .stitch = Vec3f(0.33f, 0.25f, 0.20f),
+        .thread_m = 1.6e-3f,
+        .uneven = 0.03f,
+        .thickness_m = 1.1e-3f,
+        .hem_m = 0.02f,
+        .sheen = 0.4f}},
+      {"poplin",
+       {.weave = Weave::plain,
+        .warp = Vec3f(0.60f, 0.61f, 0.63f),
+        .weft = Vec3f(0.60f, 0.61f, 0.63f),
+        .stitch = Vec3f(0.50f, 0.51f, 0.53f),
+        .thread_m = 2e-4f,
+        .uneven = 0.02f,
+        .thickness_m = 5e-4f,
+        .hem_m = 0.012f,
+        .sheen = 0.2f}},
+      {"linen",
+       {.weave = Weave::plain,
+        .warp = Vec3f(0.44f, 0.38f, 0.28f),
+        .weft = Vec3f(0.50f, 0.44f, 0.34f),
+        .stitch = Vec3f(0.38f, 0.33f, 0.25f),
+        .thread_m = 5e-4f,
+        .uneven = 0.16f,
+        .thickness_m = 4e-4f,
+        .hem_m = 0.02f,
+        .sheen = 0.2f}},
+      {"flannel",
+       {.weave = Weave::twill,
+        .warp = Vec3f(0.17f, 0.18f, 0.20f),
+        .weft = Vec3f(0.24f, 0.25f, 0.27f),
+        .stitch = Vec3f(0.18f, 0.19f, 0.21f),
+        .thread_m = 5e-4f,
+        .uneven = 0.12f,
+        .thickness_m = 7.5e-4f,
+        .hem_m = 0.03f,
+        .sheen = 0.7f}},
+      {"suiting",
+       {.weave = Weave::twill,
+        .warp = Vec3f(0.055f, 0.06f, 0.085f),
+        .weft = Vec3f(0.07f, 0.075f, 0.10f),
+        .stitch = Vec3f(0.05f, 0.055f, 0.075f),
+        .thread_m = 3e-4f,
+        .uneven = 0.04f,
+        .thickness_m = 4e-4f,
+        .hem_m = 0.03f,
+        .sheen = 0.35f}},
+      {"canvas",
+       {.weave = Weave::plain,
+        .warp = Vec3f(0.46f, 0.42f, 0.33f),
+        .weft = Vec3f(0.46f, 0.42f, 0.33f),
+        .stitch = Vec3f(0.40f, 0.36f, 0.28f),
+        .thread_m = 7e-4f,
+        .uneven = 0.07f,
+        .thickness_m = 6.8e-4f,
+        .hem_m = 0.02f,
+        .sheen = 0.15f}},
+      {"leather",
+       {.weave = Weave::none,
+        .warp = Vec3f(0.07f, 0.042f, 0.03f),
+        .weft = Vec3f(0.16f, 0.115f, 0.085f),
+        .stitch = Vec3f(0.05f, 0.03f, 0.022f),
+        .thread_m = 1e-3f,
+        .uneven = 0.05f,
+        .thickness_m = 8e-4f,
+        .hem_m = 0.012f,
+        .sheen = 0,
+        .gloss = 0.05f,
+        .roughness = 0.38f}},
+      {"neoprene",
+       {.weave = Weave::knit,
+        .warp = Vec3f(0.05f, 0.055f, 0.06f),
+        .weft = Vec3f(0.05f, 0.055f, 0.06f),
+        .stitch = Vec3f(0.09f, 0.09f, 0.095f),
+        .thread_m = 4e-4f,
+        .uneven = 0.02f,
+        .thickness_m = 3e-3f,
+        .hem_m = 0.015f,
+        .sheen = 0.25f}},
   }};
   return looks;
 }
@@ -182,6 +299,7 @@ Vec3f thread_colour(const ClothLook& look, bool right_side, const Vec2& point, c
   const float uneven = left * (streak(threads_at.y(), threads_at.x(), 3) +
                                (look.weave == Weave::knit ? 0.0f : streak(threads_at.x(), threads_at.y(), 4)));
   const Vec3f mean = (1.0f + uneven) * mean_colour(look, right_side);
+  if (look.weave == Weave::none) return mean;
   const float threads = resolved(blur, size);
   const float ribs = look.weave == Weave::twill ? resolved(blur, 0.7f * twill_repeat * size) : threads;
   if (!(threads > 0) && !(ribs > 0)) return mean;

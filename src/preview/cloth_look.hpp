@@ -10,7 +10,13 @@
 
 namespace toile::internal {
 
-enum class Weave { plain, twill, satin, knit };
+enum class Weave {
+  plain,
+  twill,
+  satin,
+  knit,
+  none
+};  // none: leather, its right side in the colour of the warp, its flesh in that of the weft
 
 struct ClothLook {
   Weave weave = Weave::plain;

@@ -169,6 +169,7 @@ std::string unit_of(std::string_view key) {
                                                                             {"_kg_per_m2", "kg/m2"},
                                                                             {"_N_s_per_m", "N s/m"},
                                                                             {"_N_per_m", "N/m"},
+                                                                            {"_per_m", "1/m"},
                                                                             {"_N_m", "N m"},
                                                                             {"_N", "N"},
                                                                             {"_Pa", "Pa"},

@@ -69,6 +69,12 @@ void describe(V& v, Fabric& fabric) {
   v.number(
       {"bend_uv_N_m", "rigidity against twist; 0: (1 - `bend_poisson`)/2 times the mean of the other two", as_base},
       {0, 1e6}, fabric.bend_uv_N_m);
+  v.number({"bend_friction_N", "moment per width that rubbing threads hold; half of KES-F's 2HB", as_base}, {0, 1},
+           fabric.bend_friction_N);
+  v.number({"bend_friction_curvature_per_m", "at which it is reached", as_base}, {0, 1e4, 1, true},
+           fabric.bend_friction_curvature_per_m);
+  v.number({"bend_set", "share of the bending rigidity that follows a bend", as_base}, {0, 1}, fabric.bend_set);
+  v.number({"bend_set_s", "over this time", as_base}, {0, 1e6, 1, true}, fabric.bend_set_s);
   v.number({"stretch_damping_s", "relaxation time of stretch", as_base}, {0, 1e3}, fabric.stretch_damping_s);
   v.number({"shear_damping_s", "relaxation time of shear", as_base}, {0, 1e3}, fabric.shear_damping_s);
   v.number({"bend_damping_s", "relaxation time of bending", as_base}, {0, 1e3}, fabric.bend_damping_s);

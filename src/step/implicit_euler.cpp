@@ -452,6 +452,10 @@ void ImplicitEuler::accept(const ClothState& candidate, double h_s) {
   if (options_.integrator == Integrator::bdf2 && (body_.changed() || rows_.changed())) history_.forget();
   body_.accept(h_s);
   rows_.accept(candidate);
+  {
+    const Timed timed(seconds_.eval);
+    elements_.follow_bends(*model_, candidate.x, h_s);
+  }
   may_be_through_ |= pierced_;
 }
 

@@ -131,7 +131,7 @@ class ImplicitEuler {
   // State that outlives a step (core/state_archive.hpp); options, model and world are the caller's.
   template <class Archive>
   void remember(Archive& archive) {
-    archive(body_, flypaper_, rows_, history_, h_last_s_, may_be_through_, pierced_, seconds_);
+    archive(body_, flypaper_, rows_, history_, elements_, h_last_s_, may_be_through_, pierced_, seconds_);
     archive.fixed(dv_last_);
   }
 

@@ -31,6 +31,10 @@ const std::vector<Number> numbers = {
     {"shear_N_per_m", &Fabric::shear_N_per_m, true},
     {"bend_u_N_m", &Fabric::bend_u_N_m, true},
     {"bend_v_N_m", &Fabric::bend_v_N_m, true},
+    {"bend_friction_N", &Fabric::bend_friction_N, true},
+    {"bend_friction_curvature_per_m", &Fabric::bend_friction_curvature_per_m, false},
+    {"bend_set", &Fabric::bend_set, true},
+    {"bend_set_s", &Fabric::bend_set_s, false},
     {"stretch_damping_s", &Fabric::stretch_damping_s, true},
     {"shear_damping_s", &Fabric::shear_damping_s, true},
     {"bend_damping_s", &Fabric::bend_damping_s, true},
@@ -38,13 +42,15 @@ const std::vector<Number> numbers = {
     {"thickness_m", &Fabric::thickness_m, false},
 };
 
-TEST(Fabric, PresetsAreTheFivePromisedAndValid) {
+TEST(Fabric, PresetsAreThosePromisedAndValid) {
   std::vector<std::string> names;
   for (const Fabric& fabric : fabric_presets()) {
     names.push_back(fabric.name);
     EXPECT_EQ(message_of(fabric), "");
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"silk", "cotton", "wool", "denim", "knit"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"silk", "cotton", "wool", "denim", "knit", "chiffon", "satin", "jersey", "rib",
+                                      "poplin", "linen", "flannel", "suiting", "canvas", "leather", "neoprene"}));
 }
 
 TEST(Fabric, CottonIsTheDefault) {
@@ -87,6 +93,25 @@ TEST(Fabric, PresetsLieInTheRangesOfTheirKindOfCloth) {
     expect_in(fabric.thickness_m, {1e-3, 4e-3}, name + " thickness");
     EXPECT_EQ(fabric.friction, kind.friction) << name;
   }
+}
+
+// Poplin and suiting are measured cloths (docs/theory/fabrics.md#named-cloths): 1 gf cm^2/cm = 9.81e-5 N m, 1 gf cm/cm = 9.81e-3 N.
+TEST(Fabric, NamedClothsAreThoseThatWereMeasured) {
+  struct Sheet {
+    const char* name;
+    double mg_per_cm2, B_gf_cm2_per_cm, hysteresis_gf_cm_per_cm;  // 2HB
+  };
+  for (const Sheet& sheet : {Sheet{"poplin", 12.38, 0.118, 0.124}, Sheet{"suiting", 16.29, 0.067, 0.033}}) {
+    const Fabric& fabric = fabric_preset(sheet.name, "", "");
+    EXPECT_NEAR(fabric.density_kg_per_m2, 0.01 * sheet.mg_per_cm2, 1e-3) << sheet.name;
+    for (const double bend : {fabric.bend_u_N_m, fabric.bend_v_N_m})
+      EXPECT_NEAR(bend, 9.81e-5 * sheet.B_gf_cm2_per_cm, 0.01 * bend) << sheet.name;
+    EXPECT_NEAR(fabric.bend_friction_N, 0.5 * 9.81e-3 * sheet.hysteresis_gf_cm_per_cm, 0.02 * fabric.bend_friction_N)
+        << sheet.name;
+  }
+  // The kinds of before have none, so that what was made with them stays as it was.
+  for (const char* kind : {"silk", "cotton", "wool", "denim", "knit"})
+    EXPECT_EQ(fabric_preset(kind, "", "").bend_friction_N, 0) << kind;
 }
 
 TEST(Fabric, ABadValueIsNamedByItsSceneKey) {
@@ -159,7 +184,8 @@ TEST(Fabric, AnUnknownNameIsAnsweredWithTheNearest) {
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "scene.json:3: /cloth/0/fabric: expected a fabric, one of silk, cotton, wool, denim, knit; nearest is "
+                 "scene.json:3: /cloth/0/fabric: expected a fabric, one of silk, cotton, wool, denim, knit, chiffon, "
+                 "satin, jersey, rib, poplin, linen, flannel, suiting, canvas, leather, neoprene; nearest is "
                  "\"cotton\", got \"coton\"");
   }
 }

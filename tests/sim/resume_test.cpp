@@ -91,6 +91,17 @@ TEST(Resume, OfShapesThatAreLedAndPulled) {
           {5, 17});
 }
 
+// Slipped threads and the set of a bend are the state of every triangle.
+TEST(Resume, OfClothThatRemembersItsBends) {
+  compare(
+      parse_scene(
+          R"({"cloth": [{"grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.04}, "placement": {"translation_m": [0, 0.21, 0], "rotation_deg": [-90, 0, 0]},
+      "fabric": {"base": "cotton", "bend_friction_N": 6e-4, "bend_set": 0.3, "bend_set_s": 0.5}}],
+      "body": {"cylinder": {"radius_m": 0.1, "height_m": 0.4, "top_m": [0, 0.2, 0]}}, "time": {"seconds": 0.5}})",
+          "s.json"),
+      {7});
+}
+
 TEST(Resume, OfALayerOnALayerWithOtherSolvers) {
   for (
       const char* solver :
