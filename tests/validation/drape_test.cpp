@@ -1,50 +1,16 @@
 // The drape test of the textile laboratory, on the preset fabrics.
 //
-// The disc of cloth starts level, and its weight comes on over five seconds: dropped, it breaks into more folds than it needs and
-// keeps them.  Bands of the drape coefficient: docs/validation.md#drape.
-#include "validation/drape.hpp"
+// Bands of the drape coefficient: docs/validation.md#drape.
+#include "validation/drape_run.hpp"
 #include "validation/figures.hpp"
 
 namespace toile::internal {
 namespace {
 
-using test::ClothRun;
 using test::Disc;
+using test::Drape;
+using test::drape;
 using test::Figures;
-
-struct Drape {
-  double percent;  // drape coefficient
-  int folds;
-  std::vector<Vec3> rim;
-};
-
-Drape drape(const Fabric& fabric, double edge_m, std::uint64_t seed = 1) {
-  const Disc disc = test::cusick_disc(edge_m);
-  ClothRun run(disc.sheet, fabric);
-  run.step.rows.cloth_cloth = false;  // the folds of these fabrics do not meet
-  test::Random random(seed);          // a perfectly flat disc could not choose where to fold
-  for (Vec3& p : run.state.x) p.y() += 1e-4 * random(-1, 1);
-  for (const Index i : disc.held) {
-    run.state.x[static_cast<std::size_t>(i)].y() = 0;
-    run.pin(i);
-  }
-  constexpr int ramp_frames = 150, most_frames = 900;
-  double before = 1;
-  for (int f = 1; f <= most_frames; ++f) {
-    run.model.gravity_m_per_s2 = Vec3(0, -9.81 * std::min(1.0, static_cast<double>(f) / ramp_frames), 0);
-    if (!run.frame().ok) break;
-    if (f <= ramp_frames || f % 30 != 0) continue;
-    const double now = test::drape_coefficient(disc, run.state.x);
-    if (std::abs(now - before) < 2e-4 && run.fastest() < 2e-3) {
-      Drape found{100 * now, test::fold_count(disc, run.state.x), {}};
-      for (const Index i : disc.rim) found.rim.push_back(run.state.x[static_cast<std::size_t>(i)]);
-      return found;
-    }
-    before = now;
-  }
-  ADD_FAILURE() << fabric.name << " does not come to rest";
-  return {100 * before, test::fold_count(disc, run.state.x), {}};
-}
 
 std::string mm(double edge_m) {
   char text[32];
