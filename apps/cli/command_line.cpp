@@ -79,6 +79,13 @@ void add_export_options(CLI::App& command, CommandLine& line) {
   command.add_flag("--json", line.json, "Print the result as one JSON object");
 }
 
+void add_fit_fabric_options(CLI::App& command, CommandLine& line) {
+  command.add_option("MEASUREMENTS", line.inputs, "Figures of a textile laboratory, JSON")->required()->expected(1);
+  command.add_option("--out", line.out, "Write the fabric here, for --fabric: NAME.json (default: print it only)");
+  command.add_flag("--quiet", line.quiet, "Print errors only");
+  command.add_flag("--json", line.json, "Print the result as one JSON object");
+}
+
 void add_batch_options(CLI::App& command, CommandLine& line) {
   command.add_option("JOBS", line.inputs, "Job file: one JSON object per line")->required()->expected(1);
   command.add_option("--out", line.out, "Directory of the batch (default: ./out/NAME)");
@@ -101,7 +108,7 @@ void add_batch_options(CLI::App& command, CommandLine& line) {
 void add_garment_options(CLI::App& command, CommandLine& line) {
   command.add_option("--fabric", line.fabric,
                      "a preset: silk, cotton, wool, denim, knit, chiffon, satin, jersey, rib, poplin, linen, flannel, "
-                     "suiting, canvas, leather or neoprene");
+                     "suiting, canvas, leather or neoprene; or a file of fit-fabric, NAME.json");
   command.add_option("--resolution", line.resolution_cm, "Edge length of the cloth's triangles, cm")
       ->check(CLI::Range(0.1, 20.0));
   command.add_option("--hem", line.hem_mm, "Width of a hem on a pattern's open edges, mm (default: none)")
@@ -163,7 +170,7 @@ std::string one_line(std::string text) {
 }
 
 struct Commands {
-  CLI::App *demo, *dress, *run, *check, *verify, *preview, *resume, *untangle, *export_run, *bench, *batch;
+  CLI::App *demo, *dress, *run, *check, *verify, *preview, *resume, *untangle, *export_run, *fit_fabric, *bench, *batch;
 };
 
 // `demo_name` gets the argument of `demo`.
@@ -250,6 +257,10 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
   CLI::App* export_run = app.add_subcommand("export", "Write frames of a run as files for other programs");
   add_export_options(*export_run, line);
 
+  CLI::App* fit_fabric =
+      app.add_subcommand("fit-fabric", "A fabric, with its uncertainty, from the figures of a textile laboratory");
+  add_fit_fabric_options(*fit_fabric, line);
+
   CLI::App* batch = app.add_subcommand("batch", "Run many jobs, each in a process of its own");
   add_batch_options(*batch, line);
 
@@ -263,7 +274,7 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
         ->check(CLI::Range(0.0, 1e9));
   for (CLI::App* command : {demo, dress, run})
     command->add_flag("--thumbnail", line.thumbnail, "A small picture of the last frame: thumbnail.png");
-  return {demo, dress, run, check, verify, preview, resume, untangle, export_run, bench, batch};
+  return {demo, dress, run, check, verify, preview, resume, untangle, export_run, fit_fabric, bench, batch};
 }
 
 // CLI::Range lets NaN pass.
@@ -320,17 +331,24 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   }
   if (app.get_subcommands().empty())
     throw Error(ErrorKind::usage,
-                "a command is missing: demo, dress, run, check, verify, preview, resume, untangle, export, batch or "
-                "bench (toile --help)");
+                "a command is missing: demo, dress, run, check, verify, preview, resume, untangle, export, "
+                "fit-fabric, batch or bench (toile --help)");
 
   const CLI::App* chosen = app.get_subcommands().front();
   require_finite(line);
   using Command = CommandLine::Command;
-  const std::pair<const CLI::App*, Command> commands[] = {
-      {known.demo, Command::demo},     {known.dress, Command::dress},       {known.run, Command::run},
-      {known.check, Command::check},   {known.verify, Command::verify},     {known.preview, Command::preview},
-      {known.resume, Command::resume}, {known.untangle, Command::untangle}, {known.export_run, Command::export_run},
-      {known.bench, Command::bench},   {known.batch, Command::batch}};
+  const std::pair<const CLI::App*, Command> commands[] = {{known.demo, Command::demo},
+                                                          {known.dress, Command::dress},
+                                                          {known.run, Command::run},
+                                                          {known.check, Command::check},
+                                                          {known.verify, Command::verify},
+                                                          {known.preview, Command::preview},
+                                                          {known.resume, Command::resume},
+                                                          {known.untangle, Command::untangle},
+                                                          {known.export_run, Command::export_run},
+                                                          {known.fit_fabric, Command::fit_fabric},
+                                                          {known.bench, Command::bench},
+                                                          {known.batch, Command::batch}};
   for (const auto& [command, value] : commands)
     if (command == chosen) line.command = value;
   if (chosen == known.bench) settle_bench(*known.bench, line);

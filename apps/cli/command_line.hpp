@@ -9,7 +9,21 @@
 namespace toile::internal {
 
 struct CommandLine {
-  enum class Command { help, demo, dress, run, check, verify, preview, resume, untangle, export_run, bench, batch };
+  enum class Command {
+    help,
+    demo,
+    dress,
+    run,
+    check,
+    verify,
+    preview,
+    resume,
+    untangle,
+    export_run,
+    fit_fabric,
+    bench,
+    batch
+  };
   Command command = Command::help;
   std::string help;                 // Command::help: the text to print
   std::vector<std::string> inputs;  // patterns, scene, files, directory, the demo's or the benchmark's name
@@ -30,7 +44,7 @@ struct CommandLine {
   std::string to, of = "cloth";             // of export
   std::optional<int> export_frame;          // of export; absent: the last
   bool all = false;                         // of export
-  std::optional<std::string> fabric;
+  std::optional<std::string> fabric;        // a preset, or a file
   std::optional<double> resolution_cm, hem_mm, tape_mm, fps, seconds;
   bool strict_start = false;
   bool list = false;

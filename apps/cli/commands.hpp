@@ -13,6 +13,7 @@ ExitCode verify_command(const CommandLine& line);
 ExitCode preview_command(const CommandLine& line);
 ExitCode untangle_command(const CommandLine& line);
 ExitCode export_command(const CommandLine& line);
+ExitCode fit_fabric_command(const CommandLine& line);
 ExitCode bench_command(const CommandLine& line);
 ExitCode batch_command(const CommandLine& line);
 

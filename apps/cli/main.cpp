@@ -33,6 +33,8 @@ ExitCode run_command(const CommandLine& line) {
       return untangle_command(line);
     case CommandLine::Command::export_run:
       return export_command(line);
+    case CommandLine::Command::fit_fabric:
+      return fit_fabric_command(line);
     case CommandLine::Command::bench:
       return bench_command(line);
     case CommandLine::Command::batch:

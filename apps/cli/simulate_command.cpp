@@ -13,6 +13,7 @@
 #include "output_folder.hpp"
 #include "preview/preview.hpp"
 #include "sim/body_figure.hpp"
+#include "sim/fabric_file.hpp"
 #include "sim/picture_run.hpp"
 #include "sim/picture_state.hpp"
 #include "sim/simulate.hpp"
@@ -190,7 +191,7 @@ SceneFile scene_of(const CommandLine& line) {
   Scene& scene = file.scene;
   set_quality(line.quality, scene);
   for (SceneCloth& cloth : scene.cloth) {
-    if (line.fabric) cloth.fabric = fabric_preset(*line.fabric, "", "--fabric");
+    if (line.fabric) cloth.fabric = fabric_of(*line.fabric, "--fabric");
     if (line.resolution_cm) cloth.set_edge_m(0.01 * *line.resolution_cm);
     if (auto* pattern = std::get_if<ScenePattern>(&cloth.kind)) {
       if (line.hem_mm) pattern->finish.hem_m = 1e-3 * *line.hem_mm;
@@ -279,6 +280,7 @@ ExitCode run_scene(const CommandLine& line, const Scene& scene, const Stopwatch&
   options.command = line.typed;
   options.arguments = line.words;
   if (line.command == CommandLine::Command::run) options.inputs = line.inputs;
+  if (line.fabric && names_a_fabric_file(*line.fabric)) options.inputs.push_back(*line.fabric);
   options.resume = line.resume;
   options.checkpoints.every_frames = line.checkpoint_frames.value_or(0);
   options.seconds_before = since_start.seconds();
