@@ -84,6 +84,12 @@ TEST(FabricFit, StretchIsTheChordWhereGarmentsPull) {
   EXPECT_LT(fit.fabric.stretch_v_N_per_m, 98.07 / 0.025);
   EXPECT_GT(number_of(fit, "stretch_v_N_per_m").estimate.relative, 0.1);
   EXPECT_TRUE(fit.flags.empty());
+  // The middle of the range of forces, wherever that is.
+  measured.warp.curve = {{0.01, 30}, {0.012, 100}};
+  EXPECT_NEAR(fit_fabric(measured).fabric.stretch_u_N_per_m, 3000, 0.5);
+  measured.chord_N_per_m = {50, 150};
+  EXPECT_NEAR(fit_fabric(measured).fabric.stretch_u_N_per_m, 100 / 0.012, 1);
+  measured.chord_N_per_m = {10, 50};
   measured.warp.curve = {{0.01, 200}};
   EXPECT_EQ(count_flags(fit_fabric(measured), fit_flag::chord_elsewhere, "stretch_u_N_per_m"), 1);
   EXPECT_EQ(count_flags(fit_fabric(measured), fit_flag::stiff_stretch, "stretch_u_N_per_m"), 1);
