@@ -17,6 +17,7 @@ namespace {
 using scene_reading::number_in;
 
 constexpr std::size_t most_readings = 1000;
+namespace of_cloth {
 constexpr double percent = 0.01, mm = 1e-3;
 
 // What a cloth can have, from the lightest gauze to felt and belting, in the unit of the key; `unit` is that in SI.
@@ -27,6 +28,7 @@ constexpr Range weights{5, 5000, 1e-3}, thicknesses{0.01, 50, mm}, bending_lengt
     kes_shear_hystereses{0.01, 1000, laboratory::force_N_per_m}, linearities{least_linearity, 1, 1},
     works{0.01, 1000, laboratory::work_N_per_m}, drapes{1, 100, percent}, frictions{0.01, 5, 1},
     strains_percent{0, 300, percent}, forces{0, 1e5, 1}, chord_forces{0.1, 1e4, 1};
+}  // namespace of_cloth
 
 // A key, its range, and where its readings go.
 struct Figure {
@@ -40,10 +42,10 @@ class MeasurementsReader {
   explicit MeasurementsReader(FabricMeasurementsFile& file) : file_(file), measured_(file.measured) {}
 
   void read(const Json& root) {
-    const std::array<Figure, 4> figures = {{{"weight_g_per_m2", weights, &measured_.weight_kg_per_m2},
-                                            {"thickness_mm", thicknesses, &measured_.thickness_m},
-                                            {"drape_percent", drapes, &measured_.drape},
-                                            {"friction", frictions, &measured_.friction}}};
+    const std::array<Figure, 4> figures = {{{"weight_g_per_m2", of_cloth::weights, &measured_.weight_kg_per_m2},
+                                            {"thickness_mm", of_cloth::thicknesses, &measured_.thickness_m},
+                                            {"drape_percent", of_cloth::drapes, &measured_.drape},
+                                            {"friction", of_cloth::frictions, &measured_.friction}}};
     read_figures(root, figures, {"name", "base", "chord_N_per_m", "cantilever", "fast", "kes", "tensile"});
     if (const Json* name = root.find("name")) {
       measured_.name = name->string();
@@ -93,7 +95,8 @@ class MeasurementsReader {
 
   void read_chord(const Json& value) {
     if (!value.is_array() || value.array().size() != 2) value.fail("two forces [from, to] in N/m", value.describe());
-    for (std::size_t k = 0; k < 2; ++k) measured_.chord_N_per_m[k] = number_in(value.array()[k], chord_forces);
+    for (std::size_t k = 0; k < 2; ++k)
+      measured_.chord_N_per_m[k] = number_in(value.array()[k], of_cloth::chord_forces);
     if (!(measured_.chord_N_per_m[0] < measured_.chord_N_per_m[1]))
       value.array()[1].fail(fmt::sprintf("a force above %g N/m", measured_.chord_N_per_m[0]),
                             value.array()[1].describe());
@@ -110,8 +113,8 @@ class MeasurementsReader {
     }
     std::vector<Figure> figures;
     for (std::size_t k = 0; k < directions.size(); ++k) {
-      figures.push_back({names[2 * k], bending_lengths, directions[k].second});
-      figures.push_back({names[2 * k + 1], overhangs, directions[k].second});
+      figures.push_back({names[2 * k], of_cloth::bending_lengths, directions[k].second});
+      figures.push_back({names[2 * k + 1], of_cloth::overhangs, directions[k].second});
     }
     read_figures(value, figures);
     for (std::size_t k = 0; k < directions.size(); ++k) exclude(value, names[2 * k], names[2 * k + 1]);
@@ -126,13 +129,13 @@ class MeasurementsReader {
       figures.push_back({names.back(), range, &into});
     };
     for (const auto& [thread, of] : threads()) {
-      add("bending_length_" + thread + "_mm", bending_lengths, of->fast_bending_m);
-      add("bending_rigidity_" + thread + "_uN_m", rigidities, of->fast_bending_N_m);
-      add("E5_" + thread + "_percent", extensions, of->fast_extension[0]);
-      add("E20_" + thread + "_percent", extensions, of->fast_extension[1]);
-      add("E100_" + thread + "_percent", extensions, of->fast_extension[2]);
+      add("bending_length_" + thread + "_mm", of_cloth::bending_lengths, of->fast_bending_m);
+      add("bending_rigidity_" + thread + "_uN_m", of_cloth::rigidities, of->fast_bending_N_m);
+      add("E5_" + thread + "_percent", of_cloth::extensions, of->fast_extension[0]);
+      add("E20_" + thread + "_percent", of_cloth::extensions, of->fast_extension[1]);
+      add("E100_" + thread + "_percent", of_cloth::extensions, of->fast_extension[2]);
     }
-    figures.push_back({"EB5_percent", extensions, &measured_.fast_bias_extension});
+    figures.push_back({"EB5_percent", of_cloth::extensions, &measured_.fast_bias_extension});
     read_figures(value, figures);
     for (const auto& [thread, of] : threads()) {
       exclude(value, "bending_length_" + thread + "_mm", "bending_rigidity_" + thread + "_uN_m");
@@ -144,8 +147,8 @@ class MeasurementsReader {
             std::accumulate(readings.begin(), readings.end(), 0.0) / static_cast<double>(readings.size());
         if (!(mean > before))
           value.at(std::array{"E5_", "E20_", "E100_"}[k] + thread + "_percent")
-              .fail(fmt::sprintf("more than under the smaller load, %g %%", before / percent),
-                    fmt::sprintf("%g %%", mean / percent));
+              .fail(fmt::sprintf("more than under the smaller load, %g %%", before / of_cloth::percent),
+                    fmt::sprintf("%g %%", mean / of_cloth::percent));
         before = mean;
       }
     }
@@ -160,14 +163,14 @@ class MeasurementsReader {
       figures.push_back({names.back(), range, &into});
     };
     for (const auto& [thread, of] : threads()) {
-      add("B_" + thread + "_gf_cm2_per_cm", kes_bendings, of->kes_bending_N_m);
-      add("2HB_" + thread + "_gf_cm_per_cm", kes_bending_hystereses, of->kes_hysteresis_N);
-      add("EMT_" + thread + "_percent", extensions, of->kes_extension);
-      add("LT_" + thread, linearities, of->kes_linearity);
-      add("WT_" + thread + "_gf_cm_per_cm2", works, of->kes_work_N_per_m);
+      add("B_" + thread + "_gf_cm2_per_cm", of_cloth::kes_bendings, of->kes_bending_N_m);
+      add("2HB_" + thread + "_gf_cm_per_cm", of_cloth::kes_bending_hystereses, of->kes_hysteresis_N);
+      add("EMT_" + thread + "_percent", of_cloth::extensions, of->kes_extension);
+      add("LT_" + thread, of_cloth::linearities, of->kes_linearity);
+      add("WT_" + thread + "_gf_cm_per_cm2", of_cloth::works, of->kes_work_N_per_m);
     }
-    figures.push_back({"G_gf_per_cm_deg", kes_shears, &measured_.kes_shear_N_per_m});
-    figures.push_back({"2HG_gf_per_cm", kes_shear_hystereses, &measured_.kes_shear_hysteresis_N_per_m});
+    figures.push_back({"G_gf_per_cm_deg", of_cloth::kes_shears, &measured_.kes_shear_N_per_m});
+    figures.push_back({"2HG_gf_per_cm", of_cloth::kes_shear_hystereses, &measured_.kes_shear_hysteresis_N_per_m});
     read_figures(value, figures);
     for (const auto& [thread, of] : threads()) {
       const std::string end = "EMT_" + thread + "_percent", shape = "LT_" + thread,
@@ -192,14 +195,14 @@ class MeasurementsReader {
       for (const Json& row : rows->array()) {
         if (!row.is_array() || row.array().size() != 2)
           row.fail("two numbers [strain in %, force in N/m]", row.describe());
-        const std::array<double, 2> next = {percent * number_in(row.array()[0], strains_percent),
-                                            number_in(row.array()[1], forces)};
+        const std::array<double, 2> next = {of_cloth::percent * number_in(row.array()[0], of_cloth::strains_percent),
+                                            number_in(row.array()[1], of_cloth::forces)};
         if (of->curve.empty() && next == before) continue;  // the curve's beginning
         for (std::size_t k = 0; k < 2; ++k)
           if (!(next[k] > before[k]))
             row.array()[k].fail(
                 fmt::sprintf(k == 0 ? "a strain above that before, %g %%" : "a force above that before, %g N/m",
-                             k == 0 ? before[k] / percent : before[k]),
+                             k == 0 ? before[k] / of_cloth::percent : before[k]),
                 row.array()[k].describe());
         of->curve.push_back(next);
         before = next;
