@@ -36,6 +36,7 @@ class Fitting {
     add_stretch("stretch_u_N_per_m", "warp", measured_.warp, &Fabric::stretch_u_N_per_m);
     add_stretch("stretch_v_N_per_m", "weft", measured_.weft, &Fabric::stretch_v_N_per_m);
     add_shear();
+    find_bending_friction();
     add_bending();
     add("friction", &Fabric::friction, estimates_of(measured_.friction, single_reading::friction, "friction"));
     add_beside();
@@ -196,8 +197,25 @@ class Fitting {
       needs_weight(key);
       rigidities.insert(rigidities.begin(), rigidity_of(combined(key, lengths)));
     }
-    number.estimate = combined(key, rigidities);
+    if (rubs_) {
+      // B is read where threads slip; a cantilever bends less than that in part, and shows up to B + D_f.
+      number.estimate = estimate_of(of.kes_bending_N_m, single_reading::kes_bending, "KES-F B");
+      for (const Estimate& source : number.sources)
+        if (source.from != number.estimate.from) compare_with_friction(key, number.estimate, source);
+    } else {
+      number.estimate = combined(key, rigidities);
+    }
     return number;
+  }
+
+  void compare_with_friction(std::string_view key, const Estimate& B, const Estimate& shown) {
+    const double most = B.value + friction_rigidity_N_m_;
+    const double off = std::max({0.0, B.value - shown.value, shown.value - most});
+    const double together = quadrature(shown.uncertainty(), B.uncertainty());
+    if (off * off <= one_in_twenty_of_one * together * together) return;
+    flag(fit_flag::sources_disagree, key,
+         std::string(key) + ": " + shown.from + " " + digits(shown.value, 3) +
+             ", where KES-F B and 2HB let one expect " + digits(B.value, 3) + " to " + digits(most, 3));
   }
 
   void add_bending() {
@@ -248,23 +266,27 @@ class Fitting {
     return rigidity_of({length, points / curve.slope(length) / length, percent.readings, "drape"});
   }
 
-  // The drape of the fitted cloth, beside the disc's.
+  // The drape of the fitted cloth, beside the disc's.  A cloth that rubs drapes as one without friction and a rigidity between B and B + D_f.
   void compare_drape(const Estimate& u, const Estimate& v) {
     const MonotoneCurve& curve = drape_curve::percent_of_bending_length();
     const double rigidity = std::sqrt(u.value * v.value);
-    const double length = cube_root(rigidity / (weight_.value * laboratory::gravity_m_s2));
+    const auto length_of = [&](double D) { return cube_root(D / (weight_.value * laboratory::gravity_m_s2)); };
+    const double least = length_of(rigidity), most = length_of(rigidity + friction_rigidity_N_m_);
     const double of_rigidity = 0.5 * quadrature(u.relative, v.relative);
     needs_weight("drape_percent");
-    if (length < curve.first()[0] || length > curve.last()[0]) {
+    if (const double length = least < curve.first()[0] ? least : most;
+        length < curve.first()[0] || length > curve.last()[0]) {
       flag(fit_flag::outside_the_drape_curve, "drape_percent",
            "drape_percent: the bending length of the fitted cloth, " + digits(1e3 * length, 3) +
                " mm, is outside of the curve, " + digits(1e3 * curve.first()[0], 3) + " to " +
                digits(1e3 * curve.last()[0], 3) + " mm: its drape is not known");
       return;
     }
-    const double points = curve.slope(length) * length * quadrature(of_rigidity, weight_.relative) / 3;
-    Estimate fitted{curve.value(length), 0, u.readings + v.readings, "bending"};
-    fitted.relative = quadrature(points, drape_curve::uncertainty_points(length)) / fitted.value;
+    const double points = curve.slope(least) * least * quadrature(of_rigidity, weight_.relative) / 3;
+    const double low = curve.value(least), high = curve.value(most);
+    Estimate fitted{0.5 * (low + high), 0, u.readings + v.readings, "bending"};
+    fitted.relative =
+        quadrature(points, drape_curve::uncertainty_points(least), (high - low) / std::sqrt(12.0)) / fitted.value;
     fit_.drape.of_the_fabric = fitted;
     if (!fit_.drape.measured) return;
     const Estimate& seen = *fit_.drape.measured;
@@ -290,12 +312,11 @@ class Fitting {
       fit_.beside.push_back({"bend_bias_N_m", rigidity_of(length), {rigidity_of(length)}});
     }
     put("shear_hysteresis_N_per_m", measured_.kes_shear_hysteresis_N_per_m, single_reading::hysteresis, "KES-F 2HG");
-    add_bending_friction();
   }
 
-  // BENDING FRICTION: the moment per width that a bent cloth keeps, half of 2HB, as the mean of both threads.  This is the one place that
-  // knows it; as soon as Fabric has numbers for it, they are set here, with `set`.
-  void add_bending_friction() {
+  // The moment per width that a bent cloth keeps, half of 2HB, as the mean of both threads.  It belongs to B, which is the slope beyond it: without
+  // B along both threads it is for the record.
+  void find_bending_friction() {
     std::vector<Estimate> threads =
         estimates_of(measured_.warp.kes_hysteresis_N, single_reading::hysteresis, "KES-F 2HB warp");
     append(threads, estimates_of(measured_.weft.kes_hysteresis_N, single_reading::hysteresis, "KES-F 2HB weft"));
@@ -309,13 +330,21 @@ class Fitting {
       square += one.uncertainty() * one.uncertainty();
     }
     mean.relative = std::sqrt(square) / static_cast<double>(threads.size()) / mean.value;
-    fit_.beside.push_back({"bend_friction_N", mean, threads});
+    rubs_ = !measured_.warp.kes_bending_N_m.empty() && !measured_.weft.kes_bending_N_m.empty();
+    if (!rubs_) {
+      fit_.beside.push_back({"bend_friction_N", mean, threads});
+      return;
+    }
+    set("bend_friction_N", &Fabric::bend_friction_N, mean, threads);
+    friction_rigidity_N_m_ = mean.value / fit_.fabric.bend_friction_curvature_per_m;
   }
 
   const FabricMeasurements& measured_;
   FabricFit fit_;
   Estimate weight_;
   bool weight_missed_ = false;
+  bool rubs_ = false;                 // the fabric has bending friction
+  double friction_rigidity_N_m_ = 0;  // D_f
 };
 
 }  // namespace

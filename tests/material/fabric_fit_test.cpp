@@ -72,6 +72,44 @@ TEST(FabricFit, EveryFigureOfKesAndFastGivesItsNumber) {
   EXPECT_NEAR(fit.fabric.shear_N_per_m, 55.72, 0.01);  // 4.9033 / (4 * 0.022)
 }
 
+// B is the slope where threads slip, and a cantilever, which bends less, shows more than it: up to B + D_f, D_f = M_f / kappa_y.
+TEST(FabricFit, BendingFrictionComesWithBAndExplainsAStifferCantilever) {
+  FabricMeasurements measured;
+  measured.weight_kg_per_m2 = {0.124};
+  measured.warp.kes_bending_N_m = measured.weft.kes_bending_N_m = {1e-5};
+  measured.warp.kes_hysteresis_N = {8e-4};
+  measured.weft.kes_hysteresis_N = {4e-4};  // M_f = 3e-4, D_f = 1.5e-5
+  const auto cantilever = [&](double rigidity_N_m) {
+    measured.warp.cantilever_m = {cube_root(rigidity_N_m / (0.124 * 9.80665))};
+    return fit_fabric(measured);
+  };
+  FabricFit fit = cantilever(1.8e-5);
+  EXPECT_EQ(fit.fabric.bend_friction_N, 3e-4);
+  EXPECT_EQ(fit.fabric.bend_friction_curvature_per_m, Fabric{}.bend_friction_curvature_per_m);
+  EXPECT_EQ(fit.fabric.bend_u_N_m, 1e-5) << "the cantilever's is beside it";
+  EXPECT_NEAR(number_of(fit, "bend_friction_N").estimate.uncertainty(), 0.15 * std::hypot(2e-4, 1e-4), 1e-9);
+  EXPECT_TRUE(fit.flags.empty());
+  EXPECT_EQ(count_flags(cantilever(6e-5), fit_flag::sources_disagree, "bend_u_N_m"), 1);
+  EXPECT_EQ(count_flags(cantilever(4e-6), fit_flag::sources_disagree, "bend_u_N_m"), 1);
+  // The drape is between those of B and B + D_f.
+  fit = cantilever(1.8e-5);
+  const MonotoneCurve& curve = drape_curve::percent_of_bending_length();
+  const double low = curve.value(cube_root(1e-5 / (0.124 * 9.80665))),
+               high = curve.value(cube_root(2.5e-5 / (0.124 * 9.80665)));
+  EXPECT_NEAR(fit.drape.of_the_fabric->value, 0.5 * (low + high), 0.01);
+  EXPECT_GT(fit.drape.of_the_fabric->uncertainty(), (high - low) / std::sqrt(12.0));
+  measured.drape = {0.01 * low};
+  EXPECT_EQ(count_flags(fit_fabric(measured), fit_flag::drape_disagrees, "drape_percent"), 0);
+  measured.drape = {0.3};
+  EXPECT_EQ(count_flags(fit_fabric(measured), fit_flag::drape_disagrees, "drape_percent"), 1);
+  // Without B along both threads it is for the record, and the cantilever counts.
+  measured.weft.kes_bending_N_m = {};
+  measured.drape = {};
+  fit = fit_fabric(measured);
+  EXPECT_EQ(fit.fabric.bend_friction_N, 0);
+  EXPECT_NE(fit.fabric.bend_u_N_m, 1e-5);
+}
+
 TEST(FabricFit, StretchIsTheChordWhereGarmentsPull) {
   // A straight line, then one that stiffens.
   FabricMeasurements measured;
