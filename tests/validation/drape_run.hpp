@@ -15,8 +15,8 @@ struct Drape {
   std::vector<Vec3> rim;
 };
 
-inline Drape drape(const Fabric& fabric, double edge_m, std::uint64_t seed = 1) {
-  const Disc disc = cusick_disc(edge_m);
+inline Drape drape(const Fabric& fabric, double edge_m, std::uint64_t seed = 1, const CusickSizes& sizes = {}) {
+  const Disc disc = cusick_disc(edge_m, sizes);
   ClothRun run(disc.sheet, fabric);
   run.step.rows.cloth_cloth = false;  // the folds of these fabrics do not meet
   Random random(seed);                // a perfectly flat disc could not choose where to fold
@@ -31,7 +31,7 @@ inline Drape drape(const Fabric& fabric, double edge_m, std::uint64_t seed = 1) 
     run.model.gravity_m_per_s2 = Vec3(0, -9.81 * std::min(1.0, static_cast<double>(f) / ramp_frames), 0);
     if (!run.frame().ok) break;
     if (f <= ramp_frames || f % 30 != 0) continue;
-    const double now = drape_coefficient(disc, run.state.x);
+    const double now = drape_coefficient(disc, run.state.x, sizes);
     if (std::abs(now - before) < 2e-4 && run.fastest() < 2e-3) {
       Drape found{100 * now, fold_count(disc, run.state.x), {}};
       for (const Index i : disc.rim) found.rim.push_back(run.state.x[static_cast<std::size_t>(i)]);
