@@ -266,6 +266,36 @@ def skirt(name, body, length_cm, band, ease, angle, slit=0):
     return garment
 
 
+def pleated_skirt(name, body, length_cm, band, band_b, pleats):
+    """Two rectangles, each laid in `pleats` knife pleats of three layers on an elastic band, and pressed from waist to hem."""
+    garment = Garment(name)
+    layer = band / 2 / pleats
+    half = 1.5 * band / 2  # of a rectangle, three times as wide as its half of the band
+    at = [rounded(k * layer - half) for k in range(3 * pleats + 1)]
+    y = body["waist_y"] - 2.5
+    for which, z in (("front", FRONT), ("back", BACK)):
+        panel = Panel(which, "leg", (0, y, z), start=(at[0], -length_cm))
+        for k, x in enumerate(at[1:]):
+            panel.to(x, -length_cm, name=f"hem{k}")
+        panel.to(at[-1], 0, name="left_side")
+        for k in reversed(range(3 * pleats)):
+            panel.to(at[k], 0, name=f"layer{k}")
+        panel.pieces[-1]["name"] = "layer0"
+        panel.to(at[0], -length_cm, name="right_side")
+        for k in range(3 * pleats + 1):
+            if k % 3:
+                panel.fold((at[k], -length_cm), (at[k], 0), 160 if k % 3 == 1 else -160)
+        garment.add(panel)
+    garment.sew("front/left_side", "back/left_side")
+    garment.sew("front/right_side", "back/right_side")
+    joints = [rounded(k * layer) for k in range((pleats + 1) // 2)]
+    waistband(garment, band, y, 3.0, (joints, joints), band_b)
+    for which in ("front", "back"):
+        for k in range(3 * pleats):
+            garment.sew(f"waistband_{which}/lower{k // 3}", f"{which}/layer{k}", right_wrong=k % 3 == 1)
+    return garment
+
+
 def bodice(garment, which, body, z, chest, hem, underarm_y, hem_y, neck_half, neck_depth, scoop, balance, bust_dart=0, side=None):
     """Front or back in one piece; chest and hem are half widths, `scoop` is how far the armhole is cut in."""
     tip = (body["tip"][0], body["tip"][1] + balance)
@@ -430,6 +460,7 @@ def garments():
         pants("man_pants", MAN, 10, 88, 4, 0.80, 104, 9.5, (22, 24)),
         skirt("short_skirt", DANCER, 38, 72, 1.04, 46, slit=15),
         skirt("long_skirt", DANCER, 84, 72, 1.12, 84),
+        pleated_skirt("pleated_skirt", DANCER, 52, 70, 0.93, 8),
         top("blouse", DANCER, (26.2, 26.6), (27, 26.5), 120.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve, 1.5),
     ]
 

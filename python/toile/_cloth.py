@@ -16,7 +16,7 @@ FabricLike = Union[Fabric, str]
 
 
 def fabric(name: str, **changes: Any) -> Fabric:
-    """The preset of that name ("silk", "cotton", "wool", "denim", "knit"), with some fields changed.
+    """The preset of that name ("silk", "cotton", "poplin", ...: `fabric_names`), with some fields changed.
 
     Raises InputError, with the nearest name, for a name that fabric_names() has not, and TypeError for a field that
     Fabric has not.  Sources of the presets: docs/theory/fabrics.md.

@@ -1,6 +1,6 @@
 // preview/display_mesh.hpp: the surface that a studio picture shows, from the simulated one.            [Loop 1987]
 //
-//   smooth   Loop's subdivision of the positions, the border as a cubic B-spline; coordinates of the drawing are halved straight
+//   smooth   Loop's subdivision of the positions, the border and pressed folds as cubic B-splines; coordinates of the drawing are halved straight
 //   thick    two sheets, joined along open edges; on the wrong side two layers more where a hem is folded
 //   lines    open edges and seams in the drawing, listed at the triangles near them: pixels measure their distance from hem and seam
 #pragma once

@@ -19,7 +19,8 @@ namespace {
 // Neutral clay.
 const Vec3f body_colour(0.50f, 0.465f, 0.435f);
 
-constexpr float crease_cosine = 0.7f;  // 46 degrees
+constexpr float crease_cosine = 0.7f;     // 46 degrees
+constexpr float pressed_cosine = -0.34f;  // of cloth: 110 degrees, as in display_mesh.cpp
 
 // The wrong side of a fabric: paler in hue and darker, never black.
 Vec3f wrong_side_of(const Vec3f& colour) {
@@ -31,10 +32,10 @@ Vec3f unit_or_zero(const Vec3f& n) {
   return length > 0 && std::isfinite(length) ? Vec3f(n / length) : Vec3f(Vec3f::Zero());
 }
 
-// Smooth over the faces around a vertex; where `creased`, over those that lean by less than crease_cosine only: the corner of a box
-// is no part of a ball.
+// Smooth over the faces around a vertex that do not lean by more than an angle: the corner of a box is no part of a ball, nor a pressed fold of a
+// bend, where the mean of both sides may point anywhere.
 std::vector<std::array<Vec3f, 3>> corner_normals(const std::vector<Vec3f>& positions,
-                                                 std::span<const Triangle> triangles, bool creased) {
+                                                 std::span<const Triangle> triangles, float least_cosine) {
   std::vector<Vec3f> twice_area(triangles.size(), Vec3f::Zero());
   std::vector<std::vector<std::size_t>> around(positions.size());
   for (std::size_t k = 0; k < triangles.size(); ++k) {
@@ -50,8 +51,7 @@ std::vector<std::array<Vec3f, 3>> corner_normals(const std::vector<Vec3f>& posit
     for (std::size_t c = 0; c < 3; ++c) {
       Vec3f& sum = normals[k][c];
       for (const std::size_t other : around[static_cast<std::size_t>(triangles[k][c])]) {
-        if (!creased || twice_area[other].dot(own) >= crease_cosine * twice_area[other].norm())
-          sum += twice_area[other];
+        if (twice_area[other].dot(own) >= least_cosine * twice_area[other].norm()) sum += twice_area[other];
       }
       sum = unit_or_zero(sum);
     }
@@ -112,7 +112,7 @@ RayMesh ray_mesh(const std::string& place, std::span<const Triangle> triangles, 
   for (const Vec3& p : positions) mesh.positions.push_back((p - origin).cast<float>());
   mesh.positions.push_back(Vec3f::Zero());
   mesh.triangles = triangles;
-  mesh.normals = corner_normals(mesh.positions, triangles, !cloth);
+  mesh.normals = corner_normals(mesh.positions, triangles, cloth ? pressed_cosine : crease_cosine);
   if (!cloth) mesh.room = rooms_of(triangles, positions);
   return mesh;
 }

@@ -96,6 +96,29 @@ TEST(DisplayMesh, SubdivisionSmoothsASphereAndKeepsTheDrawing) {
   EXPECT_GT(sharpest, 0.99) << "rings of 22 degrees, four times finer";
 }
 
+// Folded along the middle: pressed, the crease stays where it is; a soft bend is rounded.
+TEST(DisplayMesh, PressedFoldsStaySharpAndSoftOnesAreRounded) {
+  const auto off_the_line = [](double fold_deg) {
+    Sheet square = gridded(8, 0.2);
+    const double angle = fold_deg * 3.14159265358979323846 / 180;
+    for (Vec3& x : square.positions)
+      if (x.x() > 0) x = Vec3(x.x() * std::cos(angle), x.y(), x.x() * std::sin(angle));
+    ClothLook look = plain_look();
+    look.thickness_m = 0;
+    const DisplayMesh mesh = shown(square, look, 0.008);
+    double off = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (std::abs(mesh.uv[t][k].x()) < 1e-9)
+          off = std::max(off, mesh.positions[at(mesh.triangles[t][k])].cwiseProduct(Vec3(1, 0, 1)).norm());
+    return off;
+  };
+  EXPECT_LT(off_the_line(150), 1e-9);
+  EXPECT_GT(off_the_line(40), 1e-3);
+  EXPECT_GT(off_the_line(85), 1e-4) << "in between, both";
+  EXPECT_LT(off_the_line(85), off_the_line(60));
+}
+
 TEST(DisplayMesh, DistancesAreThoseOfTheDrawing) {
   const Sheet square = gridded(10, 0.2, 2);
   const DisplayMesh mesh = shown(square, plain_look(), 1.0);

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-NAMES = ("silk", "cotton", "wool", "denim", "knit")
+NAMES = (
+    "silk", "cotton", "wool", "denim", "knit",
+    "chiffon", "satin", "jersey", "rib", "poplin", "linen", "flannel", "suiting", "canvas", "leather", "neoprene",
+)
 
 
 class Number(NamedTuple):
