@@ -21,6 +21,7 @@ scenes = {
     "walking-shirt": ("scenes/gallery/walking-shirt.json", "front", "shirt with collar and cuffs, cotton; walking"),
     "jeans": ("scenes/gallery/jeans.json", "back", "trousers with an elastic waist, denim"),
     "silk-blouse": ("scenes/gallery/silk-blouse.json", "front", "blouse, silk, over a long skirt, wool"),
+    "pleated-skirt": ("scenes/gallery/pleated-skirt.json", "front", "pleated skirt, wool suiting, on an elastic band"),
     "table-cloth": ("scenes/gallery/table-cloth.json", "front", "table cloth, cotton"),
     "flag": ("scenes/gallery/flag.json", "front", "flag, silk, in a wind of 6 m/s"),
     "curtain": ("scenes/gallery/curtain.json", "front", "curtain, silk, drawn together"),

@@ -252,7 +252,7 @@ class Fitting {
   }
 
   Estimate rigidity_by_drape(std::string_view key) {
-    const MonotoneCurve& curve = drape_curve::percent_of_bending_length();
+    const MonotoneCurve& curve = drape_curve::percent_of_bending_length(fit_.fabric.compression_ratio);
     const Estimate& percent = *fit_.drape.measured;
     if (percent.value < curve.first()[1] || percent.value > curve.last()[1])
       throw InputError("", "",
@@ -262,13 +262,14 @@ class Fitting {
           .of("/drape_percent");
     needs_weight(key);
     const double length = curve.inverse(percent.value);
-    const double points = quadrature(percent.uncertainty(), drape_curve::uncertainty_points(length));
+    const double points =
+        quadrature(percent.uncertainty(), drape_curve::uncertainty_points(length, fit_.fabric.compression_ratio));
     return rigidity_of({length, points / curve.slope(length) / length, percent.readings, "drape"});
   }
 
   // The drape of the fitted cloth, beside the disc's.  A cloth that rubs drapes as one without friction and a rigidity between B and B + D_f.
   void compare_drape(const Estimate& u, const Estimate& v) {
-    const MonotoneCurve& curve = drape_curve::percent_of_bending_length();
+    const MonotoneCurve& curve = drape_curve::percent_of_bending_length(fit_.fabric.compression_ratio);
     const double rigidity = std::sqrt(u.value * v.value);
     const auto length_of = [&](double D) { return cube_root(D / (weight_.value * laboratory::gravity_m_s2)); };
     const double least = length_of(rigidity), most = length_of(rigidity + friction_rigidity_N_m_);
@@ -285,8 +286,9 @@ class Fitting {
     const double points = curve.slope(least) * least * quadrature(of_rigidity, weight_.relative) / 3;
     const double low = curve.value(least), high = curve.value(most);
     Estimate fitted{0.5 * (low + high), 0, u.readings + v.readings, "bending"};
-    fitted.relative =
-        quadrature(points, drape_curve::uncertainty_points(least), (high - low) / std::sqrt(12.0)) / fitted.value;
+    fitted.relative = quadrature(points, drape_curve::uncertainty_points(least, fit_.fabric.compression_ratio),
+                                 (high - low) / std::sqrt(12.0)) /
+                      fitted.value;
     fit_.drape.of_the_fabric = fitted;
     if (!fit_.drape.measured) return;
     const Estimate& seen = *fit_.drape.measured;

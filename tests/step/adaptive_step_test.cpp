@@ -243,7 +243,7 @@ TEST(Golden, StateHashesOfThreeScenes) {
   };
   EXPECT_EQ(hanging(), "2662493c10d0c20b");
   EXPECT_EQ(folding(), "8b6c889b0c2c5648");
-  EXPECT_EQ(drop(1), "51cbf6027a50c894");
+  EXPECT_EQ(drop(1), "215d7520914026b3");
 }
 
 }  // namespace
