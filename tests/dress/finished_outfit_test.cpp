@@ -35,5 +35,16 @@ TEST(FinishedOutfit, EveryGarmentKeepsItsOwnAndIsSewnAsCut) {
   EXPECT_TRUE(sewing.model().threads.empty());
 }
 
+// Nor does cloth remember how it was turned about while its seams closed.
+TEST(FinishedOutfit, IsSewnWithoutBendingFriction) {
+  Fabric fabric;
+  fabric.bend_friction_N = 6e-4;
+  fabric.bend_set = 0.3;
+  const GarmentMesh garment = mesh_garment(test::tube_pattern(0.12, 0.12, 0.1), 0.02);
+  const Sewing sewing(garment, {&fabric, 1}, nullptr, {}, {});
+  EXPECT_TRUE(sewing.model().hysteresis.empty());
+  EXPECT_EQ(build_model(garment.mesh, {&fabric, 1}).hysteresis.size(), 1U) << "worn, it does";
+}
+
 }  // namespace
 }  // namespace toile::internal
