@@ -81,7 +81,7 @@ void describe_solver(V& v, Scene& scene) {
   v.name({"bend_element",
           "\"hinge\": every edge by itself, as in 1998 but weighted "
           "([theory/bend.md](theory/bend.md#hinges-by-themselves)); "
-          "fabrics' `bend_poisson` and `bend_uv_N_m` do not count"},
+          "fabrics' `bend_poisson`, `bend_uv_N_m`, `bend_friction_N` and `bend_set` do not count"},
          bend_elements, scene.bend_element);
   v.flag({"paper_scaling", "conditions scaled by area and hinges without geometry, as printed in 1998"},
          scene.paper_scaling);

@@ -260,6 +260,28 @@ TEST(Render, ABoxHasFlatFaces) {
     EXPECT_NEAR(bright(corner) / middle, 1, 0.06) << corner.transpose();
 }
 
+// Beside a fold of 170 degrees the mean normal of both sides would point along the cloth.
+TEST(Render, APressedFoldHasFlatSides) {
+  const double back = 0.6 * std::cos(10 * 3.14159265358979323846 / 180),
+               away = 0.6 * std::sin(10 * 3.14159265358979323846 / 180);
+  const std::vector<Vec3> corners = {{-0.3, 0.2, 0.3},
+                                     {0.3, 0.2, 0.3},
+                                     {0.3, 0.8, 0.3},
+                                     {-0.3, 0.8, 0.3},
+                                     {0.3 - back, 0.2, 0.3 - away},
+                                     {0.3 - back, 0.8, 0.3 - away}};
+  const std::vector<Triangle> faces = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+  PreviewScene scene;
+  scene.cloths.push_back({faces, {}, corners, Vec3(0.5, 0.5, 0.5)});
+  const Image image = render(scene, front, small(96, 96, 64));
+  const auto bright = [&](const Vec3& p) {
+    const Vec3 at = project(front, 96, 96, p);
+    return brightness(pixel(image, static_cast<int>(at.x()), static_cast<int>(at.y())));
+  };
+  for (const double y : {0.3, 0.5, 0.7})
+    EXPECT_NEAR(bright({0.25, y, 0.3}) / double(bright({-0.2, y, 0.3})), 1, 0.06) << y;
+}
+
 TEST(Render, DrawsCrossingsOverEverything) {
   const Stage stage;
   PreviewScene scene = stage.scene();
