@@ -246,7 +246,7 @@ const std::array<FabricLook, 16>& fabric_looks() {
         .weft = Vec3f(0.16f, 0.115f, 0.085f),
         .stitch = Vec3f(0.05f, 0.03f, 0.022f),
         .thread_m = 1e-3f,
-        .uneven = 0.05f,
+        .uneven = 0.01f,
         .thickness_m = 8e-4f,
         .hem_m = 0.012f,
         .sheen = 0,
