@@ -192,17 +192,15 @@ class Fitting {
     for (const Estimate& length : lengths) number.sources.push_back(rigidity_of(length));
     append(number.sources, direct);
     if (number.sources.empty()) return std::nullopt;
-    std::vector<Estimate> rigidities = direct;
-    if (!lengths.empty()) {
-      needs_weight(key);
-      rigidities.insert(rigidities.begin(), rigidity_of(combined(key, lengths)));
-    }
+    if (!lengths.empty()) needs_weight(key);
     if (rubs_) {
       // B is read where threads slip; a cantilever bends less than that in part, and shows up to B + D_f.
       number.estimate = estimate_of(of.kes_bending_N_m, single_reading::kes_bending, "KES-F B");
       for (const Estimate& source : number.sources)
         if (source.from != number.estimate.from) compare_with_friction(key, number.estimate, source);
     } else {
+      std::vector<Estimate> rigidities = direct;
+      if (!lengths.empty()) rigidities.insert(rigidities.begin(), rigidity_of(combined(key, lengths)));
       number.estimate = combined(key, rigidities);
     }
     return number;
@@ -227,6 +225,11 @@ class Fitting {
       fit_.drape.measured->value *= 100;
     }
     const bool both = u && v;
+    if (!rubs_ && fit_.fabric.bend_friction_N > 0 && (u || v || !drapes.empty()))
+      flag(fit_flag::friction_of_the_base, "bend_friction_N",
+           "bend_friction_N: that of " + measured_.base + " counts, " + digits(fit_.fabric.bend_friction_N, 3) +
+               " N, beside a bending that was measured and may contain some of it: give 2HB and B of both threads, or "
+               "a base without");
     if (!drapes.empty() && !both) {
       fit_.drape.gives_bending = true;
       const Estimate mean = rigidity_by_drape(key_u);
@@ -322,6 +325,7 @@ class Fitting {
     std::vector<Estimate> threads =
         estimates_of(measured_.warp.kes_hysteresis_N, single_reading::hysteresis, "KES-F 2HB warp");
     append(threads, estimates_of(measured_.weft.kes_hysteresis_N, single_reading::hysteresis, "KES-F 2HB weft"));
+    friction_rigidity_N_m_ = fit_.fabric.bend_friction_N / fit_.fabric.bend_friction_curvature_per_m;  // the base's
     if (threads.empty()) return;
     Estimate mean{0, 0, 0, "KES-F 2HB"};
     double square = 0;

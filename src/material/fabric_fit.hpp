@@ -46,7 +46,8 @@ struct FabricFit {
 namespace fit_flag {
 inline constexpr std::string_view sources_disagree = "sources_disagree", drape_disagrees = "drape_disagrees",
                                   weight_of_the_base = "weight_of_the_base", chord_elsewhere = "chord_elsewhere",
-                                  outside_the_drape_curve = "outside_the_drape_curve", stiff_stretch = "stiff_stretch";
+                                  outside_the_drape_curve = "outside_the_drape_curve", stiff_stretch = "stiff_stretch",
+                                  friction_of_the_base = "friction_of_the_base";
 }  // namespace fit_flag
 
 // Relative scatter of a single reading.  They are our estimates, on the wide side of what interlaboratory tests state; from two readings on the

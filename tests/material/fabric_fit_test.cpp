@@ -112,6 +112,22 @@ TEST(FabricFit, BendingFrictionComesWithBAndExplainsAStifferCantilever) {
   EXPECT_NE(fit.fabric.bend_u_N_m, 1e-5);
 }
 
+// A base that rubs keeps its friction, and that is said; its drape is between those of B and B + D_f too.
+TEST(FabricFit, FrictionOfTheBaseIsSaidWhereBendingIsMeasured) {
+  FabricMeasurements measured;
+  measured.base = "poplin";
+  measured.weight_kg_per_m2 = {0.124};
+  EXPECT_EQ(count_flags(fit_fabric(measured), fit_flag::friction_of_the_base, "bend_friction_N"), 0);
+  measured.warp.cantilever_m = measured.weft.cantilever_m = {0.02};
+  const FabricFit fit = fit_fabric(measured);
+  EXPECT_EQ(count_flags(fit, fit_flag::friction_of_the_base, "bend_friction_N"), 1);
+  EXPECT_EQ(fit.fabric.bend_friction_N, fabric_preset("poplin", "", "").bend_friction_N);
+  measured.base = "cotton";
+  const FabricFit elastic = fit_fabric(measured);
+  EXPECT_TRUE(elastic.flags.empty());
+  EXPECT_GT(fit.drape.of_the_fabric->value, elastic.drape.of_the_fabric->value + 3);
+}
+
 TEST(FabricFit, StretchIsTheChordWhereGarmentsPull) {
   // A straight line, then one that stiffens.
   FabricMeasurements measured;
