@@ -1,12 +1,12 @@
 #include "material/bend_hysteresis.hpp"
 
+#include "material/plate.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace toile::internal {
 namespace {
-
-constexpr double least_elastic_N_m = 1e-12;  // as in plate.cpp
 
 // |S|: the root of the sum of the squares of its entries as a matrix, so that no direction is favoured.
 double magnitude(const Vec3& S) { return std::sqrt(S.x() * S.x() + S.y() * S.y() + 0.5 * S.z() * S.z()); }
@@ -15,7 +15,7 @@ double magnitude(const Vec3& S) { return std::sqrt(S.x() * S.x() + S.y() * S.y()
 
 double friction_stiffening(const Fabric& fabric) {
   const double D =
-      std::sqrt(std::max(fabric.bend_u_N_m, least_elastic_N_m) * std::max(fabric.bend_v_N_m, least_elastic_N_m));
+      std::sqrt(std::max(fabric.bend_u_N_m, least_rigidity_N_m) * std::max(fabric.bend_v_N_m, least_rigidity_N_m));
   return 1 + fabric.bend_friction_N / (fabric.bend_friction_curvature_per_m * D);
 }
 

@@ -9,7 +9,6 @@
 namespace toile::internal {
 namespace {
 
-constexpr double least_rigidity_N_m = 1e-12;
 constexpr double stiffest_side = 1000;  // an equilateral triangle's are below 2
 
 // M = W (m_k), with M as (M_uu, M_vv, M_uv): the sum of m_k/L_k S_k, where S_k has n.S n = 1 across edge k and 0 across the others,

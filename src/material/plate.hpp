@@ -19,6 +19,7 @@ namespace toile::internal {
 //
 // A rigidity of zero becomes 1e-12 N m, a ten millionth of cotton's: a moment needs an inverse.  With bending friction it is that against bends
 // too small to make threads slip, C (1 + D_f/D) of bend_hysteresis.hpp.
+constexpr double least_rigidity_N_m = 1e-12;
 Mat3 bending_rigidity(const Fabric& fabric);
 
 // F, rad/(N m), of a triangle with corners uv in m; side k joins corners k and k + 1.  No side is stiffer than a thousand times the

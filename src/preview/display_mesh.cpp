@@ -53,7 +53,7 @@ std::vector<Edge> edges_of(std::span<const Triangle> triangles, std::vector<std:
 
 // Pressed folds stay sharp: of an edge at which the surface turns by 60 degrees nothing, by 110 all.  In between both rules are mixed, so that a film
 // does not jump where cloth folds.
-constexpr double smooth_cosine = 0.5, sharp_cosine = -0.34;
+constexpr double smooth_cosine = 0.5;
 
 double sharpness(const Surface& surface, const Edge& edge) {
   if (edge.sides.size() != 2) return 0;
@@ -65,7 +65,7 @@ double sharpness(const Surface& surface, const Edge& edge) {
   }
   const double size = n[0].norm() * n[1].norm();
   if (!(size > 0)) return 0;
-  const double x = std::clamp((smooth_cosine - n[0].dot(n[1]) / size) / (smooth_cosine - sharp_cosine), 0.0, 1.0);
+  const double x = std::clamp((smooth_cosine - n[0].dot(n[1]) / size) / (smooth_cosine - pressed_cosine), 0.0, 1.0);
   return x * x * (3 - 2 * x);
 }
 

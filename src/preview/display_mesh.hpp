@@ -13,6 +13,9 @@ namespace toile::internal {
 
 struct ClothLook;
 
+// Of the angle between two sides from which on a fold counts as pressed: 110 degrees.
+constexpr double pressed_cosine = -0.34;
+
 struct EdgeLine {  // in the drawing, m
   Vec2 a, b;
   double from_m = 0;  // along the open edge, at a

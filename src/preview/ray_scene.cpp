@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "mesh/surface_parts.hpp"
+#include "preview/display_mesh.hpp"
 #include "preview/embree.hpp"
 
 #include <cmath>
@@ -19,8 +20,7 @@ namespace {
 // Neutral clay.
 const Vec3f body_colour(0.50f, 0.465f, 0.435f);
 
-constexpr float crease_cosine = 0.7f;     // 46 degrees
-constexpr float pressed_cosine = -0.34f;  // of cloth: 110 degrees, as in display_mesh.cpp
+constexpr float crease_cosine = 0.7f;  // 46 degrees
 
 // The wrong side of a fabric: paler in hue and darker, never black.
 Vec3f wrong_side_of(const Vec3f& colour) {
@@ -112,7 +112,7 @@ RayMesh ray_mesh(const std::string& place, std::span<const Triangle> triangles, 
   for (const Vec3& p : positions) mesh.positions.push_back((p - origin).cast<float>());
   mesh.positions.push_back(Vec3f::Zero());
   mesh.triangles = triangles;
-  mesh.normals = corner_normals(mesh.positions, triangles, cloth ? pressed_cosine : crease_cosine);
+  mesh.normals = corner_normals(mesh.positions, triangles, cloth ? static_cast<float>(pressed_cosine) : crease_cosine);
   if (!cloth) mesh.room = rooms_of(triangles, positions);
   return mesh;
 }
