@@ -5,6 +5,7 @@
 #include "io/scratch.hpp"
 #include "sim/simulate.hpp"
 #include "support/message_of.hpp"
+#include "support/paths.hpp"
 #include "support/tube_pattern.hpp"
 
 #include <gtest/gtest.h>
@@ -111,7 +112,7 @@ TEST(Scene, EndsWithTheSameBitsByProgramLibraryAndLoop) {
 // A sleeve on an elbow that is bent until the arm is in itself.
 TEST(Scene, ClothThatTheBodyPinchesIsAWarning) {
   const Scratch scratch;
-  std::ifstream file(TOILE_SOURCE_DIR "/scenes/torture/18-elbow.json");
+  std::ifstream file(internal::test::source_path("scenes/torture/18-elbow.json"));
   std::string text((std::istreambuf_iterator<char>(file)), {});
   for (const auto& [from, to] :
        {std::pair{R"("length_m": 0.44, "edge_m": 0.012)", R"("length_m": 0.44, "edge_m": 0.018)"},
@@ -156,9 +157,9 @@ TEST(Scene, AStateOfThingsThatMoveGoesOn) {
 // What can only be told once the garment is on.
 TEST(Scene, ADressThatThrowsLeavesItAsItWas) {
   const Scratch scratch;
-  const std::string path = scratch.put(
-      "s.json", R"({"cloth": [{"pattern": ")" + std::string(TOILE_SOURCE_DIR) +
-                    R"(/patterns/skirt.json", "resolution_cm": 6, "pins": [{"in_box_m": [[5, 5, 5], [6, 6, 6]]}]}],
+  const std::string path =
+      scratch.put("s.json", R"({"cloth": [{"pattern": ")" + internal::test::source_path("patterns/skirt.json") +
+                                R"(", "resolution_cm": 6, "pins": [{"in_box_m": [[5, 5, 5], [6, 6, 6]]}]}],
     "body": {"mannequin": "woman"}})");
   Simulation sim = Simulation::from_scene(path);
   const std::string before = sim.state_hash();
@@ -203,7 +204,7 @@ TEST(Fabric, ADefaultOneIsCottonInEveryNumber) {
 }
 
 TEST(Check, FindsWhatIsWrongWithAPattern) {
-  const CheckReport good = check_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/skirt.json");
+  const CheckReport good = check_pattern(internal::test::source_path("patterns/skirt.json"));
   EXPECT_TRUE(good.usable) << good.explain();
   const Scratch scratch;
   std::ofstream(scratch / "bad.json") << R"({"pattern": {"panels": {"front": {"translation": [0, 0, 0],

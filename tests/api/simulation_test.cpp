@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "support/message_of.hpp"
+#include "support/paths.hpp"
 #include "toile/version.hpp"
 
 #include <gtest/gtest.h>
@@ -271,7 +272,7 @@ TEST(Simulation, MovesSafely) {
 }
 
 TEST(Simulation, DressesAPatternAndGoesOnFromIt) {
-  const std::string patterns = std::string(TOILE_SOURCE_DIR) + "/patterns/";
+  const std::string patterns = internal::test::source_path("patterns/");
   const auto make = [&] {
     return Simulation(Cloth::from_pattern(patterns + "skirt.json", {.edge_m = 0.04}), Body::mannequin("woman", "sway"));
   };
@@ -299,7 +300,7 @@ TEST(Simulation, DressesAPatternAndGoesOnFromIt) {
 TEST(Simulation, ACancelledDressIsAsItWasBefore) {
   bool cancel = true;
   int asked = 0;
-  Simulation sim(Cloth::from_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/skirt.json", {.edge_m = 0.04}),
+  Simulation sim(Cloth::from_pattern(internal::test::source_path("patterns/skirt.json"), {.edge_m = 0.04}),
                  Body::mannequin("woman"), {.cancelled = [&] { return ++asked > 5 && cancel; }});
   const std::string before = sim.state_hash();
   const DressReport report = sim.dress();
@@ -312,7 +313,7 @@ TEST(Simulation, ACancelledDressIsAsItWasBefore) {
 
 TEST(Simulation, HemsAndTapesAreThoseOfThePatternsOptions) {
   const auto worn = [](const PatternOptions& options) {
-    Simulation sim(Cloth::from_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/skirt.json", options),
+    Simulation sim(Cloth::from_pattern(internal::test::source_path("patterns/skirt.json"), options),
                    Body::mannequin("woman"));
     EXPECT_TRUE(sim.dress().ok());
     return sim.state_hash();

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "io/mesh_file.hpp"
 #include "mesh/check.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ class BodyCases : public testing::TestWithParam<Case> {};
 
 TEST_P(BodyCases, HasItsOutcome) {
   const auto& [folder, vertices, says] = GetParam();
-  const std::string path = std::string(TOILE_SHARED_DATA) + "/../cases/" + folder + "/body.obj";
+  const std::string path = test::shared_path("../cases/") + folder + "/body.obj";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "needs " << path;
   if (vertices == 0) {
     try {

@@ -8,6 +8,7 @@
 #include "io/mdd.hpp"
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -417,7 +418,7 @@ TEST(BodyMotion, IsTheSameOnOneThreadAndOnMany) {
 
 // A real body: MakeHuman's base mesh with its helpers, in decimetres, as a sequence of its own file.
 TEST(BodyMotion, SelectsTheBodyOfMakeHumansBaseMeshFromEachSample) {
-  const std::string file = std::string(TOILE_SHARED_DATA) + "/bodies/makehuman/base.obj";
+  const std::string file = test::shared_path("bodies/makehuman/base.obj");
   if (!fs::exists(file)) GTEST_SKIP() << "needs " << file;
   const SurfaceMesh mesh = load_obj(file);
   const CollisionBody body = make_collision_body(mesh, file, LengthUnit::dm);

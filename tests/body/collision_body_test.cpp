@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "io/obj.hpp"
 #include "mesh/check.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -232,7 +233,7 @@ TEST(CollisionBody, IsMadeFromTheMannequinToo) {
 }
 
 TEST(CollisionBody, ReadsTheBodyOfMakeHumansBaseMesh) {
-  const std::string file = std::string(TOILE_SHARED_DATA) + "/bodies/makehuman/base.obj";
+  const std::string file = test::shared_path("bodies/makehuman/base.obj");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
   const SurfaceMesh mesh = load_obj(file);
   const CollisionBody body = make_collision_body(mesh, file, LengthUnit::dm);
@@ -249,7 +250,7 @@ TEST(CollisionBody, ReadsTheBodyOfMakeHumansBaseMesh) {
 }
 
 TEST(CollisionBody, ReadsTheBodyOfGarmentCode) {
-  const std::string file = std::string(TOILE_SHARED_DATA) + "/bodies/garmentcode/mean_all.obj";
+  const std::string file = test::shared_path("bodies/garmentcode/mean_all.obj");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
   const CollisionBody body = make_collision_body(load_obj(file), file, LengthUnit::automatic);
   EXPECT_EQ(body.positions.size(), 23752U);

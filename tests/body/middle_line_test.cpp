@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "io/obj.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +46,7 @@ double most_stretched(const CollisionBody& body, std::string_view name) {
 }
 
 CollisionBody body_of_others(const std::string& name) {
-  const std::string file = std::string(TOILE_SHARED_DATA) + "/bodies/garmentcode/" + name;
+  const std::string file = test::shared_path("bodies/garmentcode/") + name;
   if (!std::filesystem::exists(file)) return {};
   return make_collision_body(load_obj(file), file, LengthUnit::automatic);
 }
@@ -132,7 +133,7 @@ TEST(MiddleLine, SwayingChangesTheBodysEdgesByLittle) {
 TEST(MiddleLine, SwayingChangesTheEdgesOfTheBodiesOfOthersByLittle) {
   for (const char* name : {"mean_all.obj", "mean_female.obj", "mean_male.obj", "mean_all_tpose.obj"}) {
     const CollisionBody body = body_of_others(name);
-    if (body.positions.empty()) GTEST_SKIP() << "no bodies/garmentcode in " TOILE_SHARED_DATA;
+    if (body.positions.empty()) GTEST_SKIP() << "no bodies/garmentcode in " << test::shared_path("");
     EXPECT_LT(most_stretched(body, "sway"), 0.07) << name;
   }
 }

@@ -8,6 +8,7 @@
 #include "body/mannequins.hpp"
 #include "body/measure.hpp"
 #include "io/json.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -79,7 +80,7 @@ std::vector<Vec2> sampled(std::vector<Vec2> control, double& length) {
 }
 
 Draft load(const std::string& name) {
-  const Json file = Json::load(std::string(TOILE_SOURCE_DIR) + "/patterns/" + name);
+  const Json file = Json::load(test::source_path("patterns/") + name);
   EXPECT_EQ(file.at("properties").at("units_in_meter").number(), 100);
   EXPECT_EQ(file.at("properties").at("curvature_coords").string(), "relative");
   Draft draft;

@@ -4,6 +4,7 @@
 #include "body/mannequins.hpp"
 #include "body/solid_shapes.hpp"
 #include "io/obj.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -91,7 +92,7 @@ TEST(Upright, SaysNothingOfWhatHasNoWay) {
 }
 
 TEST(Upright, SaysNothingOfGarmentCodesBodies) {
-  const std::filesystem::path folder = std::filesystem::path(TOILE_SHARED_DATA) / "bodies/garmentcode";
+  const std::filesystem::path folder(test::shared_path("bodies/garmentcode"));
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "needs " << folder;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".obj") continue;

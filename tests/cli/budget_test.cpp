@@ -1,6 +1,7 @@
 // What a scene will take is said before the start, holds, and is refused beyond a limit.
 #include "cli/program.hpp"
 #include "io/json.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -106,8 +107,8 @@ TEST(Budget, TheEstimateOfMemoryIsNearThePeak) {
               R"({"cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.009}}], "time": {"seconds": 0.2}})");
   scratch.put("ball.json", R"({"cloth": [{"grid": {"width_m": 0.3, "height_m": 0.3, "edge_m": 0.05}}],
       "solids": [{"sphere": {"radius_m": 0.5}, "edge_m": 0.01, "placement": {"translation_m": [0, -1, 0]}}], "time": {"seconds": 0.1}})");
-  scratch.put("shirt.json", R"({"cloth": [{"pattern": ")" + std::string(TOILE_SOURCE_DIR) +
-                                R"(/patterns/tshirt.json", "resolution_cm": 1.5}],
+  scratch.put("shirt.json",
+              R"({"cloth": [{"pattern": ")" + test::source_path("patterns/tshirt.json") + R"(", "resolution_cm": 1.5}],
       "body": {"mannequin": "woman", "motion": "walk"}, "time": {"drape_seconds": 0.3, "seconds": 0.2}})");
   for (const char* scene : {"sheet", "finer", "ball", "shirt"}) {
     const std::string file = std::string(scene) + ".json";
@@ -125,7 +126,7 @@ TEST(Budget, CheckSaysWhatARunWillTake) {
   scratch.put(
       "s.json",
       R"({"cloth": [{"grid": {"width_m": 1, "height_m": 1, "edge_m": 0.05}}], "time": {"fps": 30, "seconds": 2}})");
-  const std::string tshirt = std::string(TOILE_SOURCE_DIR) + "/patterns/tshirt.json";
+  const std::string tshirt = test::source_path("patterns/tshirt.json");
   const Json said = Json::parse(run_toile(scratch, {"check", "s.json", tshirt, "--json"}).out, "stdout");
   const Json &sheet = said.at("files").array()[0].at("budget"), &shirt = said.at("files").array()[1].at("budget");
   EXPECT_EQ(sheet.at("frames").integer(), 60);

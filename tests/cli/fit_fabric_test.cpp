@@ -2,6 +2,7 @@
 #include "cli/program.hpp"
 #include "io/json.hpp"
 #include "sim/fabric_file.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ namespace {
 using test::Ended;
 using test::run_toile;
 
-std::string example() { return TOILE_SOURCE_DIR "/examples/poplin_measurements.json"; }
+std::string example() { return test::source_path("examples/poplin_measurements.json"); }
 
 const char* const little = R"({"name": "gauze", "base": "silk", "weight_g_per_m2": [40, 41], "shear_N_per_m": 1})";
 const char* const good = R"({"name": "gauze", "base": "silk", "weight_g_per_m2": [40, 41]})";
@@ -60,7 +61,7 @@ TEST(FitFabric, TheFileIsTheJsonAndASceneAndEveryRunTakeIt) {
   EXPECT_EQ(run_toile(scratch, {"verify", "b"}).exit_code, 0);
 
   // dress: refused before anything is read of the body, or not at all.
-  const std::string pattern = TOILE_SOURCE_DIR "/patterns/skirt.json";
+  const std::string pattern = test::source_path("patterns/skirt.json");
   const Ended dressed =
       run_toile(scratch, {"dress", pattern, "--body", "woman", "--fabric", "new/folder/poplin.json", "--resolution",
                           "4", "--time-limit", "1", "--no-preview", "--json", "--out", "d"});

@@ -1,6 +1,7 @@
 // Signals, refused memory and refused threads: the program ends by an exit code, soon.
 #include "cli/program.hpp"
 #include "io/json.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -66,7 +67,7 @@ void expect_interrupted(const Stopped& stopped, const std::string& what) {
 TEST(Interrupt, IsHeardInEveryPhase) {
   const Scratch scratch;
   scratch.put("large.json", large_sheet);
-  const std::string tshirt = std::string(TOILE_SOURCE_DIR) + "/patterns/tshirt.json";
+  const std::string tshirt = test::source_path("patterns/tshirt.json");
   const struct {
     const char* what;
     std::vector<std::string> words;

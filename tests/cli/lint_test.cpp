@@ -2,6 +2,7 @@
 #include "cli/program.hpp"
 #include "io/file.hpp"
 #include "io/json.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@ namespace {
 using test::Ended;
 using test::run_toile;
 
-std::string own(const std::string& garment) { return read_file(TOILE_SOURCE_DIR "/patterns/" + garment + ".json"); }
+std::string own(const std::string& garment) { return read_file(test::source_path("patterns/") + garment + ".json"); }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const std::size_t found = text.find(what);
@@ -104,7 +105,7 @@ TEST(CheckPattern, DrawsTheSameBytesTwiceAlsoWhereItCannotBeUsed) {
 
 TEST(CheckPattern, KnowsWhoIsToWearIt) {
   const Scratch scratch;
-  const std::string tshirt = TOILE_SOURCE_DIR "/patterns/tshirt.json";
+  const std::string tshirt = test::source_path("patterns/tshirt.json");
   const Ended fits = run_toile(scratch, {"check", tshirt, "--body", "woman", "--resolution", "4"});
   EXPECT_EQ(fits.exit_code, 0);
   EXPECT_EQ(fits.out.find("warning"), std::string::npos) << fits.out;
@@ -120,7 +121,7 @@ TEST(CheckPattern, KnowsWhoIsToWearIt) {
 
 TEST(CheckPattern, ItsOptionsAreForOnePattern) {
   const Scratch scratch;
-  const std::string skirt = TOILE_SOURCE_DIR "/patterns/skirt.json", scene = TOILE_SOURCE_DIR "/scenes/cylinder.json";
+  const std::string skirt = test::source_path("patterns/skirt.json"), scene = test::source_path("scenes/cylinder.json");
   for (const std::vector<std::string>& words : {std::vector<std::string>{"check", scene, "--svg", "a.svg"},
                                                 {"check", scene, "--repair", "a.json"},
                                                 {"check", scene, "--body", "woman"},

@@ -1,6 +1,7 @@
 // Runs that succeed, or fail for a reason: files, exit codes and equal bits.
 #include "cli/program.hpp"
 #include "io/json.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -229,8 +230,8 @@ TEST(Run, AnInterruptedRunKeepsConsistentFilesAndSaysSo) {
 
 TEST(Check, CountsAPatternAndSpeaksJson) {
   const Scratch scratch;
-  const Ended ended = run_toile(
-      scratch, {"check", TOILE_SOURCE_DIR "/patterns/tshirt.json", TOILE_SOURCE_DIR "/scenes/cylinder.json", "--json"});
+  const Ended ended = run_toile(scratch, {"check", test::source_path("patterns/tshirt.json"),
+                                          test::source_path("scenes/cylinder.json"), "--json"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   const Json json = Json::parse(ended.out, "stdout");
   const Json& shirt = json.at("files").array().at(0);
@@ -244,7 +245,7 @@ TEST(Check, CountsAPatternAndSpeaksJson) {
 TEST(Check, GoesOnAfterABadFile) {
   const Scratch scratch;
   scratch.put("bad.json", "{");
-  const Ended ended = run_toile(scratch, {"check", "bad.json", TOILE_SOURCE_DIR "/patterns/skirt.json"});
+  const Ended ended = run_toile(scratch, {"check", "bad.json", test::source_path("patterns/skirt.json")});
   EXPECT_EQ(ended.exit_code, 3);
   EXPECT_EQ(ended.err_lines(), 1) << ended.err;
   EXPECT_NE(ended.out.find("skirt.json: pattern"), std::string::npos) << ended.out;

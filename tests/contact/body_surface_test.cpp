@@ -4,6 +4,7 @@
 #include "contact/meshes.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -341,8 +342,8 @@ TEST(BodySurface, CountsThePartsThatAPointIsWithin) {
 }
 
 TEST(BodySurface, KnowsInsideFromOutsideOnARealBody) {
-  const Mesh mesh = read_body(std::string(TOILE_SHARED_DATA) + "/bodies/garmentcode/mean_all.obj");
-  if (mesh.triangles.empty()) GTEST_SKIP() << "no bodies/garmentcode/mean_all.obj in " TOILE_SHARED_DATA;
+  const Mesh mesh = read_body(test::shared_path("bodies/garmentcode/mean_all.obj"));
+  if (mesh.triangles.empty()) GTEST_SKIP() << "no bodies/garmentcode/mean_all.obj in " << test::shared_path("");
   const BodySurface body(mesh.x, mesh.triangles);
   // The body runs into itself in a few places (fingers, lips): inside twice is inside, but then the nearest face may
   // be one of the buried ones.  So the winding number decides only where it is 0 or 1.

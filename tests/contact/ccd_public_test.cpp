@@ -1,5 +1,6 @@
 // Additive CCD against published queries: every one of them, and the oracle itself against their ground truth.
 #include "contact/ccd_count.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -56,7 +57,7 @@ std::vector<PublicQuery> read_queries(const std::filesystem::path& path, Feature
 }
 
 TEST(CcdPublicQueries, NoneIsMissedAndTheOracleAgreesWithTheirGroundTruth) {
-  const std::filesystem::path folder = std::filesystem::path(TOILE_SHARED_DATA) / "ccd";
+  const std::filesystem::path folder(test::shared_path("ccd"));
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is absent";
   Count all;
   std::size_t disagreements = 0;

@@ -3,6 +3,7 @@
 #include "garment/lint.hpp"
 #include "io/file.hpp"
 #include "io/json_value.hpp"
+#include "support/paths.hpp"
 
 #include <functional>
 #include <optional>
@@ -16,7 +17,7 @@ namespace toile::internal::test {
 class PatternFile {
  public:
   explicit PatternFile(const std::string& garment)
-      : root(Json::parse(read_file(TOILE_SOURCE_DIR "/patterns/" + garment + ".json"), "good.json")) {}
+      : root(Json::parse(read_file(test::source_path("patterns/") + garment + ".json"), "good.json")) {}
 
   JsonValue& panel(std::string_view name) { return root.member("pattern").member("panels").member(name); }
   JsonValue::Array& corners(std::string_view name) { return *panel(name).member("vertices").array(); }

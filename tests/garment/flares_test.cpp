@@ -6,6 +6,7 @@
 #include "garment/placement.hpp"
 #include "garments.hpp"
 #include "support/bodies.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -105,7 +106,7 @@ TEST(Flares, OnlyRingsThatAreOpenAboveAreBent) {
 // The crotch of trousers is a hollow of nearly half a turn, as a ring's inside is.
 TEST(Flares, NoPanelOfOurOwnGarmentsIsBent) {
   for (const char* name : {"man_pants", "man_shirt", "tshirt", "skirt", "blouse"}) {
-    GarmentMesh garment = mesh_garment(load_pattern(TOILE_SOURCE_DIR "/patterns/" + std::string(name) + ".json"), 0.02);
+    GarmentMesh garment = mesh_garment(load_pattern(test::source_path("patterns/") + name + ".json"), 0.02);
     EXPECT_EQ(hang_flares(garment, Vec3(0, 1, 0)), 0) << name;
   }
 }
@@ -126,7 +127,7 @@ TEST(Flares, APanelWithARoundHollowIsNoRing) {
 
 // Where the crotch of these trousers meets the inner leg; three points are always on a circle.
 TEST(Flares, ANotchIsNoRing) {
-  const std::string file = std::string(TOILE_SHARED_DATA) + "/patterns/random/g085_mean_female.json";
+  const std::string file = test::shared_path("patterns/random/g085_mean_female.json");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   GarmentMesh garment = mesh_garment(load_pattern(file), 0.02);
   EXPECT_EQ(hang_flares(garment, Vec3(0, 1, 0)), 0);

@@ -6,6 +6,7 @@
 #include "garments.hpp"
 #include "mesh/check.hpp"
 #include "mesh/topology.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -292,7 +293,7 @@ TEST(GarmentMesh, LabelledEdgesKeepTheirParticlesInOrder) {
 }
 
 TEST(GarmentMesh, TheShirtAtOneCentimetreHasItsKnownSize) {
-  const std::string path = std::string(TOILE_SHARED_DATA) + "/patterns/garmentcode/shirt_mean_specification.json";
+  const std::string path = test::shared_path("patterns/garmentcode/shirt_mean_specification.json");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no sample file " << path;
   const Pattern pattern = load_pattern(path);
   const GarmentMesh garment = mesh_garment(pattern, 0.01);

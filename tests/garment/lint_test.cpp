@@ -5,6 +5,7 @@
 #include "garment/pattern_svg.hpp"
 #include "garments.hpp"
 #include "pattern_text.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ std::vector<std::string> json_files(const std::string& folder) {
 }
 
 TEST(Lint, FindsNothingInOurOwnGarments) {
-  const std::vector<std::string> files = json_files(TOILE_SOURCE_DIR "/patterns");
+  const std::vector<std::string> files = json_files(test::source_path("patterns"));
   EXPECT_EQ(files.size(), 8U);
   for (const std::string& file : files) {
     const LintReport report = lint_pattern(read_file(file), file);
@@ -44,8 +45,8 @@ TEST(Lint, FindsNothingInOurOwnGarments) {
 
 TEST(Lint, FindsNothingInPatternsOfOthers) {
   std::vector<std::string> files;
-  for (const char* folder : {"/patterns/random", "/patterns/garmentcode", "/patterns/garment_pattern_generator"})
-    for (const std::string& file : json_files(std::string(TOILE_SHARED_DATA) + folder)) files.push_back(file);
+  for (const char* folder : {"patterns/random", "patterns/garmentcode", "patterns/garment_pattern_generator"})
+    for (const std::string& file : json_files(test::shared_path(folder))) files.push_back(file);
   if (files.empty()) GTEST_SKIP() << "no patterns of others here";
   int patterns = 0;
   for (const std::string& file : files) {
@@ -62,7 +63,7 @@ TEST(Lint, FindsNothingInPatternsOfOthers) {
 TEST(Lint, AFileWithoutFaultsIsWrittenAsItIs) {
   const std::string text = to_text(test::PatternFile("man_pants").root);
   EXPECT_EQ(to_text(JsonValue(Json::parse(text, "p.json"))), text);
-  const Pattern before = load_pattern(TOILE_SOURCE_DIR "/patterns/man_pants.json"),
+  const Pattern before = load_pattern(test::source_path("patterns/man_pants.json")),
                 after = parse_pattern(text, "p.json");
   ASSERT_EQ(before.panels.size(), after.panels.size());
   for (std::size_t p = 0; p < before.panels.size(); ++p) {

@@ -5,6 +5,7 @@
 #include "garments.hpp"
 #include "material/fabric.hpp"
 #include "mesh/check.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ struct OwnGarment {
   int particles, triangles;
 };
 
-Pattern load(const char* name) { return load_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/" + name + ".json"); }
+Pattern load(const char* name) { return load_pattern(test::source_path("patterns/") + name + ".json"); }
 
 class OwnGarments : public testing::TestWithParam<OwnGarment> {};
 INSTANTIATE_TEST_SUITE_P(All, OwnGarments,

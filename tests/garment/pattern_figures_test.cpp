@@ -4,6 +4,7 @@
 #include "io/body_measurements.hpp"
 #include "io/file.hpp"
 #include "pattern_text.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -97,7 +98,7 @@ TEST(PatternFigures, WithoutATapeHeightsAreNotCompared) {
 }
 
 TEST(PatternFigures, SleevesThatHangOtherwiseThanTheArmsAreOfAnotherPose) {
-  const Pattern shirt = load_pattern(TOILE_SOURCE_DIR "/patterns/tshirt.json");
+  const Pattern shirt = load_pattern(test::source_path("patterns/tshirt.json"));
   const double drawn_deg = *sleeves_down_deg(shirt, person());
   BodyFigures body = person();
   for (const double off_deg : {0.0, 14.0, -14.0, 16.0, -16.0, 45.0}) {
@@ -111,11 +112,11 @@ TEST(PatternFigures, SleevesThatHangOtherwiseThanTheArmsAreOfAnotherPose) {
   }
   body.arm_down_deg.reset();
   EXPECT_TRUE(misfits(shirt, body).empty());
-  EXPECT_FALSE(sleeves_down_deg(load_pattern(TOILE_SOURCE_DIR "/patterns/skirt.json"), person()));
+  EXPECT_FALSE(sleeves_down_deg(load_pattern(test::source_path("patterns/skirt.json")), person()));
 }
 
 TEST(PatternFigures, SleevesWithoutLabelsAreThoseBeyondTheArms) {
-  Pattern shirt = load_pattern(TOILE_SOURCE_DIR "/patterns/tshirt.json");
+  Pattern shirt = load_pattern(test::source_path("patterns/tshirt.json"));
   const double labelled_deg = *sleeves_down_deg(shirt, person());
   for (Panel& panel : shirt.panels) panel.label.clear();
   EXPECT_NEAR(*sleeves_down_deg(shirt, person()), labelled_deg, 1e-12);
@@ -157,12 +158,12 @@ TEST(PatternFigures, ASleeveIsDrawnAlongAnAxisOfItsPanelWhateverItsHem) {
 
 // 60 random patterns of GarmentCode with the measurements of the bodies that they are cut for, and of the others.
 TEST(PatternFigures, RandomPatternsAreKnownForTheirOwnBodies) {
-  const std::string folder = std::string(TOILE_SHARED_DATA) + "/patterns/random";
+  const std::string folder = test::shared_path("patterns/random");
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no folder " << folder;
   const std::vector<std::string> names = {"mean_all", "mean_female", "mean_male"};
   std::vector<BodyFigures> bodies;
   for (const std::string& name : names) {
-    const std::string path = std::string(TOILE_SHARED_DATA) + "/bodies/garmentcode/" + name + ".yaml";
+    const std::string path = test::shared_path("bodies/garmentcode/") + name + ".yaml";
     const BodyMeasurements m = parse_measurements(read_file(path), path);
     BodyFigures body;
     body.high_m.y() = m.height_m;

@@ -2,6 +2,7 @@
 #include "core/error.hpp"
 #include "garment/pattern.hpp"
 #include "garment/pattern_check.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@
 namespace toile::internal {
 namespace {
 
-std::string sample_path(const std::string& name) { return std::string(TOILE_SHARED_DATA) + "/patterns/" + name; }
+std::string sample_path(const std::string& name) { return test::shared_path("patterns/") + name; }
 
 #define SKIP_WITHOUT(path) \
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no sample file " << (path)

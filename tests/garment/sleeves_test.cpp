@@ -1,5 +1,6 @@
 // tests/garment/sleeves_test.cpp: sleeves are hung on the arms.
 #include "garment/sleeves.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +43,7 @@ Middles middles_of(const GarmentMesh& garment, bool left) {
 }
 
 TEST(Sleeves, LieOnTheArmsAndNothingElseMoves) {
-  const Pattern pattern = load_pattern(TOILE_SOURCE_DIR "/patterns/tshirt.json");
+  const Pattern pattern = load_pattern(test::source_path("patterns/tshirt.json"));
   const GarmentMesh drawn = mesh_garment(pattern, 0.03);
   const std::vector<Index> panel = drawn.panel_of_particle();
   const Vec3 root(0.2, 1.33, -0.02);
@@ -82,7 +83,7 @@ TEST(Sleeves, LieOnTheArmsAndNothingElseMoves) {
 }
 
 TEST(Sleeves, OfAGarmentWithLabelsAreThePanelsThatSaySo) {
-  const Pattern pattern = load_pattern(TOILE_SOURCE_DIR "/patterns/tshirt.json");
+  const Pattern pattern = load_pattern(test::source_path("patterns/tshirt.json"));
   GarmentMesh garment = mesh_garment(pattern, 0.03);
   for (std::string& label : garment.panel_labels) label = "body";
   const Vec3s drawn = garment.x;
@@ -95,7 +96,7 @@ TEST(Sleeves, AShirtCoversTheShouldersAndASkirtDoesNot) {
   const std::array<ArmLine, 2> arms{ArmLine{root, Vec3::UnitX()},
                                     ArmLine{Vec3(-root.x(), root.y(), root.z()), -Vec3::UnitX()}};
   const auto covers = [&](const char* file) {
-    return covers_shoulders(mesh_garment(load_pattern(std::string(TOILE_SOURCE_DIR "/patterns/") + file), 0.03), arms);
+    return covers_shoulders(mesh_garment(load_pattern(test::source_path("patterns/") + file), 0.03), arms);
   };
   EXPECT_EQ(covers("tshirt.json"), (std::array<bool, 2>{true, true}));
   EXPECT_EQ(covers("short_skirt.json"), (std::array<bool, 2>{false, false}));

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "garment/exact_predicates.hpp"
 #include "garment/pattern.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -419,7 +420,7 @@ TEST(Triangulate, NamesWhatIsWrongWithAnOutline) {
 }
 
 TEST(Triangulate, MeshesTheShirtOfGarmentCode) {
-  const std::string path = std::string(TOILE_SHARED_DATA) + "/patterns/garmentcode/shirt_mean_specification.json";
+  const std::string path = test::shared_path("patterns/garmentcode/shirt_mean_specification.json");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real patterns at " << path;
   const double edge = 0.01;
   std::size_t points = 0;

@@ -6,6 +6,7 @@
 #include "io/scratch.hpp"
 #include "sim/simulate.hpp"
 #include "support/every_target.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -66,9 +67,10 @@ TEST(Golden, ATubeIsSewnOnACylinder) {
 }
 
 TEST(Golden, APersonGrowsIntoASkirt) {
-  expect_hash(R"({"cloth": [{"pattern": ")" TOILE_SOURCE_DIR R"(/patterns/short_skirt.json", "resolution_cm": 6}],
+  expect_hash(
+      R"({"cloth": [{"pattern": ")" + test::source_path("patterns/short_skirt.json") + R"(", "resolution_cm": 6}],
     "body": {"mannequin": "woman"}, "time": {"fps": 30, "seconds": 0.2, "until_still": false}})",
-              "3c54b123b3c0b577");
+      "3c54b123b3c0b577");
 }
 
 TEST(Golden, AMannequinTwistsUnderAKerchief) {

@@ -2,6 +2,7 @@
 #include "io/mesh_file.hpp"
 
 #include "io/scratch.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -291,7 +292,7 @@ TEST(Gltf, SurvivesAnyFlippedByte) {
 
 // Files of others, whole and cut: what they hold is known from other programs (trimesh).
 TEST(Gltf, ReadsFilesOfOthers) {
-  const std::filesystem::path folder = std::filesystem::path(TOILE_SHARED_DATA) / "gltf";
+  const std::filesystem::path folder(test::shared_path("gltf"));
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "needs " << folder;
   const SurfaceMesh fox = load_mesh((folder / "Fox.glb").string());
   EXPECT_EQ(fox.triangles.size(), 576U);

@@ -13,6 +13,7 @@
 #include "io/file.hpp"
 #include "io/scratch.hpp"
 #include "mesh/check.hpp"
+#include "support/paths.hpp"
 
 namespace toile::internal {
 namespace {
@@ -425,7 +426,7 @@ TEST(WriteObj, NamesThePathThatCannotBeWritten) {
             scratch / "none/a.obj" + ": cannot create: No such file or directory");
 }
 
-std::string shared(const char* file) { return std::string(TOILE_SHARED_DATA) + "/bodies/" + file; }
+std::string shared(const char* file) { return test::shared_path("bodies/") + file; }
 
 TEST(ObjOfOthers, TheMeanBodyIsClosed) {
   const std::string path = shared("garmentcode/mean_all.obj");

@@ -7,6 +7,7 @@
 #include "io/scratch.hpp"
 #include "sim/cloths.hpp"
 #include "sim/simulate.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -168,7 +169,7 @@ TEST(Wind, BlowsWhenItsPathSaysSo) {
 // A tube of two panels on a cylinder, held where it is on; it goes on to the same bits when it is resumed.
 TEST(Pins, HoldASewnGarmentWhereItIsOn) {
   const Scratch scratch;
-  const std::string pattern = std::string(TOILE_SOURCE_DIR) + "/patterns/skirt.json";
+  const std::string pattern = test::source_path("patterns/skirt.json");
   const std::string text = R"({"cloth": [{"pattern": ")" + pattern + R"(", "resolution_cm": 5,
     "pins": [{"near_m": [0.5, 0.6, 0], "hold": "moves", "moves": [{"t_s": 0.5}, {"t_s": 1, "shift_m": [0.2, 0.2, 0]}]}]}],
     "body": {"mannequin": "woman"}, "time": {"seconds": 1.5, "until_still": false}})";

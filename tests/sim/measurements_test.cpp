@@ -8,6 +8,7 @@
 #include "sim/scene_inputs.hpp"
 #include "sim/setup.hpp"
 #include "sim/simulate.hpp"
+#include "support/paths.hpp"
 
 #include <fmt/printf.h>
 #include <gtest/gtest.h>
@@ -155,7 +156,7 @@ Sewn sew(const Scratch& scratch, const std::string& pattern, const std::string& 
 TEST(Measurements, AreFoundBesideTheBodyAndHoldTheWaist) {
   const Scratch scratch;
   const std::string body = R"({"mesh": ")" + scratch.put("woman.obj", person().obj) + "\"}";
-  const std::string skirt = TOILE_SOURCE_DIR "/patterns/skirt.json";
+  const std::string skirt = test::source_path("patterns/skirt.json");
   const double surface_m = sew(scratch, skirt, body).top_m;
   scratch.put("woman.yaml", tape(-0.05));
   const double higher_m = sew(scratch, skirt, body).top_m;
@@ -176,7 +177,7 @@ bool tells(const Report& report, const std::string& what) {
 TEST(Measurements, ARunSaysThatThePatternIsForSomebodyElse) {
   const Scratch scratch;
   const std::string body = R"({"mesh": ")" + scratch.put("woman.obj", person().obj) + "\"}";
-  const std::string skirt = TOILE_SOURCE_DIR "/patterns/skirt.json";
+  const std::string skirt = test::source_path("patterns/skirt.json");
   EXPECT_FALSE(tells(sew(scratch, skirt, body).report, "other_body"));
   scratch.put("woman.yaml", tape(0.1));
   EXPECT_TRUE(
@@ -186,7 +187,7 @@ TEST(Measurements, ARunSaysThatThePatternIsForSomebodyElse) {
 // The T-shirt as a template of 2021: its origin at the pelvis.  At 5 cm it is a coarse thing; where it is, is what counts.
 TEST(Measurements, ATemplateOf2021IsRaisedToTheBodyAndTheReportSaysBy) {
   const Scratch scratch;
-  JsonValue root(Json::load(TOILE_SOURCE_DIR "/patterns/tshirt.json"));
+  JsonValue root(Json::load(test::source_path("patterns/tshirt.json")));
   const double raise_cm = 68 * person().height_m;
   for (auto& [name, panel] : *root.member("pattern").member("panels").object()) {
     JsonValue& y = (*panel.member("translation").array())[1];
@@ -198,7 +199,7 @@ TEST(Measurements, ATemplateOf2021IsRaisedToTheBodyAndTheReportSaysBy) {
   const std::string pattern = scratch.put("template.json", to_text(root));
   const Sewn legacy = sew(scratch, pattern, R"({"mannequin": "woman"})");
   EXPECT_TRUE(tells(legacy.report, fmt::sprintf("raised by %.1f cm, 0.68 of the body's height", raise_cm)));
-  const Sewn standing = sew(scratch, TOILE_SOURCE_DIR "/patterns/tshirt.json", R"({"mannequin": "woman"})");
+  const Sewn standing = sew(scratch, test::source_path("patterns/tshirt.json"), R"({"mannequin": "woman"})");
   EXPECT_FALSE(tells(standing.report, "raised by"));
   EXPECT_NEAR(legacy.top_m, standing.top_m, 0.01);
 }

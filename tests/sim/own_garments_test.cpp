@@ -4,6 +4,7 @@
 #include "dress/outfit.hpp"
 #include "garment/placement.hpp"
 #include "sim/setup.hpp"
+#include "support/paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -38,8 +39,7 @@ INSTANTIATE_TEST_SUITE_P(All, OwnGarmentOnItsBody,
                          });
 
 TEST_P(OwnGarmentOnItsBody, StartsClearOfItWithEveryThreadBesideIt) {
-  GarmentMesh garment =
-      mesh_garment(load_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/" + GetParam().name + ".json"), 0.02);
+  GarmentMesh garment = mesh_garment(load_pattern(test::source_path("patterns/") + GetParam().name + ".json"), 0.02);
   const Placement placement = place_garment(garment, body(GetParam().by));
   EXPECT_EQ(placement.shift_m, Vec3(0, 0, 0)) << "it stands where it should be drawn";
   EXPECT_EQ(placement.blocked, 0);
@@ -59,7 +59,7 @@ bool covers(const Vec3s& x, const Triangle& t, const Vec3& p) {
 TEST_P(OwnGarmentOnItsBody, NoPanelIsDrawnOverAnother) {
   // In one plane overlapping panels are no crossing of edges and triangles, so nothing later would see it.
   const GarmentMesh garment =
-      mesh_garment(load_pattern(std::string(TOILE_SOURCE_DIR) + "/patterns/" + GetParam().name + ".json"), 0.02);
+      mesh_garment(load_pattern(test::source_path("patterns/") + GetParam().name + ".json"), 0.02);
   const ClothMesh& mesh = garment.mesh;
   std::vector<Index> panel_of(garment.x.size(), -1);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -79,7 +79,7 @@ TEST_P(OwnGarmentOnItsBody, NoPanelIsDrawnOverAnother) {
 
 // Of a scene with this cloth, at 3 cm.
 LoadedCloth loaded(const std::string& name, const std::string& more = "") {
-  const std::string path = std::string(TOILE_SOURCE_DIR) + "/patterns/" + name + ".json";
+  const std::string path = test::source_path("patterns/") + name + ".json";
   const Scene scene = parse_scene(
       R"({"cloth": [{"pattern": ")" + path + R"(", "resolution_cm": 3)" + more + R"(}], "body": {"mannequin": "man"}})",
       "s.json");
@@ -131,7 +131,7 @@ TEST(OwnGarmentsTogether, InterfacingIsFusedToThePanelsThatHaveIt) {
   EXPECT_NEAR(bend_of(scene, "waistband_back"), 2.5e-5 + 1e-6 * 1500, 1e-12);
   EXPECT_EQ(bend_of(scene, "left_front"), 1.25e-5);
 
-  std::string text = read_text_file(TOILE_SOURCE_DIR "/patterns/tshirt.json");
+  std::string text = read_text_file(test::source_path("patterns/tshirt.json"));
   const std::string band = R"("band_front": {"fabric": "knit"})";
   ASSERT_NE(text.find(band), std::string::npos);
   text.replace(text.find(band), band.size(),

@@ -5,6 +5,7 @@
 #include "io/pc2.hpp"
 #include "io/scratch.hpp"
 #include "sim/simulate.hpp"
+#include "support/paths.hpp"
 #include "verify/crossings.hpp"
 #include "verify/verdict.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 
 TEST(Pinch, ASleeveComesOutOfAnElbowAsItWentIn) {
   const Scratch scratch;
-  Scene scene = parse_scene(read_file(TOILE_SOURCE_DIR "/scenes/torture/18-elbow.json"), "18-elbow.json");
+  Scene scene = parse_scene(read_file(test::source_path("scenes/torture/18-elbow.json")), "18-elbow.json");
   scene.cloth.front().set_edge_m(0.018);
   RunOptions options;
   options.directory = scratch / "out";
@@ -52,7 +53,7 @@ TEST(Pinch, ASleeveComesOutOfAnElbowAsItWentIn) {
 
 TEST(Pinch, WhatIsPinchedInTheLastFrameIsAReservation) {
   const Scratch scratch;
-  Scene scene = parse_scene(read_file(TOILE_SOURCE_DIR "/scenes/torture/18-elbow.json"), "18-elbow.json");
+  Scene scene = parse_scene(read_file(test::source_path("scenes/torture/18-elbow.json")), "18-elbow.json");
   scene.cloth.front().set_edge_m(0.018);
   scene.seconds = 0.7;                      // the elbow is bent, and the arm in itself
   scene.bend_element = BendElement::hinge;  // a sleeve of plates is not caught

@@ -5,6 +5,7 @@
 #include "io/scratch.hpp"
 #include "sim/setup.hpp"
 #include "support/bodies.hpp"
+#include "support/paths.hpp"
 #include "support/run_into.hpp"
 
 #include <gtest/gtest.h>
@@ -104,8 +105,8 @@ TEST(PressureInScenes, IsRefusedWhereItCannotBeMeant) {
 TEST(PressureInScenes, ACushionIsFilledOnceItIsSewn) {
   const Scratch scratch;
   const auto cushion = [](const std::string& seconds) {
-    return parse_scene(R"({"cloth": [{"pattern": ")" + std::string(TOILE_SOURCE_DIR) +
-                           R"(/patterns/things/cushion.json", "resolution_cm": 2, "fabric": "silk",
+    return parse_scene(R"({"cloth": [{"pattern": ")" + test::source_path("patterns/things/cushion.json") +
+                           R"(", "resolution_cm": 2, "fabric": "silk",
       "panels": {"front": {"pressure_Pa": 200}, "back": {"pressure_Pa": 200}}}],
       "world": {"gravity_m_per_s2": [0, 0, 0]}, "time": {"until_still": false, "seconds": )" +
                            seconds + "}}",

@@ -4,6 +4,7 @@
 #include "io/json.hpp"
 #include "io/scratch.hpp"
 #include "sim/simulate.hpp"
+#include "support/paths.hpp"
 #include "support/tube_pattern.hpp"
 
 #include <gtest/gtest.h>
@@ -152,7 +153,7 @@ TEST(Resume, OfCrossingCloth) {
 
 // Sewing, the drape of what goes below, sewing over it, settling, drape and motion: a stop in each.
 TEST(Resume, OfAnOutfitThatMoves) {
-  const std::string folder = std::string(TOILE_SOURCE_DIR) + "/patterns/";
+  const std::string folder = test::source_path("patterns/");
   compare(
       parse_scene(R"({"cloth": [{"pattern": ")" + folder + R"(short_skirt.json", "resolution_cm": 7}, {"pattern": ")" +
                       folder + R"(tshirt.json", "resolution_cm": 7}],

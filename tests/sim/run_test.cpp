@@ -12,6 +12,7 @@
 #include "sim/run_writer.hpp"
 #include "sim/setup.hpp"
 #include "sim/simulate.hpp"
+#include "support/paths.hpp"
 #include "support/sheets.hpp"
 #include "support/tube_pattern.hpp"
 #include "verify/crossings.hpp"
@@ -261,9 +262,9 @@ TEST(Run, TheTShirtIsSewnWithoutACrossingWhereFourPanelsMeet) {
   for (const char* resolution_cm : {"3", "2.4"}) {
     const Scratch scratch;
     const Scene scene =
-        parse_scene(R"({"cloth": [{"name": "tshirt", "pattern": ")" TOILE_SOURCE_DIR
-                    R"(/patterns/tshirt.json", "resolution_cm": )" +
-                        std::string(resolution_cm) + R"(}], "body": {"mannequin": "woman"}, "time": {"seconds": 0.6}})",
+        parse_scene(R"({"cloth": [{"name": "tshirt", "pattern": ")" + test::source_path("patterns/tshirt.json") +
+                        R"(", "resolution_cm": )" + std::string(resolution_cm) +
+                        R"(}], "body": {"mannequin": "woman"}, "time": {"seconds": 0.6}})",
                     "s.json");
     const Report report = run(scratch, scene);
     ASSERT_EQ(report.ended, "time") << resolution_cm;
@@ -277,7 +278,7 @@ TEST(Run, WhatHangsFromTheShouldersIsNotHeldAtTheWaist) {
   std::array<std::string, 2> state;
   for (const bool labelled : {false, true}) {
     const Scratch scratch;
-    JsonValue root(Json::load(TOILE_SOURCE_DIR "/patterns/tshirt.json"));
+    JsonValue root(Json::load(test::source_path("patterns/tshirt.json")));
     for (const auto& [panel, hem] : {std::pair("front", 0), std::pair("back", 7)})
       if (labelled)
         (*root.member("pattern").member("panels").member(panel).member("edges").array())[at(hem)].member("label") =
@@ -297,11 +298,10 @@ TEST(Run, WhatHangsFromTheShouldersIsNotHeldAtTheWaist) {
 TEST(Run, WhatHangsFromTheWaistIsHeldThereWhileItIsSewn) {
   const Scratch scratch;
   const Report report =
-      run(scratch,
-          parse_scene(R"({"cloth": [{"pattern": ")" TOILE_SOURCE_DIR
-                      R"(/patterns/skirt.json", "resolution_cm": 5, "placement": {"translation_m": [0, -0.24, 0]}}],
+      run(scratch, parse_scene(R"({"cloth": [{"pattern": ")" + test::source_path("patterns/skirt.json") +
+                                   R"(", "resolution_cm": 5, "placement": {"translation_m": [0, -0.24, 0]}}],
                                    "body": {"mannequin": "woman"}, "time": {"seconds": 0.1}})",
-                      "s.json"));
+                               "s.json"));
   ASSERT_EQ(report.ended, "time");
   EXPECT_NEAR(report.shift_m.y(), 0.16, 1e-9);
   Pc2Reader film(scratch / "out/sewing.pc2");
@@ -316,12 +316,13 @@ TEST(Run, WhatHangsFromTheWaistIsHeldThereWhileItIsSewn) {
 // At this edge length the seams that meet in the crotch close around a fold, of hinges; plates do not make it.
 TEST(Run, TrousersWhoseSeamsHaveCaughtAFoldAreSewnAndTakenApart) {
   const Scratch scratch;
-  const Report report = run(scratch, parse_scene(R"({"cloth": [{"pattern": ")" TOILE_SOURCE_DIR
-                                                 R"(/patterns/man_pants.json", "resolution_cm": 3.5,
+  const Report report =
+      run(scratch, parse_scene(R"({"cloth": [{"pattern": ")" + test::source_path("patterns/man_pants.json") +
+                                   R"(", "resolution_cm": 3.5,
                                                        "fabric": {"base": "cotton", "shear_N_per_m": 200, "bend_u_N_m": 1e-5, "bend_v_N_m": 1e-5}}],
                                                      "body": {"mannequin": "man"}, "time": {"seconds": 0.3},
                                                      "solver": {"bend_element": "hinge"}})",
-                                                 "s.json"));
+                               "s.json"));
   ASSERT_EQ(report.ended, "time");
   EXPECT_GT(report.start.cloth_cloth, 0);
   EXPECT_EQ(report.start.cloth_cloth_left, 0);

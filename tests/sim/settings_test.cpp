@@ -5,6 +5,7 @@
 #include "sim/scene.hpp"
 #include "sim/setup.hpp"
 #include "support/json_schema.hpp"
+#include "support/paths.hpp"
 #include "support/scene_texts.hpp"
 
 #include <gtest/gtest.h>
@@ -23,8 +24,6 @@ namespace {
 using Kind = SettingNode::Kind;
 using test::scenes_with_every_setting;
 using test::with;
-
-std::string source(const std::string& name) { return std::string(TOILE_SOURCE_DIR) + '/' + name; }
 
 std::string settings_refusal(const std::string& text) {
   try {
@@ -269,12 +268,12 @@ TEST(Settings, AMisspeltKeyIsRefusedWithTheNearest) {
 }
 
 TEST(Settings, TheSchemaAllowsEveryScene) {
-  const Json schema_json = Json::load(source("docs/scene.schema.json"));
+  const Json schema_json = Json::load(test::source_path("docs/scene.schema.json"));
   const test::JsonSchema schema(schema_json);
   for (const std::string_view text : scenes_with_every_setting)
     EXPECT_TRUE(schema.allows(Json::parse(text, "s.json"))) << text;
   int scenes = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(source("scenes"))) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_path("scenes"))) {
     if (entry.path().extension() != ".json") continue;
     EXPECT_TRUE(schema.allows(Json::load(entry.path().string()))) << entry.path();
     ++scenes;
@@ -285,8 +284,8 @@ TEST(Settings, TheSchemaAllowsEveryScene) {
 // `make settings` makes them so.
 TEST(Settings, TheDocumentsAreCurrent) {
   const SettingNode settings = scene_settings();
-  EXPECT_EQ(read_file(source("docs/scene.schema.json")), scene_schema(settings));
-  const std::string page = read_file(source("docs/scenes.md"));
+  EXPECT_EQ(read_file(test::source_path("docs/scene.schema.json")), scene_schema(settings));
+  const std::string page = read_file(test::source_path("docs/scenes.md"));
   const std::size_t from = page.find(settings_begin), to = page.find(settings_end);
   ASSERT_LT(from, to);
   const std::size_t begin = from + settings_begin.size();

@@ -4,6 +4,7 @@
 #include "io/file.hpp"
 #include "io/obj.hpp"
 #include "io/scratch.hpp"
+#include "support/paths.hpp"
 #include "support/run_into.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ namespace {
 
 // The T-shirt with sleeves down to the wrist, 17.2 cm round there.
 std::string long_sleeves() {
-  std::string text = read_file(TOILE_SOURCE_DIR "/patterns/tshirt.json");
+  std::string text = read_file(test::source_path("patterns/tshirt.json"));
   for (const auto& [short_hem, long_hem] :
        {std::pair{"[22.5, -8.279]", "[58, -4.3]"}, std::pair{"[22.5, 8.2]", "[58, 4.3]"},
         std::pair{"[22.5, -7.191]", "[58, -4.3]"}, std::pair{"[-22.5, -8.279]", "[-58, -4.3]"},

@@ -5,6 +5,7 @@
 #include "core/parallel.hpp"
 #include "io/obj.hpp"
 #include "support/exact.hpp"
+#include "support/paths.hpp"
 #include "verify/predicates.hpp"
 
 #include <gtest/gtest.h>
@@ -346,7 +347,7 @@ TEST(Crossings, RefuseWhatIsNoSurface) {
 // The mean body of GarmentCode overlaps itself in the mouth, and two of its particles lie at the same place there.
 // Each crossing found is confirmed in whole numbers: proper, or touching (which may count).
 TEST(Crossings, OfARealBodyWithItselfAreConfirmedByExactArithmetic) {
-  const std::string path = std::string(TOILE_SHARED_DATA) + "/bodies/garmentcode/mean_all.obj";
+  const std::string path = test::shared_path("bodies/garmentcode/mean_all.obj");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
   const SurfaceMesh body = load_obj(path);
   const auto crossings = find_cloth_crossings(body.triangles, body.positions);
