@@ -365,25 +365,17 @@ bool ImplicitEuler::solve_with_contacts(const ClothState& state, double t_s, con
   }
 }
 
-void ImplicitEuler::judge_speed(const ClothState& candidate, StepReport& report) const {
-  double fastest2 = options_.max_speed_m_per_s * options_.max_speed_m_per_s;
+void ImplicitEuler::judge_finite(const ClothState& candidate, StepReport& report) const {
   for (std::size_t i = 0; i < candidate.x.size(); ++i) {
-    const double speed2 = candidate.v[i].squaredNorm();
-    if (!std::isfinite(speed2 + candidate.x[i].squaredNorm())) {
-      report.status = StepStatus::not_finite;
-      report.worst_particle = static_cast<Index>(i);
-      return;
-    }
-    if (speed2 > fastest2) {
-      report.status = StepStatus::too_fast;
-      report.worst_particle = static_cast<Index>(i);
-      fastest2 = speed2;
-    }
+    if (std::isfinite(candidate.v[i].squaredNorm() + candidate.x[i].squaredNorm())) continue;
+    report.status = StepStatus::not_finite;
+    report.worst_particle = static_cast<Index>(i);
+    return;
   }
 }
 
 void ImplicitEuler::judge(const StepLimits& limits, const ClothState& candidate, StepReport& report) {
-  judge_speed(candidate, report);
+  judge_finite(candidate, report);
   if (!report) return;
   const StretchChange largest = stretch_.largest(candidate.x);
   report.stretch_change = largest.change;
@@ -445,7 +437,7 @@ void ImplicitEuler::keep_apart(const ClothState& state, double h_s, const StepLi
     const Vec3 uncounted = (1 - counted_share(correction, candidate.v[i], h_s, base_h_s_)) * correction;
     candidate.v[i] = velocity_of_motion(candidate.x[i] - state.x[i] - uncounted, y_[i], h_s);
   }
-  judge_speed(candidate, report);  // impulses against one contact may lead far into another
+  judge_finite(candidate, report);  // impulses against one contact may lead far into another
 }
 
 void ImplicitEuler::accept(const ClothState& candidate, double h_s) {

@@ -57,10 +57,9 @@ struct StepOptions {
   // As a share of the speed of one step's free fall: slower turns are not solved again for their energy beyond
   // the linearisation, which brakes it.
   double slow_motion = 1;
-  int max_passes = 8;              // of the active set, per linear solve
-  double max_speed_m_per_s = 100;  // above it the step is refused
-  bool guard_body = true;          // the safe filter also keeps cloth out of the body
-  bool flypaper = true;            // pinched cloth moves with the body (step/flypaper.hpp)
+  int max_passes = 8;      // of the active set, per linear solve
+  bool guard_body = true;  // the safe filter also keeps cloth out of the body
+  bool flypaper = true;    // pinched cloth moves with the body (step/flypaper.hpp)
 };
 
 // Limits beyond which a candidate is refused.
@@ -148,7 +147,7 @@ class ImplicitEuler {
   void shorten(const ClothState& state, const StepFormula& step, ClothState& candidate);
   void find_end(const ClothState& state, const StepFormula& step, ClothState& candidate);
   void judge(const StepLimits& limits, const ClothState& candidate, StepReport& report);
-  void judge_speed(const ClothState& candidate, StepReport& report) const;
+  void judge_finite(const ClothState& candidate, StepReport& report) const;
   void judge_strain(const StretchChange& largest, StepReport& report) const;
   void look_through_body(const ClothState& state);
   bool may_pierce(StepLimits::Pierce pierce) const;

@@ -16,8 +16,6 @@ std::string_view to_string(StepStatus status) {
       return "beyond_limit";
     case StepStatus::passed_through:
       return "passed_through";
-    case StepStatus::too_fast:
-      return "too_fast";
     case StepStatus::not_finite:
       return "not_finite";
   }
@@ -46,8 +44,6 @@ std::string StepReport::explain() const {
             filter.left + filter.body_left);
       return fmt::sprintf("h = %.3g ms: %d pairs of cloth, and %d of cloth and body, would pass through each other",
                           1e3 * h_s, filter.left, filter.body_left);
-    case StepStatus::too_fast:
-      return fmt::sprintf("h = %.3g ms: particle %d is faster than the limit", 1e3 * h_s, worst_particle);
     case StepStatus::not_finite:
       return fmt::sprintf("h = %.3g ms: position of particle %d is not finite", 1e3 * h_s, worst_particle);
   }

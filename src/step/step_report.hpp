@@ -27,7 +27,7 @@ inline PhaseSeconds operator-(const PhaseSeconds& a, const PhaseSeconds& b) {
           a.filter - b.filter, a.body - b.body};
 }
 
-enum class StepStatus { accepted, solver_failed, stretched, beyond_limit, passed_through, too_fast, not_finite };
+enum class StepStatus { accepted, solver_failed, stretched, beyond_limit, passed_through, not_finite };
 std::string_view to_string(StepStatus status);
 
 struct StepReport {  // of one attempt
