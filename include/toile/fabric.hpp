@@ -13,13 +13,15 @@ struct Fabric {
   std::string name = "cotton";
   double density_kg_per_m2 = 0.15;
   double stretch_u_N_per_m = 3000, stretch_v_N_per_m = 2000;  // warp, weft
+  double doubling_strain_u = 0,
+         doubling_strain_v = 0;  // extension at which it pulls twice as hard as a straight line; 0: a straight line
   double shear_N_per_m = 60;
   double compression_ratio = 0.1;  // of the stretch stiffness, in threads that are shorter than at rest; in (0, 1]
   double strain_limit = 0;         // no thread gets longer than 1 + this of its length as cut; 0: no limit
-  double bend_u_N_m = 1.25e-5, bend_v_N_m = 1.25e-5;
-  double bend_poisson = 0.3;   // how much bending along one thread bends the other way along the other; in [0, 0.5]
-  double bend_uv_N_m = 0;      // against twist; 0: (1 - bend_poisson)/2 times the mean of the other two
-  double bend_friction_N = 0;  // moment per width held by rubbing threads: half of KES-F's 2HB
+  double bend_u_N_m = 7.3e-6, bend_v_N_m = 7.3e-6;
+  double bend_poisson = 0.3;  // how much bending along one thread bends the other way along the other; in [0, 0.5]
+  double bend_uv_N_m = 0;     // against twist; 0: (1 - bend_poisson)/2 times the mean of the other two
+  double bend_friction_N = 3.85e-4;           // moment per width held by rubbing threads: half of KES-F's 2HB
   double bend_friction_curvature_per_m = 20;  // at which it is reached
   double bend_set = 0;                        // share of the rigidity that follows a bend, in [0, 1]
   double bend_set_s = 60;                     // over this time

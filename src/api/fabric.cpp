@@ -14,6 +14,8 @@ To converted(const From& from) {
   to.density_kg_per_m2 = from.density_kg_per_m2;
   to.stretch_u_N_per_m = from.stretch_u_N_per_m;
   to.stretch_v_N_per_m = from.stretch_v_N_per_m;
+  to.doubling_strain_u = from.doubling_strain_u;
+  to.doubling_strain_v = from.doubling_strain_v;
   to.shear_N_per_m = from.shear_N_per_m;
   to.compression_ratio = from.compression_ratio;
   to.strain_limit = from.strain_limit;

@@ -4,7 +4,8 @@
 //
 //   C_h = theta - theta_0 - (B S_0)_of both triangles          B = A W^T of plate.hpp
 //
-// A triangle's own curvature, which is what it remembers next, follows from its moments: S = B^-1 F m + S_0.
+// A triangle's own curvature, which is what it remembers next, follows from its moments: S = B^-1 F m + S_0.  Beside a fold that is being pressed,
+// whose theta_0 changes, it remembers nothing: what is ironed has no bend of before.
 #pragma once
 #include "assembly/cloth_model.hpp"
 
@@ -27,6 +28,7 @@ class BendMemory {
   template <class Archive>
   void remember(Archive& archive) {
     archive.fixed(bent_);
+    archive.fixed(pressed_rad_);
     for (std::size_t t = 0; t < bent_.size(); ++t) find_turns(t);
   }
 
@@ -41,6 +43,7 @@ class BendMemory {
   std::vector<BendHysteresis> of_triangle_;  // [triangle]
   std::vector<BentCurvature> bent_;          // [triangle]
   std::vector<Vec3> turns_;                  // [triangle] B S_0
+  std::vector<double> pressed_rad_;          // [hinge] theta_0 of the last step
   void find_turns(std::size_t triangle);
 };
 

@@ -134,7 +134,7 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
   for (const Fabric& fabric : fabrics)
     model.stiffness.push_back({fabric.stretch_u_N_per_m, fabric.stretch_v_N_per_m, fabric.shear_N_per_m,
                                fabric.stretch_damping_s, fabric.shear_damping_s, fabric.compression_ratio,
-                               fabric.strain_limit});
+                               fabric.strain_limit, fabric.doubling_strain_u, fabric.doubling_strain_v});
   for (std::size_t t = 0; t < triangles; ++t) {
     const Fabric& fabric = fabric_of(model.mesh, fabrics, t);
     const MaterialFrame frame = material_frame(model.mesh.uv[t]);

@@ -25,7 +25,16 @@ Fabric fused(const Fabric& cloth, const Fabric& interfacing, double apart_m) {
   const auto sandwich = [&](double k_1, double k_2) {
     return k_1 + k_2 > 0 ? apart_m * apart_m * k_1 * k_2 / (k_1 + k_2) : 0;
   };
+  // k (e + e^3 / d^2) of both, side by side.
+  const auto doubling = [](double k_1, double d_1, double k_2, double d_2) {
+    const double cubic = (d_1 > 0 ? k_1 / (d_1 * d_1) : 0) + (d_2 > 0 ? k_2 / (d_2 * d_2) : 0);
+    return cubic > 0 ? std::sqrt((k_1 + k_2) / cubic) : 0;
+  };
   Fabric both = cloth;
+  both.doubling_strain_u = doubling(cloth.stretch_u_N_per_m, cloth.doubling_strain_u, interfacing.stretch_u_N_per_m,
+                                    interfacing.doubling_strain_u);
+  both.doubling_strain_v = doubling(cloth.stretch_v_N_per_m, cloth.doubling_strain_v, interfacing.stretch_v_N_per_m,
+                                    interfacing.doubling_strain_v);
   both.density_kg_per_m2 += interfacing.density_kg_per_m2;
   both.stretch_u_N_per_m += interfacing.stretch_u_N_per_m;
   both.stretch_v_N_per_m += interfacing.stretch_v_N_per_m;
@@ -48,6 +57,8 @@ void check_fabric(const Fabric& fabric, std::string_view where, std::string_view
   check("density_kg_per_m2", fabric.density_kg_per_m2, false);
   check("stretch_u_N_per_m", fabric.stretch_u_N_per_m, false);
   check("stretch_v_N_per_m", fabric.stretch_v_N_per_m, false);
+  check("doubling_strain_u", fabric.doubling_strain_u, true);
+  check("doubling_strain_v", fabric.doubling_strain_v, true);
   check("shear_N_per_m", fabric.shear_N_per_m, true);
   check("compression_ratio", fabric.compression_ratio, false);
   if (fabric.compression_ratio > 1)

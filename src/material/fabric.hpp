@@ -13,15 +13,17 @@ struct Fabric {
   std::string name = "cotton";
   double density_kg_per_m2 = 0.15;
   double stretch_u_N_per_m = 3000, stretch_v_N_per_m = 2000;  // warp, weft
+  // Extension at which a thread pulls twice as hard as a straight line of that stiffness: T = k (e + e^3 / doubling^2).  0: a straight line.
+  double doubling_strain_u = 0, doubling_strain_v = 0;
   double shear_N_per_m = 60;
   double compression_ratio = 0.1;  // of the stretch stiffness, in threads that are shorter than at rest; in (0, 1]
   double strain_limit = 0;         // no thread gets longer than 1 + this of its length as cut; 0: no limit
-  double bend_u_N_m = 1.25e-5, bend_v_N_m = 1.25e-5;
+  double bend_u_N_m = 7.3e-6, bend_v_N_m = 7.3e-6;
   double bend_poisson = 0.3;  // how much bending along one thread bends the other way along the other; in [0, 0.5]
   double bend_uv_N_m = 0;     // rigidity against twist; 0: (1 - bend_poisson)/2 times the mean of the other two
   // Bending that stays (material/bend_hysteresis.hpp).  Rubbing threads hold a moment per width of up to bend_friction_N, half of KES-F's
   // 2HB, which they reach within bend_friction_curvature_per_m; bend_set of the rigidity follows the bend over bend_set_s.
-  double bend_friction_N = 0, bend_friction_curvature_per_m = 20;
+  double bend_friction_N = 3.85e-4, bend_friction_curvature_per_m = 20;
   double bend_set = 0, bend_set_s = 60;
   double stretch_damping_s = 2e-3, shear_damping_s = 2e-3, bend_damping_s = 2e-3;  // k_d / k
   double friction = 0.35;

@@ -33,8 +33,10 @@ class Fitting {
 
   FabricFit fit() {
     add_weight();
-    add_stretch("stretch_u_N_per_m", "warp", measured_.warp, &Fabric::stretch_u_N_per_m);
-    add_stretch("stretch_v_N_per_m", "weft", measured_.weft, &Fabric::stretch_v_N_per_m);
+    add_stretch({"stretch_u_N_per_m", "doubling_strain_u", &Fabric::stretch_u_N_per_m, &Fabric::doubling_strain_u},
+                "warp", measured_.warp);
+    add_stretch({"stretch_v_N_per_m", "doubling_strain_v", &Fabric::stretch_v_N_per_m, &Fabric::doubling_strain_v},
+                "weft", measured_.weft);
     add_shear();
     find_bending_friction();
     add_bending();
@@ -114,12 +116,32 @@ class Fitting {
     return {chord.stiffness_N_per_m, quadrature(of_readings, of_shape, chord.relative), readings, std::move(from)};
   }
 
-  void add_stretch(std::string_view key, const std::string& thread, const ThreadMeasurements& of,
-                   double Fabric::*member) {
+  // The largest force of a curve, and the chord to it.
+  struct CurveEnd {
+    double force_N_per_m = 0;
+    Estimate chord;
+  };
+  static void keep_larger(CurveEnd& end, double force_N_per_m, double extension, double relative, int readings,
+                          std::string from) {
+    if (force_N_per_m > end.force_N_per_m)
+      end = {force_N_per_m, {force_N_per_m / extension, relative, readings, std::move(from)}};
+  }
+
+  struct Stretch {
+    std::string_view key, doubling_key;
+    double Fabric::*stiffness;
+    double Fabric::*doubling;
+  };
+
+  void add_stretch(const Stretch& stretch, const std::string& thread, const ThreadMeasurements& of) {
+    const std::string_view key = stretch.key;
     std::vector<Estimate> sources;
+    CurveEnd end;
     const auto& range = measured_.chord_N_per_m;
     if (!of.curve.empty())
       sources.push_back(of_chord(key, chord_of(of.curve, range), single_reading::curve, 0, 1, "tensile curve"));
+    if (!of.curve.empty())
+      keep_larger(end, of.curve.back()[1], of.curve.back()[0], single_reading::curve, 1, "end of the tensile curve");
     std::vector<std::array<double, 2>> fast;
     double relative = 0;
     int readings = 0;
@@ -127,16 +149,56 @@ class Fitting {
       if (of.fast_extension[k].empty()) continue;
       const Estimate extension = estimate_of(of.fast_extension[k], single_reading::extension, "");
       fast.push_back({extension.value, laboratory::fast_loads_N_per_m[k]});
+      keep_larger(end, laboratory::fast_loads_N_per_m[k], extension.value, extension.relative, extension.readings,
+                  "FAST extension");
       relative = std::max(relative, extension.relative);
       readings += extension.readings;
     }
     if (!fast.empty()) sources.push_back(of_chord(key, chord_of(fast, range), relative, 0, readings, "FAST extension"));
-    if (!of.kes_extension.empty()) sources.push_back(kes_stretch(key, thread, of));
-    add(key, member, sources);
-    if (fit_.fabric.*member > stiff_stretch_N_per_m && !sources.empty())
+    if (!of.kes_extension.empty()) {
+      sources.push_back(kes_stretch(key, thread, of));
+      const Estimate extension = estimate_of(of.kes_extension, single_reading::extension, "KES-F EMT");
+      keep_larger(end, laboratory::kes_tensile_N_per_m, extension.value, extension.relative, extension.readings,
+                  extension.from);
+    }
+    if (sources.empty()) {
+      set_base(key, stretch.stiffness);
+      set_base(stretch.doubling_key, stretch.doubling);
+      return;
+    }
+    set_curve(stretch, combined(key, sources), sources, end);
+    if (fit_.fabric.*stretch.stiffness > stiff_stretch_N_per_m)
       flag(fit_flag::stiff_stretch, key,
            std::string(key) + ": above " + digits(stiff_stretch_N_per_m, 5) +
                " N/m nothing changes that can be seen, and steps take longer: it may be lowered to that");
+  }
+
+  void set_curve(const Stretch& stretch, const Estimate& chord, const std::vector<Estimate>& sources,
+                 const CurveEnd& end) {
+    const double middle = 0.5 * (measured_.chord_N_per_m[0] + measured_.chord_N_per_m[1]);
+    const double rise = end.chord.value - chord.value;
+    const double known_to = quadrature(end.chord.uncertainty(), chord.uncertainty());
+    if (end.force_N_per_m < measured_.chord_N_per_m[1] || rise <= 0 ||
+        rise * rise <= one_in_twenty_of_one * known_to * known_to) {
+      set(stretch.key, stretch.stiffness, chord, sources);
+      if (fit_.fabric.*stretch.doubling > 0)
+        set(stretch.doubling_key, stretch.doubling, {0, 0, chord.readings, "no stiffening seen"}, {});
+      return;
+    }
+    // `a` and `b`: half an uncertainty of the chord and of the end's; the rise stays one.
+    const auto at = [&](double a, double b) {
+      return curve_through(chord.value + 0.5 * a * chord.uncertainty(), middle, end.force_N_per_m,
+                           end.chord.value + 0.5 * b * end.chord.uncertainty());
+    };
+    const StiffeningCurve curve = at(0, 0), of_chord[2] = {at(-1, 0), at(1, 0)}, of_end[2] = {at(0, -1), at(0, 1)};
+    const auto relative = [&](double StiffeningCurve::*number) {
+      return quadrature(of_chord[1].*number - of_chord[0].*number, of_end[1].*number - of_end[0].*number) /
+             curve.*number;
+    };
+    set(stretch.key, stretch.stiffness,
+        {curve.stiffness_N_per_m, relative(&StiffeningCurve::stiffness_N_per_m), chord.readings, chord.from}, sources);
+    set(stretch.doubling_key, stretch.doubling,
+        {curve.doubling_strain, relative(&StiffeningCurve::doubling_strain), end.chord.readings, end.chord.from}, {});
   }
 
   Estimate kes_stretch(std::string_view key, const std::string& thread, const ThreadMeasurements& of) {
@@ -225,11 +287,9 @@ class Fitting {
       fit_.drape.measured->value *= 100;
     }
     const bool both = u && v;
-    if (!rubs_ && fit_.fabric.bend_friction_N > 0 && (u || v || !drapes.empty()))
-      flag(fit_flag::friction_of_the_base, "bend_friction_N",
-           "bend_friction_N: that of " + measured_.base + " counts, " + digits(fit_.fabric.bend_friction_N, 3) +
-               " N, beside a bending that was measured and may contain some of it: give 2HB and B of both threads, or "
-               "a base without");
+    if (!rubs_ && (u || v || !drapes.empty()))
+      leave_out_friction((u ? u->estimate.readings : 0) + (v ? v->estimate.readings : 0) +
+                         (drapes.empty() ? 0 : drapes.front().readings));
     if (!drapes.empty() && !both) {
       fit_.drape.gives_bending = true;
       const Estimate mean = rigidity_by_drape(key_u);
@@ -252,6 +312,20 @@ class Fitting {
     put(key_u, &Fabric::bend_u_N_m, u);
     put(key_v, &Fabric::bend_v_N_m, v);
     if (both) compare_drape(u->estimate, v->estimate);
+  }
+
+  // A cantilever and a disc show friction as a part of the rigidity: with the base's beside it, it would count twice.
+  void leave_out_friction(int readings) {
+    friction_rigidity_N_m_ = 0;
+    if (fit_.fabric.bend_friction_N > 0)
+      set("bend_friction_N", &Fabric::bend_friction_N, {0, 0, readings, "a bending without 2HB"}, {});
+    const auto shows_it = [](const ThreadMeasurements& of) {
+      return !of.cantilever_m.empty() || !of.fast_bending_m.empty() || !of.fast_bending_N_m.empty();
+    };
+    if (shows_it(measured_.warp) || shows_it(measured_.weft) || !measured_.drape.empty()) return;
+    flag(fit_flag::no_bending_friction, "bend_friction_N",
+         "bend_friction_N: KES-F B is the slope where threads slip, and without 2HB and B of both threads what they "
+         "hold before is not known: none is taken, and the cloth falls softer than the sheet");
   }
 
   Estimate rigidity_by_drape(std::string_view key) {

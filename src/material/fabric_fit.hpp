@@ -1,7 +1,8 @@
 // material/fabric_fit.hpp: a fabric, and how well it is known, from the figures of a laboratory.          docs/howto/fit-fabric.md
 //
 //   bending      c: D = w g c^3;  B;  a drape coefficient where nothing else says it
-//   stretch      the chord of the force-extension curve from zero to the forces that a garment carries
+//   stretch      the chord of the force-extension curve from zero to the forces that a garment carries, and from the curve's end how it
+//                stiffens: T = k (e + e^3 / d^2)
 //   shear        G, or the extension on the bias
 //
 // What no figure says is the base preset's.
@@ -47,7 +48,7 @@ namespace fit_flag {
 inline constexpr std::string_view sources_disagree = "sources_disagree", drape_disagrees = "drape_disagrees",
                                   weight_of_the_base = "weight_of_the_base", chord_elsewhere = "chord_elsewhere",
                                   outside_the_drape_curve = "outside_the_drape_curve", stiff_stretch = "stiff_stretch",
-                                  friction_of_the_base = "friction_of_the_base";
+                                  no_bending_friction = "no_bending_friction";
 }  // namespace fit_flag
 
 // Relative scatter of a single reading.  They are our estimates, on the wide side of what interlaboratory tests state; from two readings on the

@@ -14,6 +14,9 @@
 // A thread shorter than b may be softer, k times `compression`: the energy and the force stay continuous, and so does
 // the damping, which keeps the k of tension.  The projected K only loses its part along the thread.
 //
+// A thread may stiffen (off by default): with the excess e = |w| - b above zero and a doubling d, T = k (e + e^3 / d^2) pulls twice as hard
+// at e = d as the straight line, and the energy has s^2 k e^4 / (4 d^2) more.
+//
 // Strain limit (off by default): a thread may not be longer than L = (1 + limit) c, c = max(b, 1): worn elastic is
 // stretched beyond its rest length, which is allowed.  From half of the limit on, e_0 = c + (L - c)/2, a barrier is
 // added to the energy, with y = (|w| - e_0) / d, d = L - e_0:
@@ -32,6 +35,8 @@ struct MembraneStiffness {
   double tau_stretch = 0, tau_shear = 0;  // s
   double compression = 1;                 // in (0, 1]: k of a thread shorter than b over k
   double strain_limit = 0;                // of |w| / limited_from(b) - 1; 0: none
+  double doubling_u = 0,
+         doubling_v = 0;  // excess at which a thread pulls twice as hard as a straight line; 0: it is one
 };
 
 struct MembraneRest {

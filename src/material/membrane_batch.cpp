@@ -16,15 +16,14 @@ namespace {
 constexpr double no_direction = 1e-140;
 
 struct Rest {
-  Wide k_u, k_v, k_shear, b_u, b_v, tau_stretch, tau_shear, compression, strain_limit;
-  bool limited;
+  Wide k_u, k_v, k_shear, b_u, b_v, tau_stretch, tau_shear, compression, strain_limit, stiffening_u, stiffening_v;
+  bool curved;
 };
 HWY_INLINE Rest load_rest(const MembraneRestBatch& rest, std::size_t lane) {
-  return {load(rest.k_u, lane),          load(rest.k_v, lane),
-          load(rest.k_shear, lane),      load(rest.b_u, lane),
-          load(rest.b_v, lane),          load(rest.tau_stretch, lane),
-          load(rest.tau_shear, lane),    load(rest.compression, lane),
-          load(rest.strain_limit, lane), rest.limited};
+  return {load(rest.k_u, lane),          load(rest.k_v, lane),          load(rest.k_shear, lane),
+          load(rest.b_u, lane),          load(rest.b_v, lane),          load(rest.tau_stretch, lane),
+          load(rest.tau_shear, lane),    load(rest.compression, lane),  load(rest.strain_limit, lane),
+          load(rest.stiffening_u, lane), load(rest.stiffening_v, lane), rest.curved};
 }
 
 struct Gradient {
@@ -62,11 +61,18 @@ HWY_INLINE Wide stretch_energy(Wide length, Wide b, Wide tension, Wide compressi
   return 0.5 * select(excess < zero(), compression, wide(1)) * tension * excess * excess;
 }
 
-// The barrier before the strain limit, of a thread of length |w|.
-struct Barrier {
+// What a thread of length |w| has beyond k (|w| - b).
+struct Beyond {
   Wide energy, force, stiffness;
 };
-HWY_INLINE Barrier barrier(Wide length, Wide b, Wide tension, Wide limit) {
+
+HWY_INLINE Beyond stiffening(Wide length, Wide b, Wide tension, Wide per_excess2) {
+  const Wide excess = at_least_zero(length - b), cubic = tension * per_excess2 * excess * excess;
+  return {0.25 * cubic * excess * excess, cubic * excess, 3 * cubic};
+}
+
+// The barrier before the strain limit.
+HWY_INLINE Beyond barrier(Wide length, Wide b, Wide tension, Wide limit) {
   constexpr double last = 0.95;                                               // y_1
   const Wide from = select(b > wide(1), b, wide(1)), d = 0.5 * limit * from;  // limited_from(b)
   const Wide y = (length - from) / d - wide(1);
@@ -78,20 +84,26 @@ HWY_INLINE Barrier barrier(Wide length, Wide b, Wide tension, Wide limit) {
           or_zero(within, tension * d * (phi1 + beyond * phi2)), or_zero(within, tension * phi2)};
 }
 
+HWY_INLINE Beyond beyond_straight(const Rest& rest, Wide length, Wide b, Wide tension, Wide per_excess2) {
+  const Beyond limit = barrier(length, b, tension, rest.strain_limit),
+               curve = stiffening(length, b, tension, per_excess2);
+  return {limit.energy + curve.energy, limit.force + curve.force, limit.stiffness + curve.stiffness};
+}
+
 HWY_INLINE Wide energy(const Rest& rest, const WideVec3& w_u, const WideVec3& w_v) {
   const Wide length_u = norm(w_u), length_v = norm(w_v), I6 = dot(w_u, w_v);
   Wide sum = stretch_energy(length_u, rest.b_u, rest.k_u, rest.compression) +
              stretch_energy(length_v, rest.b_v, rest.k_v, rest.compression);
-  if (rest.limited) {
-    sum = sum + barrier(length_u, rest.b_u, rest.k_u, rest.strain_limit).energy;
-    sum = sum + barrier(length_v, rest.b_v, rest.k_v, rest.strain_limit).energy;
+  if (rest.curved) {
+    sum = sum + beyond_straight(rest, length_u, rest.b_u, rest.k_u, rest.stiffening_u).energy;
+    sum = sum + beyond_straight(rest, length_v, rest.b_v, rest.k_v, rest.stiffening_v).energy;
   }
   return sum + 0.5 * rest.k_shear * I6 * I6;
 }
 
 // Stretch along one thread direction: P, Q and the diagonal blocks K and D.
 HWY_INLINE void stretch(const Rest& rest, const MembraneForm& form, const WideVec3& w, const WideVec3& w_dot, Wide b,
-                        Wide tension, WideVec3& P, WideVec3& Q, WideMat3& K, WideMat3& D) {
+                        Wide tension, Wide per_excess2, WideVec3& P, WideVec3& Q, WideMat3& K, WideMat3& D) {
   const Wide length = norm(w);
   const Wide excess = length - b;
   const Wide softness = select(excess < zero(), rest.compression, wide(1));
@@ -114,13 +126,13 @@ HWY_INLINE void stretch(const Rest& rest, const MembraneForm& form, const WideVe
   add_to_diagonal(stiffness * across, K);
   D = (tension * rest.tau_stretch) * both;
 
-  if (!rest.limited) return;
-  // Force and stiffness of the barrier along the thread; across it, the force over the length.
-  const Barrier limit = barrier(length, b, tension, rest.strain_limit);
-  const WideMask pulls = limit.force > zero();
-  P = P + or_zero(pulls, limit.force * along);
-  const Wide over_length = or_zero(pulls, limit.force / length);
-  const WideVec3 stiff_along = or_zero(pulls, (limit.stiffness - over_length) * along);
+  if (!rest.curved) return;
+  // Force and stiffness along the thread; across it, the force over the length.
+  const Beyond beyond = beyond_straight(rest, length, b, tension, per_excess2);
+  const WideMask pulls = beyond.force > zero();
+  P = P + or_zero(pulls, beyond.force * along);
+  const Wide over_length = or_zero(pulls, beyond.force / length);
+  const WideVec3 stiff_along = or_zero(pulls, (beyond.stiffness - over_length) * along);
   K = K + outer(stiff_along, along);
   add_to_diagonal(over_length, K);
 }
@@ -179,8 +191,8 @@ HWY_INLINE void add_projected_shear_hessian(const WideVec3& w_u, const WideVec3&
 // Each caller uses a part of the result; the compiler removes the rest.
 HWY_INLINE Response respond(const Rest& rest, const MembraneForm& form, const Gradient& F) {
   Response r;
-  stretch(rest, form, F.w_u, F.w_u_dot, rest.b_u, rest.k_u, r.P_u, r.Q_u, r.K.uu, r.D.uu);
-  stretch(rest, form, F.w_v, F.w_v_dot, rest.b_v, rest.k_v, r.P_v, r.Q_v, r.K.vv, r.D.vv);
+  stretch(rest, form, F.w_u, F.w_u_dot, rest.b_u, rest.k_u, rest.stiffening_u, r.P_u, r.Q_u, r.K.uu, r.D.uu);
+  stretch(rest, form, F.w_v, F.w_v_dot, rest.b_v, rest.k_v, rest.stiffening_v, r.P_v, r.Q_v, r.K.vv, r.D.vv);
 
   const Wide stiffness = rest.k_shear;
   const Wide I6 = dot(F.w_u, F.w_v);
@@ -427,8 +439,11 @@ void MembraneRestBatch::set(std::size_t lane, const MembraneRest& rest, const Me
   tau_shear[lane] = k.tau_shear;
   compression[lane] = k.compression;
   strain_limit[lane] = k.strain_limit;
-  limited = false;
-  for (const double limit : strain_limit) limited |= limit > 0;
+  stiffening_u[lane] = k.doubling_u > 0 ? 1 / (k.doubling_u * k.doubling_u) : 0;
+  stiffening_v[lane] = k.doubling_v > 0 ? 1 / (k.doubling_v * k.doubling_v) : 0;
+  curved = false;
+  for (std::size_t n = 0; n < batch_size; ++n)
+    curved |= strain_limit[n] > 0 || stiffening_u[n] > 0 || stiffening_v[n] > 0;
 }
 
 void evaluate_membranes(const MembraneRestBatch* rest, std::size_t begin, std::size_t end, const Vec3* x, const Vec3* v,

@@ -16,9 +16,10 @@ struct alignas(64) MembraneRestBatch {
   Batched k_u, k_v, k_shear;  // times s^2, J
   Batched b_u, b_v;
   Batched tau_stretch, tau_shear, compression, strain_limit;
+  Batched stiffening_u, stiffening_v;  // 1 / doubling^2; 0: none
   Batched forward[3];  // [pair c, c + 1] 1: the first particle of the pair has the lower number; 0: the second
   Index corner[3][batch_size];
-  bool limited;  // a lane has a strain limit
+  bool curved;  // a lane has a strain limit, or stiffens
 
   void set(std::size_t lane, const MembraneRest& rest, const MembraneStiffness& k, const Triangle& corners);
 };

@@ -42,6 +42,16 @@ Chord chord_of(std::span<const std::array<double, 2>> curve, const std::array<do
   return chord;
 }
 
+StiffeningCurve curve_through(double chord_N_per_m, double middle_N_per_m, double end_N_per_m,
+                              double end_chord_N_per_m) {
+  constexpr double least_share = 0.1;
+  const double K = chord_N_per_m, e2 = (middle_N_per_m / K) * (middle_N_per_m / K);
+  const double E = end_N_per_m / end_chord_N_per_m;
+  const double q = std::min((end_chord_N_per_m - K) / (E * E - e2), (1 - least_share) * K / e2);
+  const double k = K - q * e2;
+  return {k, std::sqrt(k / q)};
+}
+
 Chord kes_chord(double extension, double linearity, const std::array<double, 2>& range_N_per_m) {
   const auto strain = [&](double force) {
     double low = 0, high = 1;

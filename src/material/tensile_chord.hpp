@@ -1,6 +1,6 @@
 // material/tensile_chord.hpp: the stretch stiffness of a cloth from its force-extension curve.        docs/theory/fabrics.md
 //
-// Curves bend upwards: the chord from zero to a small force is much softer than that to a large one.  The stiffness is the chord at the
+// Curves bend upwards: the chord from zero to a small force is much softer than that to a large one.  What counts is the chord at the
 // middle of the range of forces; half the way between the chords at its ends, as of a value that may lie anywhere
 // between them, is its uncertainty: |k_2 - k_1| / sqrt(12).
 #pragma once
@@ -25,5 +25,14 @@ Chord chord_of(std::span<const std::array<double, 2>> curve, const std::array<do
 Chord kes_chord(double extension, double linearity, const std::array<double, 2>& range_N_per_m);
 constexpr double least_linearity = 1.0 / 3;
 constexpr double kes_shape_relative = 0.25;  // uncertainty of a chord that comes from such a guess of the curve
+
+// T = k (e + e^3 / d^2) with the chord K at `middle` and F over its extension, `end_chord`, at the end F: with E = F / end_chord and e = middle / K
+//   q = (F/E - K) / (E^2 - e^2),  k = K - q e^2,  d^2 = k / q.       end_chord > K, end > middle
+// A curve that begins flatter than this one can keeps a tenth of K for k: threads that do not pull at all have no place.
+struct StiffeningCurve {
+  double stiffness_N_per_m = 0, doubling_strain = 0;
+};
+StiffeningCurve curve_through(double chord_N_per_m, double middle_N_per_m, double end_N_per_m,
+                              double end_chord_N_per_m);
 
 }  // namespace toile::internal

@@ -57,6 +57,11 @@ void describe(V& v, Fabric& fabric) {
   v.number({"stretch_u_N_per_m", "stiffness of the warp", as_base}, {0, 1e9, 1, true}, fabric.stretch_u_N_per_m);
   v.number({"stretch_v_N_per_m", "stiffness of the weft", as_base}, {0, 1e9, 1, true}, fabric.stretch_v_N_per_m);
   v.number({"shear_N_per_m", "stiffness against shear", as_base}, {0, 1e9}, fabric.shear_N_per_m);
+  v.number({"doubling_strain_u",
+            "extension at which the warp pulls twice as hard as a straight line of its stiffness; 0: a straight line",
+            as_base},
+           {0, 10}, fabric.doubling_strain_u);
+  v.number({"doubling_strain_v", "of the weft", as_base}, {0, 10}, fabric.doubling_strain_v);
   v.number({"compression_ratio", "of the stretch stiffness, in threads that are shorter than at rest", as_base},
            {0, 1, 1, true}, fabric.compression_ratio);
   v.number({"strain_limit", "0.05: no thread gets more than 5 % longer; 0: no limit", as_base}, {0, 1},

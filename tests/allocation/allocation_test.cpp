@@ -154,7 +154,7 @@ TEST(Allocation, AFineSheetOverABallTakesNoMoreThanItDid) {
     held_bytes = most_held_bytes = 0;
     counting = true;
     {
-      ClothRun run(sheet, Fabric{}, options);
+      ClothRun run(sheet, test::elastic_cotton(), options);
       run.world.body = &ball;
       run.start();
       with_threads(1, [&] {

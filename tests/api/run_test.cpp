@@ -194,9 +194,16 @@ TEST(Scene, IsRefusedByFileAndLine) {
 TEST(Fabric, ADefaultOneIsCottonInEveryNumber) {
   const Fabric cotton = fabric("cotton"), fresh;
   const auto numbers = [](const Fabric& f) {
-    return std::vector<double>{f.density_kg_per_m2, f.stretch_u_N_per_m, f.stretch_v_N_per_m, f.shear_N_per_m,
-                               f.compression_ratio, f.strain_limit,      f.bend_u_N_m,        f.bend_v_N_m,
-                               f.stretch_damping_s, f.shear_damping_s,   f.bend_damping_s,    f.friction,
+    return std::vector<double>{f.density_kg_per_m2, f.stretch_u_N_per_m,
+                               f.stretch_v_N_per_m, f.doubling_strain_u,
+                               f.doubling_strain_v, f.shear_N_per_m,
+                               f.compression_ratio, f.strain_limit,
+                               f.bend_u_N_m,        f.bend_v_N_m,
+                               f.bend_poisson,      f.bend_uv_N_m,
+                               f.bend_friction_N,   f.bend_friction_curvature_per_m,
+                               f.bend_set,          f.bend_set_s,
+                               f.stretch_damping_s, f.shear_damping_s,
+                               f.bend_damping_s,    f.friction,
                                f.thickness_m};
   };
   EXPECT_EQ(numbers(fresh), numbers(cotton));

@@ -4,6 +4,7 @@
 #include "assembly/elements.hpp"
 #include "core/parallel.hpp"
 #include "core/state_archive.hpp"
+#include "support/fabrics.hpp"
 #include "support/sheets.hpp"
 
 #include <gtest/gtest.h>
@@ -167,7 +168,7 @@ TEST(BendMemory, IsKeptInAStateAndTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(BendMemory, ThereIsNoneWhereNoFabricNeedsIt) {
-  const Fabric fabric;
+  const Fabric fabric = test::elastic_cotton();
   const ClothModel model = build_model(irregular(0).mesh, {&fabric, 1});
   EXPECT_EQ(Elements(model).bend_memory(), nullptr);
 }

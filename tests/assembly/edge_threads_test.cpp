@@ -4,6 +4,7 @@
 #include "assembly/elements.hpp"
 #include "material/edge_finish.hpp"
 #include "material/plate.hpp"
+#include "support/fabrics.hpp"
 #include "support/finished_sides.hpp"
 #include "support/finite_difference.hpp"
 #include "support/sheets.hpp"
@@ -20,7 +21,7 @@ namespace {
 constexpr double hem_m = 0.02, tape_m = 0.01;
 
 TEST(EdgeFinish, AHemIsTwoMoreLayersOnTheGrainAndATapeTwoAlongTheWarp) {
-  const Fabric cotton;
+  const Fabric cotton = test::elastic_cotton();
   const LineStiffness warp = line_stiffness(cotton, {3, 0}, {hem_m, 0}),
                       weft = line_stiffness(cotton, {0, 1}, {hem_m, 0}),
                       bias = line_stiffness(cotton, {1, 1}, {hem_m, 0}),

@@ -74,7 +74,7 @@ TEST(Bench, StiffnessHasARowPerFactorAndIterationsFromOneState) {
     EXPECT_EQ(row.at("frames").integer(), 6);
     EXPECT_GT(row.at("touching_mean").number(), 0);
     const bool bend = row.at("varied").string() == "bend";
-    EXPECT_NEAR(row.at("bend_u_N_m").number(), 1.25e-5 * (bend ? row.at("factor").number() : 1), 1e-12);
+    EXPECT_NEAR(row.at("bend_u_N_m").number(), 7.3e-6 * (bend ? row.at("factor").number() : 1), 1e-12);
     EXPECT_NEAR(row.at("stretch_u_N_per_m").number(), 3000 * (bend ? 1 : row.at("factor").number()), 1e-6);
     if (bend) same_b.push_back(row.at("iterations_block_jacobi_same_b").number());
     if (row.at("factor").number() == 1) {

@@ -68,6 +68,7 @@ TEST(BendHysteresis, OfNoFrictionIsTheElasticCloth) {
   EXPECT_EQ(friction_stiffening(fabric), 1);
   Fabric other;
   other.bend_u_N_m = other.bend_v_N_m = B;
+  other.bend_friction_N = 0;
   EXPECT_EQ(bending_rigidity(fabric), bending_rigidity(other));
 }
 

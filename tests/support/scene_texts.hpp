@@ -18,7 +18,7 @@ inline constexpr std::array<std::string_view, 11> scenes_with_every_setting = {
     "name": "flag",
     "grid": {"width_m": 0.5, "height_m": 0.4, "edge_m": 0.05},
     "fabric": {"base": "silk", "density_kg_per_m2": 0.08, "stretch_u_N_per_m": 1000, "stretch_v_N_per_m": 900,
-      "shear_N_per_m": 50, "compression_ratio": 0.2, "strain_limit": 0.05, "bend_u_N_m": 2e-6, "bend_v_N_m": 3e-6, "bend_poisson": 0.2, "bend_uv_N_m": 1e-6, "bend_friction_N": 1e-4, "bend_friction_curvature_per_m": 30, "bend_set": 0.2, "bend_set_s": 90,
+      "shear_N_per_m": 50, "doubling_strain_u": 0.04, "doubling_strain_v": 0.05, "compression_ratio": 0.2, "strain_limit": 0.05, "bend_u_N_m": 2e-6, "bend_v_N_m": 3e-6, "bend_poisson": 0.2, "bend_uv_N_m": 1e-6, "bend_friction_N": 1e-4, "bend_friction_curvature_per_m": 30, "bend_set": 0.2, "bend_set_s": 90,
       "stretch_damping_s": 1e-3, "shear_damping_s": 2e-3, "bend_damping_s": 3e-3, "friction": 0.3, "thickness_m": 3e-3},
     "placement": {"translation_m": [0.1, 0.2, 0.3], "rotation_deg": [-90, 10, 20]},
     "drags": [{"near_m": [0, 0.1, 0], "path_m": [[0.1, 0, 0.1, 0], [2, 0, 0.5, 0.25]], "stiffness_N_per_m": 40,

@@ -4,6 +4,7 @@
 // one end sags by w under a load; so does the same mesh with the same rigidity D both ways, by w_iso.  Realised: D w_iso / w.
 #pragma once
 #include "support/bending_stiffness.hpp"
+#include "support/fabrics.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -49,7 +50,7 @@ inline double end_deflection(const ClothModel& model, StripAlong along, double l
 // The rigidity along the strip, N m, of a cloth with D_u and D_v.
 inline double realised_rigidity(const ClothMesh& mesh, StripAlong along, double length_m, double held_m, double D_u,
                                 double D_v) {
-  Fabric fabric;
+  Fabric fabric = test::elastic_cotton();
   fabric.bend_u_N_m = D_u;
   fabric.bend_v_N_m = D_v;
   const double w = end_deflection(build_model(mesh, {&fabric, 1}), along, length_m, held_m);

@@ -3,6 +3,7 @@
 //   Gamma = rho g L^3 / D,  H/W: drop over reach of the tip         Romero et al. 2021, "Physical validation of simulators in computer
 //   graphics"; ASTM D1388: at a chord of 41.5 degrees the bending length is half the overhang, D = rho g (L/2)^3
 #include "validation/cantilever.hpp"
+#include "support/fabrics.hpp"
 
 namespace toile::internal {
 namespace {
@@ -19,7 +20,7 @@ constexpr int edges_40 = 46;  // rows of triangles whose edge is L/40
 constexpr double density = 0.15, weight = density * 9.81, length = 0.2;
 
 Fabric of_rigidity(double D_u, double D_v) {
-  Fabric fabric;
+  Fabric fabric = test::elastic_cotton();
   fabric.density_kg_per_m2 = density;
   fabric.bend_u_N_m = D_u;
   fabric.bend_v_N_m = D_v;

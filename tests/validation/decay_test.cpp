@@ -56,7 +56,7 @@ struct Strip : ClothRun {
     return options;
   }
   static Fabric undamped(double D) {
-    Fabric fabric;
+    Fabric fabric = test::elastic_cotton();
     fabric.bend_u_N_m = fabric.bend_v_N_m = D;
     fabric.stretch_damping_s = fabric.shear_damping_s = fabric.bend_damping_s = 0;
     return fabric;

@@ -1,6 +1,7 @@
 // The drape coefficient over the bending length: how src/material/drape_curve.cpp was made, and how well it is known.
 #include "material/drape_curve.hpp"
 #include "material/laboratory_units.hpp"
+#include "support/fabrics.hpp"
 #include "validation/drape_run.hpp"
 #include "validation/figures.hpp"
 
@@ -13,7 +14,7 @@ using test::Figures;
 
 Fabric cloth_of(double bending_length_m, double weight_kg_per_m2 = 0.15, double shear_N_per_m = 60,
                 double stretch = 1) {
-  Fabric cloth;
+  Fabric cloth = test::elastic_cotton();
   cloth.density_kg_per_m2 = weight_kg_per_m2;
   cloth.shear_N_per_m = shear_N_per_m;
   cloth.stretch_u_N_per_m *= stretch;

@@ -56,8 +56,9 @@ TEST(Drape, CottonIsThatOfPlainWovenCottonOnTwoMeshes) {
     figures.add("cotton", mm(edge), "DC %", 68.4, d.percent);
     EXPECT_GT(d.percent, 60);
     EXPECT_LT(d.percent, 76);
-    EXPECT_GE(d.folds, 5);
-    EXPECT_LE(d.folds, 8);
+    // The measured cloths of measured_drape_test.cpp have 5 nodes at 50 % and 2 at 83 %.
+    EXPECT_GE(d.folds, 3);
+    EXPECT_LE(d.folds, 5);
     percent[k++] = d.percent;
   }
   EXPECT_LT(std::abs(percent[1] - percent[0]), 4);

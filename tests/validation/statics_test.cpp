@@ -16,7 +16,7 @@ Sheet hanging_strip(double width, double length, double edge) {
 }
 
 double tip_elongation(double edge, bool paper_scaling, double stiffness) {
-  Fabric fabric;
+  Fabric fabric = test::elastic_cotton();
   fabric.density_kg_per_m2 = 0.15;
   fabric.stretch_u_N_per_m = fabric.stretch_v_N_per_m = stiffness;
   fabric.shear_N_per_m = 0;  // one-dimensional: no Poisson-like coupling at the clamp
@@ -69,7 +69,7 @@ TEST(HangingStrip, ThePapersScalingSoftensFourTimesPerRefinement) {
 TEST(PureShear, ForcePerWidthFollowsFromTheEnergy) {
   // w_u = (1, 0), w_v = (sin phi, cos phi): E/A = k/2 sin^2 phi, so the couple per area is dE/dphi = k sin phi cos phi; the
   // force on the top edge along u, per width, is k sin phi (P_v . u), with |w_v| = 1.
-  Fabric fabric;
+  Fabric fabric = test::elastic_cotton();
   const double phi = 0.3;
   Sheet sheet = test::equilateral_sheet(0.1, 0.1, 0.02);
   ClothModel model = build_model(sheet.mesh, {&fabric, 1});
