@@ -3,9 +3,12 @@
 #include "core/error.hpp"
 #include "rig/feet.hpp"
 #include "rig/mend_jumps.hpp"
+#include "rig/smoothing.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+
+#include <fmt/printf.h>
 
 #include <algorithm>
 #include <array>
