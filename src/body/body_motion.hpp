@@ -26,7 +26,7 @@ struct SampleOptions {
   double rate_hz = 30;  // samples per second
   LengthUnit unit = LengthUnit::automatic;
   double lead_in_s = 1;
-  double arm_room_m = 0.015;  // for cloth, between arms that a skeleton moves and the body (body/arm_clearance.hpp)
+  double limb_room_m = 0.015;  // for cloth, between limbs that a skeleton moves and the body (body/limb_clearance.hpp)
   double fold_room_m =
       0.006;  // likewise between skin and skin (body/skin_folds.hpp): what is 2.2 offsets of 2.5 mm apart pinches no cloth
   double fastest_m_s =

@@ -1,6 +1,6 @@
 #include "body/figure_motion.hpp"
 
-#include "body/arm_clearance.hpp"
+#include "body/limb_clearance.hpp"
 #include "body/mannequin_figure.hpp"
 #include "body/step_speed.hpp"
 #include "core/error.hpp"
@@ -62,11 +62,11 @@ void FigureMotion::place(const FigurePose& pose, std::span<Vec3> x) const {
 
 void FigureMotion::make_room(std::string_view file, const CollisionBody& body, const PersonBones& bones,
                              const SampleOptions& options) {
-  if (options.arm_room_m == 0 && options.fold_room_m == 0) return;
+  if (options.limb_room_m == 0 && options.fold_room_m == 0) return;
   const PosedBody posed{&figure_, vertices_, body.triangles, to_body_,
                         [this](const FigurePose& pose, std::span<Vec3> x) { place(pose, x); }};
   std::vector<std::string> told;
-  keep_arms_clear(posed, bones, options.arm_room_m, track_, told);
+  keep_limbs_clear(posed, bones, options.limb_room_m, track_, told);
   folds_ = SkinFolds(posed, options.fold_room_m, track_);
   if (folds_.deepest_m() > told_yield_m)
     told.push_back(fmt::sprintf("skin that is folded onto itself yields by up to %.1f mm, to leave %.0f mm for cloth",

@@ -8,7 +8,7 @@
 //
 // largest: 1 % of the height, and a quarter of the limb.  Deeper is no fold: cloth is pinched there (step/flypaper.hpp).
 #pragma once
-#include "body/arm_clearance.hpp"
+#include "body/limb_clearance.hpp"
 
 #include <span>
 #include <vector>

@@ -1,5 +1,7 @@
 #include "rig/feet.hpp"
 
+#include "rig/smoothing.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,17 +36,6 @@ std::vector<double> lowest_about(std::span<const double> values, std::size_t rea
                                   values.begin() + static_cast<std::ptrdiff_t>(end));
   }
   return lowest;
-}
-
-std::vector<double> mean_about(std::span<const double> values, std::size_t reach) {
-  std::vector<double> sums(values.size() + 1, 0), mean(values.size());
-  for (std::size_t f = 0; f < values.size(); ++f) sums[f + 1] = sums[f] + values[f];
-  for (std::size_t f = 0; f < values.size(); ++f) {
-    // As far to both sides, so that a slope stays one at the ends.
-    const std::size_t near = std::min({reach, f, values.size() - 1 - f});
-    mean[f] = (sums[f + near + 1] - sums[f - near]) / static_cast<double>(2 * near + 1);
-  }
-  return mean;
 }
 
 }  // namespace
@@ -85,12 +76,6 @@ std::vector<double> clearance(std::span<const double> lowest, double leg, double
   std::vector<double> clear(lowest.size());
   for (std::size_t f = 0; f < clear.size(); ++f) clear[f] = std::max(0.0, lowest[f] - floor[f] - in_the_air * leg);
   return clear;
-}
-
-std::vector<double> smoothed(std::span<const double> values, double seconds, double rate_hz) {
-  const std::size_t reach = frames_of(0.5 * seconds, rate_hz);
-  const std::vector<double> once = mean_about(values, reach);
-  return mean_about(once, reach);
 }
 
 }  // namespace toile::internal

@@ -23,7 +23,4 @@ Vec3 sole_normal(const RecordedFoot& foot, std::span<const char> standing);
 // [frame] how high a body is in the air, by its lowest point: above the lowest within a step's time, and 0 on the floor.
 std::vector<double> clearance(std::span<const double> lowest, double leg, double rate_hz);
 
-// The mean over `seconds` about every frame, twice: without corners.
-std::vector<double> smoothed(std::span<const double> values, double seconds, double rate_hz);
-
 }  // namespace toile::internal

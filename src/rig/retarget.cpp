@@ -3,9 +3,13 @@
 #include "core/error.hpp"
 #include "rig/feet.hpp"
 #include "rig/mend_jumps.hpp"
+#include "rig/smoothing.hpp"
+#include "rig/spine_bends.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+
+#include <fmt/printf.h>
 
 #include <algorithm>
 #include <array>
@@ -193,6 +197,7 @@ class Retargeting {
       frames_.push_back(std::move(frame));
     }
     turn_to_front();
+    straighten_spine();
     align_ = align;
     for (std::size_t side = 0; side < 2; ++side) record_foot(side);
   }
@@ -214,6 +219,25 @@ class Retargeting {
         frame.turn[i] = back * frame.turn[i];
         frame.place[i] = back * frame.place[i];
       }
+  }
+
+  void straighten_spine() {
+    std::vector<Index> nodes = {source_.bone(BodyPart::hips)};
+    nodes.insert(nodes.end(), source_.bones().spine.begin(), source_.bones().spine.end());
+    std::vector<SpineTurns> spines;
+    for (const Posed& frame : frames_) {
+      SpineTurns& turns = spines.emplace_back();
+      for (const Index node : nodes) turns.push_back(frame.turn[at(node)]);
+    }
+    const SpineBend most = share_bends(spines, target_.axes().col(1), moves_.rate_hz);
+    if (most.degrees == 0) return;
+    for (std::size_t f = 0; f < frames_.size(); ++f)
+      for (std::size_t i = 0; i < nodes.size(); ++i) frames_[f].turn[at(nodes[i])] = spines[f][i];
+    notes_.push_back(
+        fmt::sprintf("%s bends by up to %.0f degrees (at %.3f s), farther than a spine can in one place: shared by the "
+                     "spine's joints",
+                     quoted_name(source_.figure(), nodes[most.joint]), most.degrees,
+                     static_cast<double>(most.frame) / moves_.rate_hz));
   }
 
   void record_foot(std::size_t side) {

@@ -9,6 +9,9 @@
 // the target does.  The hips go their way, scaled by the length of the legs, beginning where they stand; the body is then raised or lowered so that its
 // lower sole is on the floor, or in the air as it was.
 //
+// Turns of a spine that bends in one place farther than a spine can are shared by its joints first (rig/spine_bends.hpp), joints that jump are mended
+// (rig/mend_jumps.hpp).
+//
 // What has no bone in the source stays as it is at rest, relative to its parent.
 #pragma once
 #include "rig/bone_names.hpp"

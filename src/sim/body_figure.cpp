@@ -67,7 +67,7 @@ SampleOptions options_of(const SceneMotion& motion, LengthUnit unit) {
   options.unit = unit;
   options.lead_in_s = motion.lead_in_s;
   // A recording is of another body, and makes room for cloth; an animation was made for this one, and is kept.
-  if (!has_bvh_ending(motion.path)) options.arm_room_m = options.fold_room_m = 0;
+  if (!has_bvh_ending(motion.path)) options.limb_room_m = options.fold_room_m = 0;
   return options;
 }
 
