@@ -43,6 +43,7 @@ Fabric fabric() {
   f.shear_N_per_m = 1000;
   f.compression_ratio = 0.5;
   f.bend_u_N_m = f.bend_v_N_m = 1e-4;
+  f.bend_friction_N = 0;
   f.thickness_m = 0.15 * edge_m;
   f.friction = 0;
   return f;

@@ -241,8 +241,8 @@ TEST(Golden, StateHashesOfThreeScenes) {
     run.run(15);
     return state_hash(run.state);
   };
-  EXPECT_EQ(hanging(), "2662493c10d0c20b");
-  EXPECT_EQ(folding(), "8b6c889b0c2c5648");
+  EXPECT_EQ(hanging(), "b02222a6696d4bb4");
+  EXPECT_EQ(folding(), "488aa3d2a4efe9c9");
   EXPECT_EQ(drop(1), "215d7520914026b3");
 }
 
