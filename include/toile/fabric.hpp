@@ -13,8 +13,8 @@ struct Fabric {
   std::string name = "cotton";
   double density_kg_per_m2 = 0.15;
   double stretch_u_N_per_m = 3000, stretch_v_N_per_m = 2000;  // warp, weft
-  double doubling_strain_u = 0,
-         doubling_strain_v = 0;  // extension at which it pulls twice as hard as a straight line; 0: a straight line
+  // Extension at which it pulls twice as hard as a straight line; 0: a straight line; else at least 1e-5.
+  double doubling_strain_u = 0, doubling_strain_v = 0;
   double shear_N_per_m = 60;
   double compression_ratio = 0.1;  // of the stretch stiffness, in threads that are shorter than at rest; in (0, 1]
   double strain_limit = 0;         // no thread gets longer than 1 + this of its length as cut; 0: no limit

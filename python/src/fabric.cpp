@@ -49,13 +49,13 @@ constexpr Field fields[] = {
 };
 
 // For editors and type checkers; a test compares it with the fields.
-#define TOILE_FABRIC_FIELDS                                                                                         \
-  "name: str = ..., density_kg_per_m2: float = ..., stretch_u_N_per_m: float = ..., "                               \
-  "stretch_v_N_per_m: float = ..., doubling_strain_u: float = ..., doubling_strain_v: float = ..., shear_N_per_m: " \
-  "float = ..., compression_ratio: float = ..., "                                                                   \
-  "strain_limit: float = ..., bend_u_N_m: float = ..., bend_v_N_m: float = ..., bend_poisson: float = ..., "        \
-  "bend_uv_N_m: float = ..., bend_friction_N: float = ..., bend_friction_curvature_per_m: float = ..., "            \
-  "bend_set: float = ..., bend_set_s: float = ..., stretch_damping_s: float = ..., shear_damping_s: float = ..., "  \
+#define TOILE_FABRIC_FIELDS                                                                                 \
+  "name: str = ..., density_kg_per_m2: float = ..., stretch_u_N_per_m: float = ..., "                       \
+  "stretch_v_N_per_m: float = ..., doubling_strain_u: float = ..., doubling_strain_v: float = ..., "        \
+  "shear_N_per_m: float = ..., compression_ratio: float = ..., strain_limit: float = ..., "                 \
+  "bend_u_N_m: float = ..., bend_v_N_m: float = ..., bend_poisson: float = ..., bend_uv_N_m: float = ..., " \
+  "bend_friction_N: float = ..., bend_friction_curvature_per_m: float = ..., bend_set: float = ..., "       \
+  "bend_set_s: float = ..., stretch_damping_s: float = ..., shear_damping_s: float = ..., "                 \
   "bend_damping_s: float = ..., friction: float = ..., thickness_m: float = ..."
 
 const Field& field(std::string_view name) {

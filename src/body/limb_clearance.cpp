@@ -86,7 +86,7 @@ class Clearing {
   // Degrees by which a limb must be turned.
   double needed(std::size_t side, const FigurePose& pose) {
     set_pose(pose);
-    const auto [shoulder, axis] = turn_of(side, pose);
+    const auto [joint, axis] = turn_of(side, pose);
     if (axis.squaredNorm() == 0) return 0;
     std::vector<Point> tight;  // what is clear as it is may not be once turned: looked at again
     double angle = 0;
@@ -94,13 +94,13 @@ class Clearing {
       bool clear = true;
       const Quaternion turn = rotation_about(axis, angle * std::numbers::pi / 180);
       for (std::size_t k = 0; k < limb_[side].size(); ++k) {
-        const Vec3 p = point(side, k), turned = angle == 0 ? p : turned_by(shoulder, turn, p, weight_[side][k]);
+        const Vec3 p = point(side, k), turned = angle == 0 ? p : turned_by(joint, turn, p, weight_[side][k]);
         if (!is_tight(turned, room_[side][k])) continue;
         tight.push_back({p, room_[side][k], weight_[side][k]});
         clear = false;
       }
       if (clear) return angle;
-      angle = least(shoulder, axis, tight, angle);
+      angle = least(joint, axis, tight, angle);
       if (angle < largest_deg) continue;
       // A leg is turned to where there is room, and as far as this is better.  Of an arm a leg is in the way, or the other way is nearer: left to
       // the contacts.
@@ -230,11 +230,11 @@ class Clearing {
   }
 
   // From `from` on, of the points that are tight somewhere.
-  double least(const Vec3& shoulder, const Vec3& axis, const std::vector<Point>& tight, double from) const {
+  double least(const Vec3& joint, const Vec3& axis, const std::vector<Point>& tight, double from) const {
     const auto clear = [&](double degrees) {
       const Quaternion turn = rotation_about(axis, degrees * std::numbers::pi / 180);
       return std::none_of(tight.begin(), tight.end(),
-                          [&](const Point& p) { return is_tight(turned_by(shoulder, turn, p.x, p.share), p.room); });
+                          [&](const Point& p) { return is_tight(turned_by(joint, turn, p.x, p.share), p.room); });
     };
     double low = from, high = from;
     do {

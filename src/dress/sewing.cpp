@@ -72,8 +72,8 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
     fabric.bend_v_N_m = std::max(fabric.bend_v_N_m, options.bend_N_m);
     if (fabric.bend_uv_N_m > 0)
       fabric.bend_uv_N_m = std::max(fabric.bend_uv_N_m, 0.5 * (1 - fabric.bend_poisson) * options.bend_N_m);
-    fabric.strain_limit = fabric.doubling_strain_u = fabric.doubling_strain_v =
-        0;                                         // closing seams pull harder than worn cloth may be
+    // Closing seams pull harder than worn cloth may be pulled.
+    fabric.strain_limit = fabric.doubling_strain_u = fabric.doubling_strain_v = 0;
     fabric.bend_friction_N = fabric.bend_set = 0;  // cloth is not to remember how it was sewn
   }
   ClothMesh as_cut = garment.mesh;

@@ -54,11 +54,17 @@ void check_fabric(const Fabric& fabric, std::string_view where, std::string_view
     at += key;
     throw InputError(where, at, may_be_zero ? "a number that is zero or more" : "a number above zero", number(value));
   };
+  const auto check_doubling = [&](std::string_view key, double value) {
+    check(key, value, true);
+    if (value == 0 || value >= least_doubling_strain) return;
+    throw InputError(where, std::string(place) + (place.empty() ? "" : "/") + std::string(key),
+                     "0 or at least " + number(least_doubling_strain), number(value));
+  };
   check("density_kg_per_m2", fabric.density_kg_per_m2, false);
   check("stretch_u_N_per_m", fabric.stretch_u_N_per_m, false);
   check("stretch_v_N_per_m", fabric.stretch_v_N_per_m, false);
-  check("doubling_strain_u", fabric.doubling_strain_u, true);
-  check("doubling_strain_v", fabric.doubling_strain_v, true);
+  check_doubling("doubling_strain_u", fabric.doubling_strain_u);
+  check_doubling("doubling_strain_v", fabric.doubling_strain_v);
   check("shear_N_per_m", fabric.shear_N_per_m, true);
   check("compression_ratio", fabric.compression_ratio, false);
   if (fabric.compression_ratio > 1)

@@ -9,11 +9,15 @@
 
 namespace toile::internal {
 
+// Stiffer than anything, and what steps still solve: a sheet of cotton hangs with 1e-5, and steps collapse with 1e-6.
+constexpr double least_doubling_strain = 1e-5;
+
 struct Fabric {
   std::string name = "cotton";
   double density_kg_per_m2 = 0.15;
   double stretch_u_N_per_m = 3000, stretch_v_N_per_m = 2000;  // warp, weft
-  // Extension at which a thread pulls twice as hard as a straight line of that stiffness: T = k (e + e^3 / doubling^2).  0: a straight line.
+  // Extension at which a thread pulls twice as hard as a straight line of that stiffness: T = k (e + e^3 / doubling^2).  0: a straight line; else
+  // at least least_doubling_strain.
   double doubling_strain_u = 0, doubling_strain_v = 0;
   double shear_N_per_m = 60;
   double compression_ratio = 0.1;  // of the stretch stiffness, in threads that are shorter than at rest; in (0, 1]

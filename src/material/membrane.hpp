@@ -35,8 +35,8 @@ struct MembraneStiffness {
   double tau_stretch = 0, tau_shear = 0;  // s
   double compression = 1;                 // in (0, 1]: k of a thread shorter than b over k
   double strain_limit = 0;                // of |w| / limited_from(b) - 1; 0: none
-  double doubling_u = 0,
-         doubling_v = 0;  // excess at which a thread pulls twice as hard as a straight line; 0: it is one
+  // Excess at which a thread pulls twice as hard as a straight line; 0: it is one.
+  double doubling_u = 0, doubling_v = 0;
 };
 
 struct MembraneRest {

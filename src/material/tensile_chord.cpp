@@ -47,7 +47,8 @@ StiffeningCurve curve_through(double chord_N_per_m, double middle_N_per_m, doubl
   constexpr double least_share = 0.1;
   const double K = chord_N_per_m, e2 = (middle_N_per_m / K) * (middle_N_per_m / K);
   const double E = end_N_per_m / end_chord_N_per_m;
-  const double q = std::min((end_chord_N_per_m - K) / (E * E - e2), (1 - least_share) * K / e2);
+  const double steepest = (1 - least_share) * K / e2, room = E * E - e2;
+  const double q = room > 0 ? std::min((end_chord_N_per_m - K) / room, steepest) : steepest;
   const double k = K - q * e2;
   return {k, std::sqrt(k / q)};
 }

@@ -27,8 +27,8 @@ constexpr double least_linearity = 1.0 / 3;
 constexpr double kes_shape_relative = 0.25;  // uncertainty of a chord that comes from such a guess of the curve
 
 // T = k (e + e^3 / d^2) with the chord K at `middle` and F over its extension, `end_chord`, at the end F: with E = F / end_chord and e = middle / K
-//   q = (F/E - K) / (E^2 - e^2),  k = K - q e^2,  d^2 = k / q.       end_chord > K, end > middle
-// A curve that begins flatter than this one can keeps a tenth of K for k: threads that do not pull at all have no place.
+//   q = (F/E - K) / (E^2 - e^2),  k = K - q e^2,  d^2 = k / q.       end_chord > K
+// A curve that begins flatter than this one can, or two methods' that do not fit together (E <= e), keeps a tenth of K for k: threads that do not pull at all have no place.
 struct StiffeningCurve {
   double stiffness_N_per_m = 0, doubling_strain = 0;
 };

@@ -58,7 +58,8 @@ void describe(V& v, Fabric& fabric) {
   v.number({"stretch_v_N_per_m", "stiffness of the weft", as_base}, {0, 1e9, 1, true}, fabric.stretch_v_N_per_m);
   v.number({"shear_N_per_m", "stiffness against shear", as_base}, {0, 1e9}, fabric.shear_N_per_m);
   v.number({"doubling_strain_u",
-            "extension at which the warp pulls twice as hard as a straight line of its stiffness; 0: a straight line",
+            "extension at which the warp pulls twice as hard as a straight line of its stiffness; 0: a straight line; "
+            "else at least 1e-5",
             as_base},
            {0, 10}, fabric.doubling_strain_u);
   v.number({"doubling_strain_v", "of the weft", as_base}, {0, 10}, fabric.doubling_strain_v);

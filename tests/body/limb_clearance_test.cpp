@@ -93,6 +93,15 @@ struct Lowered {
 
 bool same_bits(const Quaternion& a, const Quaternion& b) { return a.w == b.w && a.v == b.v; }
 
+void expect_left_to_the_bit(Lowered& given) {
+  const PoseTrack was = given.track;
+  given.clear();
+  EXPECT_TRUE(given.notes.empty());
+  for (std::size_t f = 0; f < was.poses.size(); ++f)
+    for (std::size_t n = 0; n < was.poses[f].nodes.size(); ++n)
+      EXPECT_TRUE(same_bits(given.track.poses[f].nodes[n].turn, was.poses[f].nodes[n].turn));
+}
+
 TEST(ArmClearance, AnArmInTheTrunkIsMovedOutAndTheOtherIsNot) {
   Lowered given(3, [](int) { return 60.0; });
   EXPECT_GT(given.entered(1), 20);
@@ -124,12 +133,7 @@ TEST(ArmClearance, TheTurnIsTheLeast) {
 
 TEST(ArmClearance, WhatIsClearIsLeftToTheBit) {
   Lowered given(5, [](int f) { return -10.0 * f; });
-  const PoseTrack was = given.track;
-  given.clear();
-  EXPECT_TRUE(given.notes.empty());
-  for (std::size_t f = 0; f < was.poses.size(); ++f)
-    for (std::size_t n = 0; n < was.poses[f].nodes.size(); ++n)
-      EXPECT_TRUE(same_bits(given.track.poses[f].nodes[n].turn, was.poses[f].nodes[n].turn));
+  expect_left_to_the_bit(given);
 }
 
 // An arm that swings in within half a second: turned before it comes, never with a jump, and not at all long before.
@@ -206,12 +210,7 @@ TEST(LegClearance, TheBodyIsPutDownAgain) {
 TEST(LegClearance, AStrideIsLeftToTheBit) {
   Lowered given(
       13, [](int f) { return -30.0 + 10.0 * f; }, thigh_up);
-  const PoseTrack was = given.track;
-  given.clear();
-  EXPECT_TRUE(given.notes.empty());
-  for (std::size_t f = 0; f < was.poses.size(); ++f)
-    for (std::size_t n = 0; n < was.poses[f].nodes.size(); ++n)
-      EXPECT_TRUE(same_bits(given.track.poses[f].nodes[n].turn, was.poses[f].nodes[n].turn));
+  expect_left_to_the_bit(given);
 }
 
 TEST(LegClearance, IsTurnedWithoutAJumpInSpeed) {

@@ -36,14 +36,18 @@ TEST(FinishedOutfit, EveryGarmentKeepsItsOwnAndIsSewnAsCut) {
 }
 
 // Nor does cloth remember how it was turned about while its seams closed.
-TEST(FinishedOutfit, IsSewnWithoutBendingFriction) {
+TEST(FinishedOutfit, IsSewnWithoutBendingFrictionAndWithoutStiffening) {
   Fabric fabric;
+  fabric.doubling_strain_u = fabric.doubling_strain_v = 0.02;
   fabric.bend_friction_N = 6e-4;
   fabric.bend_set = 0.3;
   const GarmentMesh garment = mesh_garment(test::tube_pattern(0.12, 0.12, 0.1), 0.02);
   const Sewing sewing(garment, {&fabric, 1}, nullptr, {}, {});
   EXPECT_TRUE(sewing.model().hysteresis.empty());
+  EXPECT_EQ(sewing.model().stiffness.front().doubling_u, 0);
+  EXPECT_EQ(sewing.model().stiffness.front().doubling_v, 0);
   EXPECT_EQ(build_model(garment.mesh, {&fabric, 1}).hysteresis.size(), 1U) << "worn, it does";
+  EXPECT_EQ(build_model(garment.mesh, {&fabric, 1}).stiffness.front().doubling_u, 0.02);
 }
 
 }  // namespace

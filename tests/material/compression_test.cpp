@@ -1,8 +1,6 @@
 // Threads that are softer in compression than in tension.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "core/error.hpp"
 #include "material/fabric.hpp"
 #include "material/membrane.hpp"
@@ -61,9 +59,7 @@ TEST(Compression, ElementMatricesStaySemidefinite) {
     const auto [w_u, w_v] = random_deformation(random);
     const std::array<Vec3, 3> x = deformed(t, w_u, w_v, Vec3::Zero()), v = random.vectors<3>(3);
     for (const DampingJacobian jacobian : {DampingJacobian::gauss_newton, DampingJacobian::paper}) {
-      const Matrix6 K = dense(membrane_response(t.membrane, k, x, v, jacobian).K);
-      const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(K, Eigen::EigenvaluesOnly);
-      ASSERT_GT(eigen.eigenvalues().minCoeff(), -1e-9 * eigen.eigenvalues().maxCoeff()) << n;
+      ASSERT_GT(least_eigenvalue(membrane_response(t.membrane, k, x, v, jacobian).K), -1e-9) << n;
     }
   }
 }

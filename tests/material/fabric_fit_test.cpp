@@ -9,6 +9,7 @@
 #include "material/drape_curve.hpp"
 #include "material/laboratory_units.hpp"
 #include "material/tensile_chord.hpp"
+#include "support/stiffening_thread.hpp"
 
 namespace toile::internal {
 namespace {
@@ -135,10 +136,7 @@ TEST(FabricFit, BendingThatWasMeasuredWithoutItsHysteresisIsElastic) {
 
 // Force over extension of the fitted curve, at a force.
 double chord_of_weft(const Fabric& fabric, double force_N_per_m) {
-  const double k = fabric.stretch_v_N_per_m, d = fabric.doubling_strain_v, cube = d > 0 ? k / (d * d) : 0;
-  double e = force_N_per_m / k;
-  for (int n = 0; n < 60; ++n) e -= (k * e + cube * e * e * e - force_N_per_m) / (k + 3 * cube * e * e);
-  return force_N_per_m / e;
+  return force_N_per_m / test::extension_at(force_N_per_m, fabric.stretch_v_N_per_m, fabric.doubling_strain_v);
 }
 
 TEST(FabricFit, StretchIsTheChordWhereGarmentsPull) {
@@ -385,11 +383,7 @@ TEST(FabricFit, AKnownFabricIsFoundAndTheUncertaintyCoversItInTwoThirdsOfAllCase
 TEST(FabricFit, ACurveThatStiffensIsFound) {
   // k = 1050 N/m and d = 1.6 %, as KES-F sees it: the end of the curve and its work.
   const double k = 1050, d = 0.016, top = laboratory::kes_tensile_N_per_m;
-  const auto extension = [&](double force) {
-    double e = force / k;
-    for (int n = 0; n < 60; ++n) e -= (k * (e + e * e * e / (d * d)) - force) / (k * (1 + 3 * e * e / (d * d)));
-    return e;
-  };
+  const auto extension = [&](double force) { return test::extension_at(force, k, d); };
   FabricMeasurements measured;
   const double E = extension(top), r = (E / d) * (E / d);
   measured.warp.kes_extension = {E};
@@ -415,13 +409,19 @@ TEST(FabricFit, ACurveThatStiffensIsFound) {
   EXPECT_EQ(fit.fabric.doubling_strain_v, fabric_preset("poplin", "", "").doubling_strain_v);
 }
 
+// Chords of two methods: the one where garments pull may lie at a larger extension than the end of the other's curve.
+TEST(FabricFit, ACurveThatHasNoRoomToStiffenIsAsSteepAsACurveMayBe) {
+  for (const double end_chord : {8000.0, 30000.0}) {
+    const StiffeningCurve curve = curve_through(3000, 30, 60, end_chord);
+    EXPECT_NEAR(curve.stiffness_N_per_m, 300, 1e-9);
+    EXPECT_NEAR(30 / test::extension_at(30, curve.stiffness_N_per_m, curve.doubling_strain), 3000, 1e-6)
+        << "the chord is kept";
+  }
+}
+
 TEST(FabricFit, TheUncertaintyOfTheDoublingCoversIt) {
   const double k = 1050, d = 0.03;
-  const auto extension = [&](double force) {
-    double e = force / k;
-    for (int n = 0; n < 60; ++n) e -= (k * (e + e * e * e / (d * d)) - force) / (k * (1 + 3 * e * e / (d * d)));
-    return e;
-  };
+  const auto extension = [&](double force) { return test::extension_at(force, k, d); };
   Laboratory laboratory_of(12);
   constexpr int trials = 1000;
   int covered = 0, seen = 0;

@@ -132,6 +132,13 @@ TEST(Fabric, ABadValueIsNamedByItsSceneKey) {
     fabric.*number.value = 0;
     EXPECT_EQ(message_of(fabric).empty(), number.may_be_zero) << number.key;
   }
+  Fabric steep;
+  for (const double doubling : {1e-200, 1e-6}) {
+    steep.doubling_strain_v = doubling;
+    EXPECT_EQ(message_of(steep),
+              "scene.json:14: /cloth/0/fabric/doubling_strain_v: expected 0 or at least 1e-05, got " +
+                  std::string(doubling == 1e-6 ? "1e-06" : "1e-200"));
+  }
   Fabric fabric;
   fabric.density_kg_per_m2 = -0.2;
   EXPECT_EQ(message_of(fabric),

@@ -2,6 +2,8 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include "material/membrane.hpp"
 #include "material/random_elements.hpp"
 #include "support/finite_difference.hpp"
@@ -27,6 +29,12 @@ inline void expect_derivatives_of_the_energy(const RestTriangle& t, const Membra
   EXPECT_GT(gradient.norm(), 0);
   EXPECT_LT(relative_error(gradient, finite_difference(energy, flat(x), length).derivative.transpose()), tolerance);
   EXPECT_LT(relative_error(expand(t, r.K), -finite_difference(force, flat(x), length).derivative), tolerance);
+}
+
+// Over the largest.
+inline double least_eigenvalue(const FMatrix& K) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(dense(K), Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues().minCoeff() / eigen.eigenvalues().maxCoeff();
 }
 
 }  // namespace toile::internal

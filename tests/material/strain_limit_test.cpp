@@ -1,8 +1,6 @@
 // Threads that may not get longer than a limit: a barrier in the energy.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 
@@ -82,9 +80,7 @@ TEST(StrainLimit, ElementMatricesStaySemidefinite) {
     const std::array<Vec3, 3> x =
         deformed(t, stretched(direction_u, t.membrane.b_u, k.strain_limit, random.uniform(-1, 1.5)),
                  stretched(direction_v, t.membrane.b_v, k.strain_limit, random.uniform(-1, 1.5)), Vec3::Zero());
-    const Matrix6 K = dense(membrane_response(t.membrane, k, x, random.vectors<3>(3)).K);
-    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(K, Eigen::EigenvaluesOnly);
-    ASSERT_GT(eigen.eigenvalues().minCoeff(), -1e-9 * eigen.eigenvalues().maxCoeff()) << n;
+    ASSERT_GT(least_eigenvalue(membrane_response(t.membrane, k, x, random.vectors<3>(3)).K), -1e-9) << n;
   }
 }
 

@@ -1,5 +1,6 @@
 // A strip that hangs from its upper edge under a heavy gravity: each cross section carries what hangs below it.
 #include "support/settle.hpp"
+#include "support/stiffening_thread.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,23 +11,14 @@ namespace {
 
 constexpr double length_m = 0.4, width_m = 0.1, gravity_m_per_s2 = 600;
 
-// e of T = k (e + e^3 / d^2).
-double extension_at(double tension_N_per_m, double k, double d) {
-  double e = tension_N_per_m / k;
-  for (int n = 0; n < 50; ++n)
-    e -=
-        (k * (e + (d > 0 ? e * e * e / (d * d) : 0)) - tension_N_per_m) / (k * (1 + (d > 0 ? 3 * e * e / (d * d) : 0)));
-  return e;
-}
-
 // Of the whole strip, m: the integral of e over it.
 double expected(const Fabric& fabric) {
   double sum = 0;
   constexpr int parts = 1000;
   for (int n = 0; n < parts; ++n) {
     const double below = length_m * (n + 0.5) / parts;
-    sum += extension_at(fabric.density_kg_per_m2 * gravity_m_per_s2 * below, fabric.stretch_v_N_per_m,
-                        fabric.doubling_strain_v) *
+    sum += test::extension_at(fabric.density_kg_per_m2 * gravity_m_per_s2 * below, fabric.stretch_v_N_per_m,
+                              fabric.doubling_strain_v) *
            length_m / parts;
   }
   return sum;
