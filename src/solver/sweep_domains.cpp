@@ -64,12 +64,16 @@ void SweepDomains<T>::add(Coupling coupling, std::vector<Couplings>& to) const {
   const std::size_t domain = domain_of(coupling.own);
   const Index own = time_[at(coupling.own)], other = time_[at(coupling.other)];
   if (domain == domain_of(coupling.other)) {
-    // The time of a coupling: grouped with others if possible, after the one row is known and before the other is needed.
+    // The time of a coupling: grouped with others if possible, after the one row is known and before the other is needed, and in the epoch of
+    // its own row: in another one, other domains read that row.
+    const std::size_t epoch = epoch_of(own);
+    const Index group = own - own % times_between_stops;
     if (other < own) {
-      coupling.time = own - own % times_between_stops > other ? own - own % times_between_stops : own;
+      const Index first = std::max(group, epoch_begin_[epoch]);
+      coupling.time = first > other ? first : own;
       to[domain].earlier.push_back(coupling);
     } else if (other > own) {
-      const Index last = own - own % times_between_stops + times_between_stops - 1;
+      const Index last = std::min(group + times_between_stops, epoch_begin_[epoch + 1]) - 1;
       coupling.time = last < other ? last : own;
       to[domain].later.push_back(coupling);
     } else {
