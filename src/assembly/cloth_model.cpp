@@ -197,6 +197,13 @@ void set_finishes(ClothModel& model, double share) {
   ++model.rest_version;
 }
 
+void set_stiffening(ClothModel& model, double share) {
+  if (model.stiffened == share) return;
+  model.stiffened = share;
+  const auto is_curved = [](const MembraneStiffness& k) { return k.doubling_u > 0 || k.doubling_v > 0; };
+  if (std::any_of(model.stiffness.begin(), model.stiffness.end(), is_curved)) ++model.rest_version;
+}
+
 std::array<Vec2, 3> ClothModel::rest_uv(std::size_t triangle) const {
   std::array<Vec2, 3> uv = mesh.uv[triangle];
   if (mesh.gathered_uv.empty()) return uv;

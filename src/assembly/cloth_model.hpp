@@ -71,6 +71,7 @@ struct ClothModel {
   double drag_per_s = 0;
   double gathered = 1;  // share of mesh.gathered_uv
   double finished = 1;  // share of the stiffness of `threads`
+  double stiffened = 1;  // share of what makes threads stiffen (MembraneStiffness::stiffened)
   // As built, once set_panel_stiffness has changed them: [panel], [hinge], [triangle].
   std::vector<MembraneStiffness> built_stiffness;
   std::vector<double> built_kappa_N_m;
@@ -97,6 +98,10 @@ void set_folds(ClothModel& model, double share);
 
 // Threads of finished edges with a share of their stiffness: seams close without (0).
 void set_finishes(ClothModel& model, double share);
+
+// Threads stiffen by that share of their curves: 0 is the straight line.  Cloth of which a seam or a growing body makes half as much again pulls
+// hundreds of times as hard along a curve, which is no cloth's pull any more.
+void set_stiffening(ClothModel& model, double share);
 
 // Rest shapes of triangles = uv + share * (mesh.gathered_uv - uv): panels are sewn as cut (0), and gathered as their
 // seams close (1).  Mass, bend weight and area stay those of the cloth as cut.

@@ -61,7 +61,9 @@ void Elements::pack_rest(const ClothModel& model) {
   form_.damping_jacobian = model.damping_jacobian;
   for (std::size_t k = 0; k < rest_.size() * batch_size && !triangles_.empty(); ++k) {
     const std::size_t t = std::min(k, triangles_.size() - 1);
-    rest_[k / batch_size].set(k % batch_size, model.membrane[t], model.stiffness_of(t), triangles_[t]);
+    MembraneStiffness stiffness = model.stiffness_of(t);
+    stiffness.stiffened = model.stiffened;
+    rest_[k / batch_size].set(k % batch_size, model.membrane[t], stiffness, triangles_[t]);
   }
 }
 

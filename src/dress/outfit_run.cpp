@@ -76,6 +76,7 @@ void OutfitRun::set_rest_stretch(double share) {
   }
   set_folds(model_, share);
   set_finishes(model_, share);
+  set_stiffening(model_, share);
 }
 
 std::vector<Vec2> OutfitRun::panel_rest_stretch() const {
@@ -91,6 +92,7 @@ void OutfitRun::take_up(std::span<const Vec2> panel_rest_stretch) {
     set_panel_rest_stretch(model_, static_cast<Index>(p), panel_rest_stretch[p]);
   set_folds(model_, ramped_);
   set_finishes(model_, ramped_);
+  set_stiffening(model_, ramped_);
   for (TimedPin& timed : events_.pins) lead(timed);
   const Changed changed = changed_;
   if (changed.friction) set_friction({}, *changed.friction);

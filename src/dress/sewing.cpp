@@ -10,6 +10,8 @@
 namespace toile::internal {
 namespace {
 
+// kg/m^2, that of silk: lighter cloth, which a seam's pull and the drag of sewing drive as they do any other, flies past thumbs.
+constexpr double least_sewn_density = 0.07;
 constexpr int most_escalations = 3;  // thin layers, then two doublings of the pull
 constexpr int lets_through = 2;      // from this escalation on folds caught in seams may pass through
 constexpr double thinning_per_frame = 0.95;
@@ -75,6 +77,7 @@ Sewing::Sewing(const GarmentMesh& garment, std::span<const Fabric> fabrics, Body
     // Closing seams pull harder than worn cloth may be pulled.
     fabric.strain_limit = fabric.doubling_strain_u = fabric.doubling_strain_v = 0;
     fabric.bend_friction_N = fabric.bend_set = 0;  // cloth is not to remember how it was sewn
+    fabric.density_kg_per_m2 = std::max(fabric.density_kg_per_m2, least_sewn_density);
   }
   ClothMesh as_cut = garment.mesh;
   as_cut.finished.clear();  // an armhole has to pass a raised arm

@@ -15,7 +15,7 @@
 // the damping, which keeps the k of tension.  The projected K only loses its part along the thread.
 //
 // A thread may stiffen (off by default): with the excess e = |w| - b above zero and a doubling d, T = k (e + e^3 / d^2) pulls twice as hard
-// at e = d as the straight line, and the energy has s^2 k e^4 / (4 d^2) more.
+// at e = d as the straight line, and the energy has s^2 k e^4 / (4 d^2) more; of the cubic term a share may count.
 //
 // Strain limit (off by default): a thread may not be longer than L = (1 + limit) c, c = max(b, 1): worn elastic is
 // stretched beyond its rest length, which is allowed.  From half of the limit on, e_0 = c + (L - c)/2, a barrier is
@@ -37,6 +37,7 @@ struct MembraneStiffness {
   double strain_limit = 0;                // of |w| / limited_from(b) - 1; 0: none
   // Excess at which a thread pulls twice as hard as a straight line; 0: it is one.
   double doubling_u = 0, doubling_v = 0;
+  double stiffened = 1;  // share of e^3 / d^2, in [0, 1]
 };
 
 struct MembraneRest {

@@ -439,8 +439,8 @@ void MembraneRestBatch::set(std::size_t lane, const MembraneRest& rest, const Me
   tau_shear[lane] = k.tau_shear;
   compression[lane] = k.compression;
   strain_limit[lane] = k.strain_limit;
-  stiffening_u[lane] = k.doubling_u > 0 ? 1 / (k.doubling_u * k.doubling_u) : 0;
-  stiffening_v[lane] = k.doubling_v > 0 ? 1 / (k.doubling_v * k.doubling_v) : 0;
+  stiffening_u[lane] = k.doubling_u > 0 ? k.stiffened / (k.doubling_u * k.doubling_u) : 0;
+  stiffening_v[lane] = k.doubling_v > 0 ? k.stiffened / (k.doubling_v * k.doubling_v) : 0;
   curved = false;
   for (std::size_t n = 0; n < batch_size; ++n)
     curved |= strain_limit[n] > 0 || stiffening_u[n] > 0 || stiffening_v[n] > 0;

@@ -16,7 +16,7 @@ struct alignas(64) MembraneRestBatch {
   Batched k_u, k_v, k_shear;  // times s^2, J
   Batched b_u, b_v;
   Batched tau_stretch, tau_shear, compression, strain_limit;
-  Batched stiffening_u, stiffening_v;  // 1 / doubling^2; 0: none
+  Batched stiffening_u, stiffening_v;  // stiffened / doubling^2; 0: none
   Batched forward[3];  // [pair c, c + 1] 1: the first particle of the pair has the lower number; 0: the second
   Index corner[3][batch_size];
   bool curved;  // a lane has a strain limit, or stiffens

@@ -111,8 +111,8 @@ TEST(OutfitRun, StepsAreNoLongerThanTheSceneSaysAlsoWhileRestIsAwaited) {
   EXPECT_DOUBLE_EQ(Hanging(true, R"({"fps": 60})").longest_step_s(), 1.0 / 60);
 }
 
-// Garments are sewn as cut: a tape that pulled at once would jerk a weightless edge.
-TEST(OutfitRun, TapesPullAsGravityGrows) {
+// Garments are sewn as cut: a tape that pulled at once would jerk a weightless edge, and so would threads that seams have made half as long again.
+TEST(OutfitRun, TapesPullAndThreadsStiffenAsGravityGrows) {
   Hanging sheet(true);
   const Triangle corner = sheet.outfit.mesh.triangles.front();
   sheet.outfit.mesh.finished = {{corner[0], corner[1], 0, 0.01}};
@@ -121,11 +121,15 @@ TEST(OutfitRun, TapesPullAsGravityGrows) {
   run.begin(after_weld(true, awaiting_rest));
   run.frame();
   EXPECT_EQ(run.model().finished, 0);
+  EXPECT_EQ(run.model().stiffened, 0);
   while (run.time_s() < 0.4) run.frame();
   EXPECT_GT(run.model().finished, 0.2);
+  EXPECT_GT(run.model().stiffened, 0.2);
   EXPECT_LT(run.model().finished, 0.8);
+  EXPECT_LT(run.model().stiffened, 0.8);
   while (run.time_s() < 0.6) run.frame();
   EXPECT_EQ(run.model().finished, 1);
+  EXPECT_EQ(run.model().stiffened, 1);
 }
 
 // While something of the weld is tangled, the time in which a garment gets its weight does not begin.

@@ -195,6 +195,19 @@ TEST(Sewing, ClothIsAsStiffAsLeatherUntilTheWeldAndNeverSofterThanItsFabric) {
   }
 }
 
+// Chiffon is sewn with the mass of silk, and nothing else with another than its own.
+TEST(Sewing, LightClothIsSewnWithTheMassOfSilk) {
+  const Pattern pattern = test::tube_pattern(0.12, 0.12, 0.1);
+  const GarmentMesh garment = mesh_garment(pattern, 0.02);
+  for (const double density : {0.03, 0.07, 0.3}) {
+    Fabric fabric, sewn;
+    fabric.density_kg_per_m2 = density;
+    sewn.density_kg_per_m2 = std::max(density, 0.07);
+    const Sewing sewing(garment, {&fabric, 1}, nullptr, test::bare_step(), SewingOptions{});
+    EXPECT_EQ(sewing.model().mass_kg, build_model(garment.mesh, {&sewn, 1}).mass_kg) << density;
+  }
+}
+
 TEST(Sewing, ThePullDoublesTwiceBeforeASeamIsBlocked) {
   BodySurface body = capsule(0.055, 0.2);
   const auto gap_when_given_up = [&](double too_small) {

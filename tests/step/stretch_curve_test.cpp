@@ -24,11 +24,13 @@ double expected(const Fabric& fabric) {
   return sum;
 }
 
-double hanging(const Fabric& fabric) {
+double hanging(const Fabric& fabric, double stiffened = 1) {
   ModelOptions options;
   options.gravity_m_per_s2 = Vec3(0, 0, -gravity_m_per_s2);
   const test::Sheet sheet = test::equilateral_sheet(width_m, length_m, 0.01);
   test::ClothRun run(sheet, fabric, options);
+  run.start();
+  set_stiffening(run.model, stiffened);
   double lowest = 0;
   for (std::size_t i = 0; i < sheet.x.size(); ++i)
     if (sheet.x[i].z() == 0) run.pin(static_cast<Index>(i));
@@ -46,6 +48,18 @@ TEST(StretchCurve, AHangingStripExtendsByTheCurveItHas) {
   const double curved = expected(fabric);
   EXPECT_LT(curved, 0.7 * straight);
   EXPECT_NEAR(hanging(fabric), curved, 0.02 * curved);
+}
+
+// With a quarter of e^3 / d^2 it doubles at 2 d.
+TEST(StretchCurve, AShareOfItIsAFlatterCurve) {
+  Fabric fabric = test::linear_cotton();
+  fabric.stretch_v_N_per_m = 800;
+  fabric.doubling_strain_v = 0.02;
+  const double quarter = hanging(fabric, 0.25), none = hanging(fabric, 0);
+  fabric.doubling_strain_v = 0.04;
+  EXPECT_NEAR(quarter, hanging(fabric), 1e-4 * quarter);
+  fabric.doubling_strain_v = 0;
+  EXPECT_NEAR(none, hanging(fabric), 1e-4 * none);
 }
 
 }  // namespace
