@@ -56,6 +56,14 @@ std::array<Vec3, 4> gradient(const HingeFrame& f, const std::array<Vec3, 4>& x) 
   return g;
 }
 
+// f of a hinge with a crushed triangle, else 1.
+double share_of_gradient(const HingeFrame& f, const std::array<double, 2>& least_normal2) {
+  double share = 1;
+  if (f.N_A2 < least_normal2[0]) share = f.N_A2 / least_normal2[0];
+  if (f.N_B2 < least_normal2[1]) share = std::min(share, f.N_B2 / least_normal2[1]);
+  return share;
+}
+
 }  // namespace
 
 BendResponse bend_response(const BendRest& rest, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& v) {
@@ -68,6 +76,8 @@ BendResponse bend_response(const BendRest& rest, const std::array<Vec3, 4>& x, c
   }
   r.theta = angle(frame);
   r.g = gradient(frame, x);
+  if (const double share = share_of_gradient(frame, rest.least_normal2); share < 1)
+    for (Vec3& g : r.g) g *= share;
   // The gradient's rows sum to zero: velocities relative to x0, so that a fast common motion costs no digits.
   r.theta_dot = r.g[1].dot(v[1] - v[0]) + r.g[2].dot(v[2] - v[0]) + r.g[3].dot(v[3] - v[0]);
   const double C = r.theta - rest.theta_0;  // never wrapped by 2 pi: a fold that passes pi has passed through itself

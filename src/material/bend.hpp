@@ -6,6 +6,10 @@
 // K = kappa g g^T and D = tau kappa g g^T with g = dtheta/dx: rank one, semidefinite by construction.
 // The part (theta - theta_0) d2theta is left out, because it is indefinite at every fold.     docs/theory/bend.md
 //
+// g grows as one over the height of a triangle that is crushed in its plane, and with it the force and the matrix, without end.  From a height of
+// smallest_height of the rest shape's on, g is scaled down by f = (N / (smallest_height N_0))^2, N being the flattest triangle's normal:
+// |g| then falls to zero with the height.  One f for both triangles keeps the angular momentum; g g^T stays semidefinite.
+//
 // theta jumps from pi to -pi where the two triangles pass through each other.  theta - theta_0 is never wrapped:
 // without such a passage it is the angle turned since rest.
 #pragma once
@@ -13,13 +17,20 @@
 
 namespace toile::internal {
 
+inline constexpr double smallest_height = 0.05;
+
 struct BendRest {
   double kappa_N_m = 0;  // stiffness of this hinge by itself
   double plate_N_m =
       0;  // what the matrix of a step takes for the plates beside it (assembly/plate_moments.hpp); 0: a hinge alone
   double tau_s = 0;    // relaxation time k_d / k
   double theta_0 = 0;  // rest angle, rad
+  // (smallest_height N_0)^2 of the triangles beside particles 2 and 3, m^4, N_0 being twice the area at rest; 0: g is never scaled down.
+  std::array<double, 2> least_normal2{0, 0};
 };
+
+inline double least_normal2(double area_m2) { return 4 * smallest_height * smallest_height * area_m2 * area_m2; }
+
 
 struct BendResponse {
   double theta = 0, theta_dot = 0, energy_J = 0;

@@ -106,6 +106,43 @@ TEST(Bend, AnEquilateralHingeHasTheEigenvaluesOfTheTheoryPage) {
   for (Eigen::Index i = 0; i < 12; ++i) EXPECT_NEAR(values[i], expected[static_cast<std::size_t>(i)], 0.001);
 }
 
+// A triangle that is crushed to a share of its height: the gradient is that of the angle until the least height, and then falls to zero with it, without
+// a torque on the whole.
+TEST(Bend, ACrushedTriangleHasNoEndlessGradient) {
+  const double height_m = 0.015;
+  const double area_m2 = 0.5 * 0.02 * height_m;
+  const BendRest rest{.kappa_N_m = 1e-2, .tau_s = 2e-3, .least_normal2 = {least_normal2(area_m2), least_normal2(area_m2)}};
+  const BendRest endless{.kappa_N_m = 1e-2, .tau_s = 2e-3};
+  std::array<Vec3, 4> v = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 1, 1)};
+  for (const std::size_t crushed : {2u, 3u}) {
+    const auto at_share = [&](double share) {
+      std::array<Vec3, 4> x = {Vec3(0, 0, 0), Vec3(0.02, 0, 0), Vec3(0.008, height_m, 0), Vec3(0.011, -0.6, 0.8)};
+      x[3].tail<2>() *= height_m;
+      x[crushed].tail<2>() *= share;
+      return x;
+    };
+    const auto g_of = [&](double share) { return bend_response(rest, at_share(share), v).g; };
+    EXPECT_EQ(flat(g_of(0.051)), flat(bend_response(endless, at_share(0.051), v).g));
+    EXPECT_EQ(flat(g_of(1)), flat(bend_response(endless, at_share(1), v).g));
+    const double most = flat(g_of(0.05)).norm();
+    for (const double share : {0.04, 0.01, 1e-3}) {
+      const BendResponse r = bend_response(rest, at_share(share), v);
+      EXPECT_FALSE(r.degenerate);
+      EXPECT_NEAR(flat(r.g).norm(), most * share / 0.05, 0.02 * most);
+      double theta_dot = 0;
+      Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+      for (std::size_t i = 0; i < 4; ++i) {
+        theta_dot += r.g[i].dot(v[i]);
+        force += r.g[i];
+        torque += at_share(share)[i].cross(r.g[i]);
+      }
+      EXPECT_NEAR(r.damping, rest.tau_s * rest.kappa_N_m * theta_dot, 1e-12 * most);
+      EXPECT_LT(force.norm(), 1e-12 * most);
+      EXPECT_LT(torque.norm(), 1e-10 * height_m * most);
+    }
+  }
+}
+
 TEST(Bend, AHingeWithoutAnAngleIsSkippedAndSaysSo) {
   const Vec3 x0(0, 0, 0), x1(1, 0, 0), b(0.5, -1, 0);
   const BendRest rest{.kappa_N_m = 1, .tau_s = 1, .theta_0 = 1};
