@@ -56,8 +56,9 @@ double ContourPush::operator()(const IntersectionContour& contour, std::span<con
     for (const ContourPull& p : choices[best].sweep.pulls) pull(p, push_m / 2 * p.vector);
     if (way != Way::shorter_too) return choices[best].region.area_m2;
   }
+  const double most_m = way == Way::gently ? std::min(push_m, length / 4) : push_m;
   for (const ContourPull& p : length_gradient(contour, all_, crossings, x, least_sine))
-    pull(p, -push_m / std::max(1.0, p.vector.norm()) * p.vector);
+    pull(p, -most_m / std::max(1.0, p.vector.norm()) * p.vector);
   return sweeps ? choices[best].region.area_m2 : length * edge_m;
 }
 

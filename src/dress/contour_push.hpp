@@ -17,7 +17,9 @@ namespace toile::internal {
 // `all`: triangles of the cloth, and of a body behind them (contact/intersection_contours.hpp).  All are held by reference.
 class ContourPush {
  public:
-  enum class Way { cheapest, shorter_too, other_side };  // cheapest: the cheaper of the two parts
+  // cheapest: the cheaper of the two parts.  gently: the same, and what cuts nothing off is made shorter by half at most: the ends of a contour of
+  // a few points, pulled past each other, cut anew.
+  enum class Way { cheapest, shorter_too, other_side, gently };
 
   ContourPush(const Topology& topology, std::span<const Triangle> all, std::span<const Vec3> x);
 

@@ -56,6 +56,7 @@ class OutfitRun {
   const OutfitRunOptions& options() const { return options_; }
   const Vec3& wind_m_per_s() const { return wind_m_per_s_; }  // of the frame
   double grown() const { return ramped_; }  // share of elastic, and of all that is ramped up after the weld
+  void push_tangles_gently(bool gently) { tangles_->push_gently(gently); }  // not part of the state
   // From the next frame on the body moves, from its present positions at 0 s.  The run no longer ends at rest.
   void start_motion(BodyAt body_at);
   double motion_from_s() const { return motion_start_s_; }

@@ -28,6 +28,8 @@ class Tangles {
     over_ = false;
     fewest_ = 0;
   }
+  // Contours that cut nothing off are pulled no farther than their length (ContourPush::Way::gently), for as long as it is set.
+  void push_gently(bool gently) { gently_ = gently; }
   bool any() const { return any_; }
   // Sets the scale of the particles around crossings to 0 (ContactRows::set_thickness_scale), and to a tenth for those that
   // were 0 and have no crossing beside them any more.
@@ -58,7 +60,7 @@ class Tangles {
   double edge_m_ = 0;                     // mean
   std::vector<char> unguarded_;           // [particle]
   std::vector<LinearSpring> springs_;
-  bool over_ = false, any_ = false;
+  bool over_ = false, any_ = false, gently_ = false;
   std::size_t fewest_ = 0;  // the fewest crossings since there were none, or since a pinch
   int waited_ = 0;          // looks since then
 };

@@ -61,17 +61,29 @@ std::vector<Index> Simulation::held_now(bool sewn_now) const {
 }
 
 // Crossings that remain after trials from rest may come apart as the garment moves, its threads contracting to their rest length, before
-// it has weight.  These frames are not written.  Returns the number of frames.
+// it has weight: first pushed gently, and where that is in vain from the same state with all force.  These frames are not written.  Returns the
+// number of frames.
 int Simulation::come_apart() {
+  const auto crosses = [&] { return start_crossings(outfit_, {}, {}).all() > 0; };
+  if (!crosses()) return 0;
   const int most = frames_in(most_waiting_s);
+  const Outfit welded = outfit_;
   int frames = 0;
-  while (frames < most && start_crossings(outfit_, {}, {}).all() > 0) {
-    if (frames == 0) outfit_run().begin(coming_apart(pace()));
-    const FrameReport frame = run_->frame();
-    if (frame.interrupted || !frame.ok) break;  // the drape will report it
-    ++frames;
+  for (const bool gently : {true, false}) {
+    outfit_run().begin(coming_apart(pace()));
+    run_->push_tangles_gently(gently);
+    bool goes_on = true;
+    for (int k = 0; k < most && goes_on && crosses(); ++k) {
+      const FrameReport frame = run_->frame();
+      goes_on = !frame.interrupted && frame.ok;  // else the drape will report it
+      frames += goes_on ? 1 : 0;
+    }
+    run_->push_tangles_gently(false);
+    if (stopped() || !gently || !crosses()) break;
+    outfit_ = welded;
+    run_.reset();
   }
-  if (frames > 0) outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
+  outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
   return frames;
 }
 
