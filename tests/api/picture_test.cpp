@@ -81,5 +81,30 @@ TEST(Picture, OfARunAsInAStudio) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "run/preview.mp4"));
 }
 
+TEST(Picture, OfARunInColours) {
+  if (!internal::can_draw()) GTEST_SKIP() << "built without pictures";
+  const Scratch scratch;
+  Simulation sim = sheet();
+  RunWriter run(scratch / "run", sim, 30);
+  sim.advance(1.0 / 30);
+  run.add(sim);
+  run.finish();
+  const std::string looks =
+      scratch.put("looks.json", R"({"looks": [{"garment": 0, "print": {"stripes": [["#c00000", 20], ["#ffffff", 20]]}}]})");
+  std::vector<std::string> pictures;
+  for (const char* style : {"technical", "studio"}) {
+    for (const std::string& file : {std::string(), looks}) {
+      preview(scratch / "run", {.style = style, .film = false, .looks = file});
+      pictures.push_back(scratch.get("run/preview.png"));
+    }
+  }
+  EXPECT_NE(pictures[0], pictures[1]);
+  EXPECT_NE(pictures[2], pictures[3]);
+  scratch.put("looks.json", R"({"looks": [{"panel": "sleeve", "colour": "#c00000"}]})");
+  EXPECT_THROW(preview(scratch / "run", {.film = false, .looks = looks}), InputError);
+  EXPECT_THROW(preview(scratch / "run", {.film = false, .looks = scratch / "none.json"}), IoError);
+  EXPECT_EQ(scratch.get("run/preview.png"), pictures[3]);
+}
+
 }  // namespace
 }  // namespace toile
