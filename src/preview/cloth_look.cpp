@@ -332,7 +332,8 @@ Vec3f mean_colour(const ClothLook& look, bool right_side) {
 }
 
 Vec3f thread_colour(const ClothLook& look, bool right_side, const Vec2& point, const Vec2f& extent) {
-  const Threads dye = look.print ? printed(look, right_side, look.print->at(point, extent)) : Threads{look.warp, look.weft};
+  const Threads dye =
+      look.print ? printed(look, right_side, look.print->at(point, extent)) : Threads{look.warp, look.weft};
   const float size = look.thread_m, blur = std::max(extent.x(), extent.y());
   const Vec2 threads_at =
       point / static_cast<double>(size);  // warp threads lie side by side along x, weft threads along y

@@ -25,13 +25,13 @@ struct ClothLook {
   Weave weave = Weave::plain;
   Vec3f warp = Vec3f::Constant(0.6f), weft = Vec3f::Constant(0.6f);  // linear RGB
   Vec3f stitch = Vec3f::Constant(0.6f);                              // of the thread along hems
-  float thread_m = 3e-4f;     // from warp thread to warp thread; in a knit from wale to wale
-  float uneven = 0.03f;       // brightness of a thread against the next, largest deviation
-  float thickness_m = 4e-4f;  // of one layer
-  float hem_m = 0.015f;       // folded twice along open edges
-  float sheen = 0.3f;         // share of light that fibres standing off the cloth catch at grazing view
-  float gloss = 0.0f;         // reflectance of the surface's highlight, facing
-  float roughness = 0.4f;     // width of the highlight, rad
+  float thread_m = 3e-4f;                   // from warp thread to warp thread; in a knit from wale to wale
+  float uneven = 0.03f;                     // brightness of a thread against the next, largest deviation
+  float thickness_m = 4e-4f;                // of one layer
+  float hem_m = 0.015f;                     // folded twice along open edges
+  float sheen = 0.3f;                       // share of light that fibres standing off the cloth catch at grazing view
+  float gloss = 0.0f;                       // reflectance of the surface's highlight, facing
+  float roughness = 0.4f;                   // width of the highlight, rad
   std::shared_ptr<const Print> print = {};  // on threads of the colours above; none: they are seen
 };
 

@@ -36,6 +36,8 @@ class Sett {
   // Over [x - extent/2, x + extent/2].
   Vec3f mean_over(double x, double extent_m) const;
   Vec3f mean() const;
+  // Of two bands as wide as the mean one.
+  double fine_m() const { return 2 * repeat_m_ / static_cast<double>(bands_.size()); }
 
  private:
   using Sum = Eigen::Vector3d;
@@ -71,7 +73,8 @@ struct Print {
   std::variant<Stripes, Check, Dots, Picture> pattern;
   Vec2 offset_m{0, 0};
   double turn_rad = 0;
-  float through = 1;  // share of it that the wrong side shows: 1 where the threads are dyed, less where the right side is printed
+  // The share that the wrong side shows: 1 where the threads are dyed, less where the right side is printed.
+  float through = 1;
 
   // The threads have these colours themselves: they are not printed over.
   bool is_woven() const { return std::holds_alternative<Check>(pattern); }

@@ -35,10 +35,8 @@ std::vector<Band> bands_in(const Json& value) {
     value.fail("at most " + std::to_string(most_bands) + " bands", std::to_string(value.array().size()));
   std::vector<Band> bands;
   for (const Json& band : value.array()) {
-    if (!band.is_array() || band.array().size() != 2)
-      band.fail("a band [colour, width in mm]", band.describe());
-    bands.push_back(
-        {colour_in(band.array()[0]), mm * number_between(band.array()[1], least_mm, most_mm)});
+    if (!band.is_array() || band.array().size() != 2) band.fail("a band [colour, width in mm]", band.describe());
+    bands.push_back({colour_in(band.array()[0]), mm * number_between(band.array()[1], least_mm, most_mm)});
   }
   return bands;
 }
@@ -137,8 +135,7 @@ Print print_in(const Json& value, const std::string& file, std::vector<std::stri
     if (!offset->is_array() || offset->array().size() != 2)
       offset->fail("two numbers [x, y] in mm", offset->describe());
     for (std::size_t k = 0; k < 2; ++k)
-      print.offset_m[static_cast<Eigen::Index>(k)] =
-          mm * number_between(offset->array()[k], -farthest_mm, farthest_mm);
+      print.offset_m[static_cast<Eigen::Index>(k)] = mm * number_between(offset->array()[k], -farthest_mm, farthest_mm);
   }
   if (const Json* const turn = value.find("turn_deg")) print.turn_rad = degree * number_between(*turn, -360, 360);
   const bool dyed = value.find("stripes") != nullptr || value.find("check") != nullptr;

@@ -99,8 +99,8 @@ Vec4f Texture::at(const Vec2& point, const Vec2f& extent) const {
   Vec4f sum = Vec4f::Zero();
   for (int k = 0; k < places; ++k) {
     const float along = (static_cast<float>(k) + 0.5f) / static_cast<float>(places) - 0.5f;
-    const Vec2 step = wide ? Vec2(static_cast<double>(along * extent.x()), 0)
-                           : Vec2(0, static_cast<double>(along * extent.y()));
+    const Vec2 step =
+        wide ? Vec2(static_cast<double>(along * extent.x()), 0) : Vec2(0, static_cast<double>(along * extent.y()));
     sum += blended(size_log2, point + step);
   }
   return sum / static_cast<float>(places);

@@ -99,10 +99,11 @@ struct Take {  // one cache and the surface that it moves
     const auto [known, is_new] = numbers_.try_emplace({object, group}, static_cast<Index>(panels.size()));
     if (is_new) {
       const auto name = [](const std::vector<std::string>& names, Index k) {
-        return k < 0 || static_cast<std::size_t>(k) >= names.size() ? std::string() : names[static_cast<std::size_t>(k)];
+        return k < 0 || static_cast<std::size_t>(k) >= names.size() ? std::string()
+                                                                    : names[static_cast<std::size_t>(k)];
       };
-      panels.push_back({object, name(obj.object_names, object), name(obj.group_names, group),
-                        name(obj.group_material, group)});
+      panels.push_back(
+          {object, name(obj.object_names, object), name(obj.group_names, group), name(obj.group_material, group)});
       object_of_panel_.push_back(object);
     }
     return known->second;

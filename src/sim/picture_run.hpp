@@ -29,7 +29,7 @@ struct PictureOptions {
   int film_width = 360, film_height = 480, film_samples = 6;
   double film_fps = 15;
   int most_film_frames = 60, most_motion_frames = 120;
-  double film_edge_m = 0.01;  // RenderOptions::display_edge_m
+  double film_edge_m = 0.01;           // RenderOptions::display_edge_m
   std::shared_ptr<const Looks> looks;  // colours and prints, preview/looks.hpp; none: those of the fabrics
   std::optional<Vec3> close_up_m;
   bool turntable = false, film = true;

@@ -135,7 +135,8 @@ TEST(Run, PicturesInColours) {
   run_hanging_sheet(scratch);
   const std::string before = scratch.get("a/report.json");
   const std::vector<std::string> words{"preview", "a", "--no-film", "--looks", "looks.json"};
-  scratch.put("looks.json", R"({"looks": [{"fabric": "cotton", "print": {"check": [["#c00000", 20], ["#ffffff", 20]]}}]})");
+  scratch.put("looks.json",
+              R"({"looks": [{"fabric": "cotton", "print": {"check": [["#c00000", 20], ["#ffffff", 20]]}}]})");
   ASSERT_EQ(run_toile(scratch, {"preview", "a", "--no-film"}).exit_code, 0);
   const std::string plain = scratch.get("a/preview.png");
   const Ended drawn = run_toile(scratch, words);

@@ -127,7 +127,8 @@ TEST(Looks, ACheckOfTwillKeepsItsMeanCloseUp) {
   constexpr int samples = 400;
   for (int i = 0; i < samples; ++i)
     for (int j = 0; j < samples; ++j)
-      sum += thread_colour(look, true, Vec2(0.018 * (i + 0.5) / samples, 0.018 * (j + 0.5) / samples), Vec2f(1e-6f, 1e-6f));
+      sum += thread_colour(look, true, Vec2(0.018 * (i + 0.5) / samples, 0.018 * (j + 0.5) / samples),
+                           Vec2f(1e-6f, 1e-6f));
   EXPECT_LT((sum / (samples * samples) - red).cwiseAbs().maxCoeff(), 0.02f);
 }
 
@@ -160,7 +161,8 @@ TEST(Looks, RefusesWhatCannotBeMeantAndSaysWhere) {
       {R"({"print": {"stripes": ["#ffffff"]}})", "/looks/0/print/stripes/0: expected a band"},
       {R"({"print": {"check": [["white", 4]]}})", "/looks/0/print/check/0/0: expected a colour"},
       {R"({"print": {"stripes": [["#ffffff", 3]], "width_mm": 4}})", "/looks/0/print/width_mm"},
-      {R"({"print": {"dots": {"colour": "#ffffff", "diameter_mm": 5, "spacing_mm": 4}}})", "at most spacing_mm, 4, got 5"},
+      {R"({"print": {"dots": {"colour": "#ffffff", "diameter_mm": 5, "spacing_mm": 4}}})",
+       "at most spacing_mm, 4, got 5"},
       {R"({"print": {"dots": {"colour": "#ffffff", "diameter_mm": 5}}})", "spacing_mm"},
       {R"({"print": {"stripes": [["#ffffff", 3]], "offset_mm": 4}})", "/looks/0/print/offset_mm: expected two numbers"},
       {R"({"print": {"stripes": [["#ffffff", 3]], "turn_deg": 400}})", "/looks/0/print/turn_deg"},
@@ -169,7 +171,8 @@ TEST(Looks, RefusesWhatCannotBeMeantAndSaysWhere) {
       {R"({"print": {"image": "not_there.png", "width_mm": 4}})", "/looks/0/print/image: expected a PNG picture"},
       {R"({"print": {"image": "not_there.png", "width_mm": 4}})", "not_there.png"},
       {R"({"panel": "colar", "colour": "#ffffff"})",
-       "/looks/0/panel: expected a panel of this run: \"coat/front\", \"coat/sleeve\", \"collar\", \"front\"; nearest is "
+       "/looks/0/panel: expected a panel of this run: \"coat/front\", \"coat/sleeve\", \"collar\", \"front\"; nearest "
+       "is "
        "\"collar\", got \"colar\""},
       {R"({"garment": 2, "colour": "#ffffff"})", "/looks/0/garment: expected a garment of this run: 0 to 1, got 2"},
       {R"({"garment": -1, "colour": "#ffffff"})", "/looks/0/garment"},
@@ -232,7 +235,8 @@ TEST(Looks, APngComesBackAsItWasWrittenAndACutOneIsRefused) {
 Sheet upright_grid(const Vec3& centre, double side, int n) {
   Sheet s;
   for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) s.positions.push_back(centre + side * Vec3(double(i) / n - 0.5, double(j) / n - 0.5, 0));
+    for (int i = 0; i <= n; ++i)
+      s.positions.push_back(centre + side * Vec3(double(i) / n - 0.5, double(j) / n - 0.5, 0));
   const auto uv = [&](Index i) { return Vec2(side * (i % (n + 1)) / n, side * (i / (n + 1)) / n); };
   for (Index j = 0; j < n; ++j)
     for (Index i = 0; i < n; ++i) {
@@ -250,8 +254,9 @@ Sheet upright_grid(const Vec3& centre, double side, int n) {
 TEST(Looks, APictureShowsThePrintWhereItLies) {
   const Scratch scratch;
   write_png(scratch / "four.png", quarters());
-  scratch.put("looks.json",
-              R"({"looks": [{"colour": "#ffffff", "print": {"image": "four.png", "width_mm": 1000, "height_mm": 1000}}]})");
+  scratch.put(
+      "looks.json",
+      R"({"looks": [{"colour": "#ffffff", "print": {"image": "four.png", "width_mm": 1000, "height_mm": 1000}}]})");
   const Looks all = Looks::load(scratch / "looks.json");
   const Sheet square = upright_grid({0, 1, 0}, 1, 20);
   const std::vector<ClothLook> looks{all.look_of(run[0], look_of("poplin"))};
@@ -286,6 +291,34 @@ TEST(Looks, APictureShowsThePrintWhereItLies) {
     EXPECT_LT(through, 2 * ground) << "quarter " << k;
   }
   EXPECT_GT(*std::min_element(front[3].begin(), front[3].end()), 150);
+}
+
+// One and a half pixels from stripe to stripe: an even grey, without a wave that is not in the cloth.
+TEST(Looks, FineStripesDoNotBeatWithThePixels) {
+  const Sheet square = upright_grid({0, 1, 0}, 2, 20);
+  const std::vector<ClothLook> looks{
+      looks_in(R"({"print": {"stripes": [["#ffffff", 12.4], ["#000000", 12.4]]}})").look_of(run[0], look_of("poplin"))};
+  const std::vector<Index> look(square.triangles.size(), 0);
+  PreviewScene scene;
+  scene.cloths.push_back(cloth_of(square));
+  scene.cloths[0].looks = looks;
+  scene.cloths[0].look = look;
+  RenderOptions options;
+  options.width = options.height = 64;
+  options.samples = 64;
+  const Image image = render(scene, {{0, 1, 3}, {0, 1, 0}, 20}, options);
+  double sum = 0, squares = 0;
+  int count = 0;
+  for (int x = 8; x < 56; ++x) {
+    double column = 0;
+    for (int y = 8; y < 56; ++y) column += brightness(pixel(image, x, y)) / 3.0 / 48;
+    sum += column;
+    squares += column * column;
+    ++count;
+  }
+  const double mean = sum / count;
+  EXPECT_GT(mean, 100);
+  EXPECT_LT(std::sqrt(squares / count - mean * mean), 0.02 * mean);
 }
 
 TEST(Looks, TheTechnicalStyleHasAColourOfEachTriangle) {

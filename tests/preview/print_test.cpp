@@ -136,8 +136,7 @@ TEST(Print, APictureIsMixedInLinearLight) {
   const Texture texture(30, 50, board);
   EXPECT_NEAR(texture.mean().x(), 0.5f, 1e-4f);
   EXPECT_NEAR(texture.mean().w(), 1.0f, 1e-6f);
-  for (const double x : {0.1, 0.33, 0.99})
-    EXPECT_NEAR(texture.at({x, 0.4}, Vec2f(0.3f, 0.3f)).x(), 0.5f, 0.02f) << x;
+  for (const double x : {0.1, 0.33, 0.99}) EXPECT_NEAR(texture.at({x, 0.4}, Vec2f(0.3f, 0.3f)).x(), 0.5f, 0.02f) << x;
 }
 
 TEST(Print, APictureSeenAslantIsBlurredAlongOneDirectionOnly) {
