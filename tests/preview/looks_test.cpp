@@ -293,6 +293,30 @@ TEST(Looks, APictureShowsThePrintWhereItLies) {
   EXPECT_GT(*std::min_element(front[3].begin(), front[3].end()), 150);
 }
 
+TEST(Looks, AHemShowsTheRightSideInside) {
+  const Sheet square = upright_grid({0, 1, 0}, 1, 20);
+  std::vector<ClothLook> looks{
+      looks_in(R"({"colour": "#ffffff", "print": {"stripes": [["#c81020", 9]], "through": 0}})")
+          .look_of(run[0], look_of("poplin"))};
+  looks[0].hem_m = 0.1f;
+  const std::vector<Index> look(square.triangles.size(), 0);
+  PreviewScene scene;
+  scene.cloths.push_back(cloth_of(square));
+  scene.cloths[0].looks = looks;
+  scene.cloths[0].look = look;
+  RenderOptions options;
+  options.width = options.height = 64;
+  const Camera camera{{0, 1, -3}, {0, 1, 0}, 20};
+  const Image image = render(scene, camera, options);
+  const auto redness = [&](const Vec3& p) {
+    const Vec3 on = project(camera, 64, 64, p);
+    const std::array<int, 3> c = pixel(image, static_cast<int>(on.x()), static_cast<int>(on.y()));
+    return static_cast<double>(c[0]) / c[1];
+  };
+  EXPECT_LT(redness({0, 1, 0}), 1.2);
+  EXPECT_GT(redness({0.45, 1.1, 0}), 2);
+}
+
 // One and a half pixels from stripe to stripe: an even grey, without a wave that is not in the cloth.
 TEST(Looks, FineStripesDoNotBeatWithThePixels) {
   const Sheet square = upright_grid({0, 1, 0}, 2, 20);
