@@ -12,6 +12,7 @@
 #include "preview/png.hpp"
 #include "preview/preview.hpp"
 #include "preview/srgb.hpp"
+#include "support/paths.hpp"
 
 namespace toile::internal {
 namespace {
@@ -216,6 +217,13 @@ TEST(Looks, ReadsAPictureBesideTheFile) {
     const std::string what = error.what();
     EXPECT_NE(what.find("/looks/0/print/image: expected a PNG picture"), std::string::npos) << what;
     EXPECT_NE(what.find("four.png"), std::string::npos) << what;
+  }
+}
+
+TEST(Looks, TheExamplesAreRead) {
+  for (const char* name : {"breton", "check", "gingham", "motif"}) {
+    const Looks looks = Looks::load(test::source_path(std::string("examples/looks_") + name + ".json"));
+    EXPECT_TRUE(looks.look_of(run[0], look_of("cotton")).print) << name;
   }
 }
 
