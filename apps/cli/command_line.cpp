@@ -234,6 +234,7 @@ Commands add_commands(CLI::App& app, CommandLine& line, std::string& demo_name) 
                    "technical: cloth as simulated, with a grid along its threads; studio: smooth, thick, woven, sewn")
       ->check(CLI::IsMember({"technical", "studio"}))
       ->default_str("technical");
+  preview->add_option("--looks", line.looks, "Colours and prints by panel, garment and fabric, JSON");
   preview
       ->add_option("--close-up", line.close_up_m, "30 cm around this point in the last frame, X,Y,Z in m: close-up.png")
       ->delimiter(',')

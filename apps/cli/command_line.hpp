@@ -39,6 +39,7 @@ struct CommandLine {
   std::string svg, repair;                  // of check: files to write; empty: none
   std::vector<int> frames;                  // of preview
   std::string style = "technical";          // likewise, of the pictures
+  std::string looks;                        // likewise, a file of colours and prints; empty: none
   std::vector<double> close_up_m;           // likewise; empty: none
   bool turntable = false, no_film = false;  // likewise
   std::string to, of = "cloth";             // of export

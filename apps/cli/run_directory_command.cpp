@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "io/json_text.hpp"
 #include "io/run_folder.hpp"
+#include "preview/looks.hpp"
 #include "preview/preview.hpp"
 #include "sim/picture_run.hpp"
 #include "sim/report.hpp"
@@ -188,9 +189,15 @@ ExitCode verify_command(const CommandLine& line) {
 ExitCode preview_command(const CommandLine& line) {
   require_pictures();
   const std::string& directory = line.inputs.front();
-  const RunFolder folder(directory, RunFolder::Use::pictures, {}, {});
-  ProgressBar bar(line);
   PictureOptions pictures = line.style == "studio" ? studio_pictures() : PictureOptions{};
+  std::vector<std::string> inputs;
+  if (!line.looks.empty()) {
+    const auto looks = std::make_shared<const Looks>(Looks::load(line.looks));
+    inputs = looks->files();
+    pictures.looks = looks;
+  }
+  const RunFolder folder(directory, RunFolder::Use::pictures, {}, inputs);
+  ProgressBar bar(line);
   pictures.frames = line.frames;
   if (!line.close_up_m.empty()) pictures.close_up_m = Vec3(line.close_up_m[0], line.close_up_m[1], line.close_up_m[2]);
   pictures.turntable = line.turntable;

@@ -62,10 +62,11 @@ struct PreviewOptions {
   std::optional<Point> close_up_m = {};  // also close-up.png: 30 cm around this point, in the last frame
   bool turntable = false;                // also turntable.mp4: once around the last frame
   bool film = true;                      // preview.mp4
+  std::string looks = {};  // a file of colours and prints, docs/howto/preview.md; empty: those of the fabrics
 };
 
 // Writes preview.png and preview.mp4 into a run folder.  Throws Error(usage) when the library was built without pictures, InputError for another
-// style.
+// style and for looks that are wrong or of panels, garments or fabrics that the run does not have.
 TOILE_EXPORT void preview(const std::string& folder, const PreviewOptions& options = {});
 
 // A still image in memory.

@@ -51,10 +51,12 @@ void bind_runs(nb::module_& module) {
   module.def(
       "preview",
       [](const std::string& folder, const std::string& style, std::optional<Point> close_up_m, bool turntable,
-         bool film) {
-        preview(folder, {.style = style, .close_up_m = close_up_m, .turntable = turntable, .film = film});
+         bool film, const std::string& looks) {
+        preview(folder,
+                {.style = style, .close_up_m = close_up_m, .turntable = turntable, .film = film, .looks = looks});
       },
-      nb::call_guard<nb::gil_scoped_release>(), "folder"_a, "style"_a, "close_up_m"_a.none(), "turntable"_a, "film"_a);
+      nb::call_guard<nb::gil_scoped_release>(), "folder"_a, "style"_a, "close_up_m"_a.none(), "turntable"_a, "film"_a,
+      "looks"_a);
 }
 
 }  // namespace toile::python

@@ -110,3 +110,11 @@ def test_preview_as_in_a_studio(draped, tmp_path):
     assert not (tmp_path / "run/preview.mp4").exists()
     with pytest.raises(toile.InputError, match="style"):
         toile.preview(tmp_path / "run", style="oil")
+    plain = (tmp_path / "run/preview.png").read_bytes()
+    looks = tmp_path / "looks.json"
+    looks.write_text('{"looks": [{"colour": "#c00000"}]}')
+    toile.preview(tmp_path / "run", style="studio", film=False, looks=looks)
+    assert (tmp_path / "run/preview.png").read_bytes() != plain
+    looks.write_text('{"looks": [{"colour": "scarlet"}]}')
+    with pytest.raises(toile.InputError, match="/looks/0/colour"):
+        toile.preview(tmp_path / "run", film=False, looks=looks)

@@ -159,10 +159,13 @@ def preview(
     close_up_m: Sequence[float] | None = None,
     turntable: bool = False,
     film: bool = True,
+    looks: Path | None = None,
 ) -> None:
     """Draws preview.png and preview.mp4 into a run folder.
 
     `style`: "technical" shows cloth as simulated, with a grid along its threads; "studio" smooth, thick, woven and sewn.
     `close_up_m` (3,): also close-up.png, 30 cm around this point in the last frame.  `turntable`: also turntable.mp4, once around the last frame.
-    `film`: preview.mp4.  Raises Error where Toile was built without pictures, InputError for another style."""
-    _toile.preview(os.fspath(folder), style, None if close_up_m is None else tuple(map(float, close_up_m)), turntable, film)
+    `film`: preview.mp4.  `looks`: a JSON file of colours and prints by panel, garment and fabric (docs/howto/preview.md).  Raises Error where Toile was
+    built without pictures, InputError for another style, and for looks that are wrong or of panels, garments or fabrics that the run does not have."""
+    point = None if close_up_m is None else tuple(map(float, close_up_m))
+    _toile.preview(os.fspath(folder), style, point, turntable, film, "" if looks is None else os.fspath(looks))

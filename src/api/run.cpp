@@ -4,6 +4,8 @@
 #include "api/verdict.hpp"
 #include "core/stopwatch.hpp"
 #include "io/run_folder.hpp"
+#include "preview/looks.hpp"
+#include "preview/preview.hpp"
 #include "sim/export_run.hpp"
 #include "sim/picture_run.hpp"
 #include "sim/recorder.hpp"
@@ -147,7 +149,14 @@ void preview(const std::string& folder, const PreviewOptions& options) {
       wanted.close_up_m = internal::Vec3((*point)[0], (*point)[1], (*point)[2]);
     wanted.turntable = options.turntable;
     wanted.film = options.film;
-    const internal::RunFolder pictures(folder, internal::RunFolder::Use::pictures, {}, {});
+    std::vector<std::string> inputs;
+    if (!options.looks.empty()) {
+      internal::require_pictures();
+      const auto looks = std::make_shared<const internal::Looks>(internal::Looks::load(options.looks));
+      inputs = looks->files();
+      wanted.looks = looks;
+    }
+    const internal::RunFolder pictures(folder, internal::RunFolder::Use::pictures, {}, inputs);
     internal::picture_run(folder, wanted, {}, {});
   });
 }

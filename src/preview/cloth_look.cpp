@@ -47,6 +47,8 @@ float warp_share(Weave weave, bool right_side) {
       return 0.5f;
     case Weave::twill:
       return right_side ? 1.0f - 1.0f / twill_repeat : 1.0f / twill_repeat;
+    case Weave::even_twill:
+      return 0.5f;
     case Weave::satin:
       return right_side ? 1.0f - 1.0f / satin_repeat : 1.0f / satin_repeat;
     case Weave::knit:
@@ -65,6 +67,8 @@ bool is_warp_over(Weave weave, int warp, int weft) {
       return modulo(warp + weft, 2) == 0;
     case Weave::twill:
       return modulo(warp - weft, twill_repeat) != 0;
+    case Weave::even_twill:
+      return modulo(warp - weft, twill_repeat) % 3 != 0;  // under the two around the rib's middle
     case Weave::satin:
       return modulo(3 * warp - weft, satin_repeat) != 0;
     case Weave::knit:
@@ -86,6 +90,37 @@ float stitch_shade(float x, float y) {
   const float valley = 0.35f * smoothstep(0.65f, 1.0f, x) + 0.2f * (1.0f - smoothstep(0.0f, 0.3f, x));
   constexpr float valley_mean = 0.35f * 0.175f + 0.2f * 0.15f;
   return (0.55f + 0.45f * std::sin(pi * fraction(y + 0.6f * x))) / mean * (1.0f - valley) / (1.0f - valley_mean);
+}
+
+struct Threads {
+  Vec3f warp, weft;
+};
+
+Vec3f mean_of(const Threads& threads, Weave weave, bool right_side) {
+  return mix(threads.weft, threads.warp, warp_share(weave, right_side));
+}
+
+// Their mean on the right side is `colour`; warp and weft are lighter and darker than it in the same measure as those of the look, as far as neither
+// reflects more than the whitest cloth.
+Threads in_colour(const ClothLook& look, const Vec3f& colour) {
+  const float mean = luminance(mean_of({look.warp, look.weft}, look.weave, true));
+  if (!(mean > 1e-6f)) return {colour, colour};  // black
+  const float warp = luminance(look.warp) / mean - 1.0f, weft = luminance(look.weft) / mean - 1.0f;
+  const float most = std::max(warp, weft), room = whitest / std::max(1e-3f, colour.maxCoeff()) - 1.0f;
+  const float share = most > room ? std::max(0.0f, room / most) : 1.0f;
+  return {(1.0f + share * warp) * colour, (1.0f + share * weft) * colour};
+}
+
+// What is printed or woven in, over the threads.
+Threads printed(const ClothLook& look, bool right_side, const Dye& dye) {
+  const float share = right_side ? 1.0f : look.print->through, ground = 1.0f - share * dye.cover;
+  Threads on{dye.warp, dye.weft};
+  if (!look.print->is_woven()) {
+    on = in_colour(look, dye.warp);
+  } else if (look.weave == Weave::knit || look.weave == Weave::none) {  // no weft: printed
+    on.warp = on.weft = 0.5f * (dye.warp + dye.weft);
+  }
+  return {ground * look.warp + share * on.warp, ground * look.weft + share * on.weft};
 }
 
 struct FabricLook {
@@ -283,11 +318,22 @@ ClothLook dyed(const ClothLook& look, const Vec3f& colour) {
   return other;
 }
 
+ClothLook coloured(const ClothLook& look, const Vec3f& colour) {
+  const auto& [warp, weft] = in_colour(look, colour);
+  ClothLook other = look;
+  other.warp = warp;
+  other.weft = weft;
+  return other;
+}
+
 Vec3f mean_colour(const ClothLook& look, bool right_side) {
-  return mix(look.weft, look.warp, warp_share(look.weave, right_side));
+  if (look.print) return mean_of(printed(look, right_side, look.print->mean()), look.weave, right_side);
+  return mean_of({look.warp, look.weft}, look.weave, right_side);
 }
 
 Vec3f thread_colour(const ClothLook& look, bool right_side, const Vec2& point, const Vec2f& extent) {
+  const Threads dye =
+      look.print ? printed(look, right_side, look.print->at(point, extent)) : Threads{look.warp, look.weft};
   const float size = look.thread_m, blur = std::max(extent.x(), extent.y());
   const Vec2 threads_at =
       point / static_cast<double>(size);  // warp threads lie side by side along x, weft threads along y
@@ -298,27 +344,28 @@ Vec3f thread_colour(const ClothLook& look, bool right_side, const Vec2& point, c
   const float left = look.uneven * std::min(1.0f, streak_width * size / std::max(blur, 1e-9f));  // after averaging
   const float uneven = left * (streak(threads_at.y(), threads_at.x(), 3) +
                                (look.weave == Weave::knit ? 0.0f : streak(threads_at.x(), threads_at.y(), 4)));
-  const Vec3f mean = (1.0f + uneven) * mean_colour(look, right_side);
+  const Vec3f mean = (1.0f + uneven) * mean_of(dye, look.weave, right_side);
   if (look.weave == Weave::none) return mean;
   const float threads = resolved(blur, size);
-  const float ribs = look.weave == Weave::twill ? resolved(blur, 0.7f * twill_repeat * size) : threads;
+  const bool is_twill = look.weave == Weave::twill || look.weave == Weave::even_twill;
+  const float ribs = is_twill ? resolved(blur, 0.7f * twill_repeat * size) : threads;
   if (!(threads > 0) && !(ribs > 0)) return mean;
   if (look.weave == Weave::knit) {
     const auto row = static_cast<float>(threads_at.y() / row_height - std::floor(threads_at.y() / row_height));
     const float shade =
         stitch_shade(2.0f * std::abs(across_warp), row) * (1.0f + uneven + look.uneven * chance(warp, 1));
-    return mix(mean, Vec3f(shade * look.warp), threads);
+    return mix(mean, Vec3f(shade * dye.warp), threads);
   }
   const bool warp_over = is_warp_over(look.weave, warp, weft) == right_side;
   const float shade = warp_over ? thread_shade(across_warp, across_weft) * (1.0f + look.uneven * chance(warp, 1))
                                 : thread_shade(across_weft, across_warp) * (1.0f + look.uneven * chance(weft, 2));
-  const Vec3f close = (1.0f + uneven) * shade * (warp_over ? look.warp : look.weft);
+  const Vec3f close = (1.0f + uneven) * shade * (warp_over ? dye.warp : dye.weft);
   Vec3f far = mean;
-  if (look.weave == Weave::twill) {
+  if (is_twill) {
     // The diagonal ribs, as cosines, where threads are too fine.
     const double diagonal = (threads_at.x() - threads_at.y() + 0.5) / twill_repeat;
     const float rib = ribs * std::cos(2.0f * pi * static_cast<float>(diagonal - std::floor(diagonal)));
-    far += rib_hue * rib * (right_side ? 1.0f : -1.0f) * (look.weft - look.warp) + rib_shade * rib * mean;
+    far += rib_hue * rib * (right_side ? 1.0f : -1.0f) * (dye.weft - dye.warp) + rib_shade * rib * mean;
   }
   return mix(far, close, threads).cwiseMax(0.0f);
 }

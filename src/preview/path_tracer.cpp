@@ -98,6 +98,7 @@ PathTracer::Surface PathTracer::surface_at(const RayHit& hit, const Vec3f& origi
     s.albedo = mean_colour(*s.look, right_side);
   } else {
     s.albedo = right_side ? s.mesh->right_side : s.mesh->wrong_side;
+    if (!s.mesh->sides.empty()) s.albedo = s.mesh->sides[s.triangle][right_side ? 0 : 1];
     if (!s.mesh->uv.empty()) s.albedo *= grid_mean_;
   }
 
@@ -127,8 +128,10 @@ PathTracer::Surface PathTracer::surface_at(const RayHit& hit, const Vec3f& origi
 // Threads, seams, and the stitches of hems.
 Vec3f PathTracer::sewn_colour(const Surface& s, const Vec2& at, const Vec2f& extent) const {
   const ClothLook& look = *s.look;
-  Vec3f colour = thread_colour(look, s.right_side, at, extent);
   const EdgeDistance edge = edge_distance(*s.mesh->display, s.mesh->display->source[s.triangle], at);
+  // A hem is turned twice: it shows the right side inside, too.
+  const bool turned = look.print && static_cast<float>(edge.open_m) < look.hem_m;
+  Vec3f colour = thread_colour(look, s.right_side || turned, at, extent);
   const float blur = std::max(extent.x(), extent.y());
   if (edge.sewn_m < seam_seen_m)
     colour *= 1.0f - seam_depth * line_cover(static_cast<float>(edge.sewn_m), blur, seam_width);

@@ -33,6 +33,29 @@ std::string png_of(const Image& image, const std::string& path) {
   return bytes;
 }
 
+RgbaImage parse_png(std::string_view bytes, const std::string& place) {
+  constexpr std::string_view expected = "a PNG picture of at most 16,777,216 pixels";
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  const auto refuse = [&] {
+    const std::string reason = header.message;
+    png_image_free(&header);
+    throw InputError(place, "", expected, "libpng's \"" + printable(reason) + '"');
+  };
+  if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0) refuse();
+  const std::size_t pixels = std::size_t{header.width} * header.height;
+  if (pixels == 0 || pixels > png_pixel_limit) {
+    png_image_free(&header);
+    throw InputError(place, "", expected, std::to_string(header.width) + " x " + std::to_string(header.height));
+  }
+  header.format = PNG_FORMAT_RGBA;
+  RgbaImage image{static_cast<int>(header.width), static_cast<int>(header.height),
+                  std::vector<std::uint8_t>(4 * pixels)};
+  if (png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr) == 0) refuse();
+  png_image_free(&header);
+  return image;
+}
+
 void write_png(const std::string& path, const Image& image) {
   const std::string bytes = png_of(image, path);
   AtomicFile file(path);

@@ -38,6 +38,7 @@ struct PreviewCloth {
   std::span<const std::array<Vec2, 3>> uv;  // m, drawn as a grid, one line per `grid_m`; empty: no grid
   std::span<const Vec3> positions;          // of the frame to draw
   Vec3 colour{0.35, 0.45, 0.62};            // linear RGB of the right side; the wrong side is drawn duller
+  std::span<const Vec3> colours = {};       // [triangle], instead of `colour`; empty: none
   // As in a studio, if there are looks: instead of grid and colour.
   std::span<const ClothLook> looks = {};
   std::span<const Index> look = {};  // [triangle] of looks

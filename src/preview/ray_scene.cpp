@@ -190,11 +190,20 @@ void RayScene::build(const PreviewScene& scene, const Vec3& origin, double displ
       throw InputError("", place, "uv for each of " + std::to_string(cloth.triangles.size()) + " triangles or for none",
                        std::to_string(cloth.uv.size()));
     }
+    if (!cloth.colours.empty() && cloth.colours.size() != cloth.triangles.size()) {
+      throw InputError("", place,
+                       "a colour for each of " + std::to_string(cloth.triangles.size()) + " triangles or for none",
+                       std::to_string(cloth.colours.size()));
+    }
     if (cloth.looks.empty() || cloth.uv.empty()) {
       RayMesh mesh = ray_mesh(place, cloth.triangles, cloth.positions, origin, true);
       mesh.uv = cloth.uv;
       mesh.right_side = cloth.colour.cast<float>().cwiseMax(0.0f).cwiseMin(1.0f);
       mesh.wrong_side = wrong_side_of(mesh.right_side);
+      for (const Vec3& colour : cloth.colours) {
+        const Vec3f right_side = colour.cast<float>().cwiseMax(0.0f).cwiseMin(1.0f);
+        mesh.sides.push_back({right_side, wrong_side_of(right_side)});
+      }
       meshes_.push_back(std::move(mesh));
     } else {
       meshes_.push_back(studio_mesh(place, cloth, origin, display_edge_m));

@@ -19,6 +19,7 @@ struct RayMesh {
   std::span<const Triangle> triangles;
   std::span<const std::array<Vec2, 3>> uv;  // empty: none
   Vec3f right_side, wrong_side;             // linear RGB
+  std::vector<std::array<Vec3f, 2>> sides;  // [triangle], instead of these two; empty: none
   bool cloth = false;
   std::vector<const ClothLook*> look;    // [simulated triangle]; empty: drawn as simulated, with a grid
   std::unique_ptr<DisplayMesh> display;  // what is drawn instead, then

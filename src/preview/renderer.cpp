@@ -6,6 +6,7 @@
 #include "preview/crossing_overlay.hpp"
 #include "preview/denoise.hpp"
 #include "preview/path_tracer.hpp"
+#include "preview/srgb.hpp"
 
 #include <cmath>
 #include <limits>
@@ -35,9 +36,6 @@ float shoulder(float x) {
   constexpr float p = 2.4f;
   return x > 0 ? x / std::pow(1.0f + std::pow(x, p), 1.0f / p) : 0.0f;
 }
-
-// IEC 61966-2-1.
-float srgb_encoded(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f; }
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include "io/pc2.hpp"
 #include "io/run_folder.hpp"
 #include "preview/cloth_look.hpp"
+#include "preview/looks.hpp"
 #include "preview/preview.hpp"
 #include "sim/panel_fabrics.hpp"
 #include "sim/picture_state.hpp"
@@ -27,18 +28,19 @@ namespace {
 
 struct Take {  // one cache and the surface that it moves
   SurfaceMesh obj;
-  // One per object of the file: its triangles and their coordinates.
+  // One per object of the file: its triangles, their coordinates, and their panels.
   struct Piece {
     std::vector<Triangle> triangles;
     std::vector<std::array<Vec2, 3>> uv;
-    std::vector<Index> look;
+    std::vector<Index> panel;
+    std::vector<Vec3> colours;  // by rules; empty: the garment's
   };
   std::vector<Piece> pieces;
-  std::vector<ClothLook> looks;  // of every garment in every fabric; empty: technical
+  std::vector<ClothPart> panels;
+  std::vector<ClothLook> looks;  // [panel]; empty: technical
   std::unique_ptr<Pc2Reader> frames;
 
-  bool open(const std::filesystem::path& directory, const std::string& name,
-            PictureStyle style = PictureStyle::technical) {
+  bool open(const std::filesystem::path& directory, const std::string& name) {
     const std::string obj_path = (directory / (name + ".obj")).string();
     if (!std::filesystem::exists(obj_path)) return false;
     obj = load_obj(obj_path);
@@ -53,32 +55,62 @@ struct Take {  // one cache and the surface that it moves
     for (std::size_t t = 0; t < obj.triangles.size(); ++t) {
       Piece& piece = pieces[obj.object.empty() ? 0 : static_cast<std::size_t>(obj.object[t])];
       piece.triangles.push_back(obj.triangles[t]);
+      piece.panel.push_back(panel_of_triangle(t));
       if (obj.texcoord.empty()) continue;
       std::array<Vec2, 3> three{Vec2(0, 0), Vec2(0, 0), Vec2(0, 0)};
       for (std::size_t k = 0; k < 3; ++k)
         if (obj.texcoord[t][k] >= 0) three[k] = obj.texcoords[static_cast<std::size_t>(obj.texcoord[t][k])];
       piece.uv.push_back(three);
-      if (style == PictureStyle::studio) piece.look.push_back(look_of_triangle(t));
     }
     return true;
   }
 
+  // The first garment in its fabric's own colour, others dyed, and all by `rules`.
+  void colour(PictureStyle style, const Looks* rules) {
+    std::vector<std::optional<Vec3f>> given(panels.size());
+    for (std::size_t p = 0; p < panels.size(); ++p) {
+      const std::size_t k = static_cast<std::size_t>(object_of_panel_[p]) % garment_colours.size();
+      const ClothLook fabric = look_of(panels[p].fabric);
+      const ClothLook own = k == 0 ? fabric : dyed(fabric, garment_colours[k].cast<float>());
+      if (rules) given[p] = rules->colour_of(panels[p], own);
+      if (style == PictureStyle::studio) looks.push_back(rules ? rules->look_of(panels[p], own) : own);
+    }
+    for (std::size_t k = 0; rules && k < pieces.size(); ++k) {
+      const Vec3& other = garment_colours[k % garment_colours.size()];
+      for (const Index p : pieces[k].panel) {
+        const auto& colour = given[static_cast<std::size_t>(p)];
+        pieces[k].colours.push_back(colour ? Vec3(colour->cast<double>()) : other);
+      }
+    }
+  }
+
+  // As they are numbered there: sewing.obj has but one of a run's garments.
+  void number_garments_as(const Take& other) {
+    const std::vector<std::string>& names = other.obj.object_names;
+    for (ClothPart& panel : panels) {
+      const auto found = std::find(names.begin(), names.end(), panel.garment_name);
+      if (found != names.end()) panel.garment = static_cast<Index>(found - names.begin());
+    }
+  }
+
  private:
-  // The first garment in its fabric's own colour, others dyed.
-  Index look_of_triangle(std::size_t t) {
-    const Index garment = obj.object.empty() ? 0 : obj.object[t];
-    const std::string fabric = obj.group.empty() || obj.group_material.empty()
-                                   ? std::string()
-                                   : obj.group_material[static_cast<std::size_t>(obj.group[t])];
-    const auto [known, is_new] = numbers_.try_emplace({garment, fabric}, static_cast<Index>(looks.size()));
+  Index panel_of_triangle(std::size_t t) {
+    const Index object = obj.object.empty() ? 0 : obj.object[t], group = obj.group.empty() ? -1 : obj.group[t];
+    const auto [known, is_new] = numbers_.try_emplace({object, group}, static_cast<Index>(panels.size()));
     if (is_new) {
-      const auto k = static_cast<std::size_t>(garment) % garment_colours.size();
-      looks.push_back(k == 0 ? look_of(fabric) : dyed(look_of(fabric), garment_colours[k].cast<float>()));
+      const auto name = [](const std::vector<std::string>& names, Index k) {
+        return k < 0 || static_cast<std::size_t>(k) >= names.size() ? std::string()
+                                                                    : names[static_cast<std::size_t>(k)];
+      };
+      panels.push_back(
+          {object, name(obj.object_names, object), name(obj.group_names, group), name(obj.group_material, group)});
+      object_of_panel_.push_back(object);
     }
     return known->second;
   }
 
-  std::map<std::pair<Index, std::string>, Index> numbers_;
+  std::map<std::pair<Index, Index>, Index> numbers_;
+  std::vector<Index> object_of_panel_;
 };
 
 struct Shot {
@@ -155,8 +187,8 @@ std::vector<PreviewCloth> cloths_of(const Take& take, const Vec3s& x) {
   std::vector<PreviewCloth> cloths;
   for (std::size_t k = 0; k < take.pieces.size(); ++k) {
     const Take::Piece& piece = take.pieces[k];
-    cloths.push_back(
-        {piece.triangles, piece.uv, x, garment_colours[k % garment_colours.size()], take.looks, piece.look});
+    cloths.push_back({piece.triangles, piece.uv, x, garment_colours[k % garment_colours.size()], piece.colours,
+                      take.looks, piece.panel});
   }
   return cloths;
 }
@@ -237,9 +269,12 @@ void picture_run(const std::string& directory, const PictureOptions& options,
     throw InputError("", "close-up", "a point of three finite numbers", "one that is not finite");
   const std::filesystem::path folder(directory);
   Take sewing, cloth, body;
-  const bool sewn = sewing.open(folder, "sewing", options.style), draped = cloth.open(folder, "cloth", options.style),
+  const bool sewn = sewing.open(folder, "sewing"), draped = cloth.open(folder, "cloth"),
              dressed = body.open(folder, "body");
   if (!sewn && !draped) throw IoError((folder / "cloth.obj").string(), "no such file: this directory holds no run");
+  if (draped) sewing.number_garments_as(cloth);
+  if (options.looks) options.looks->check(draped ? cloth.panels : sewing.panels);
+  for (Take* take : {&sewing, &cloth}) take->colour(options.style, options.looks.get());
 
   PreviewScene scene;
   Vec3s x, body_x = dressed ? body.obj.positions : Vec3s{};

@@ -9,11 +9,14 @@
 #include "core/types.hpp"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace toile::internal {
+
+class Looks;
 
 enum class PictureStyle {
   technical,  // cloth as simulated, with a grid along its threads: to judge it
@@ -26,7 +29,8 @@ struct PictureOptions {
   int film_width = 360, film_height = 480, film_samples = 6;
   double film_fps = 15;
   int most_film_frames = 60, most_motion_frames = 120;
-  double film_edge_m = 0.01;  // RenderOptions::display_edge_m
+  double film_edge_m = 0.01;           // RenderOptions::display_edge_m
+  std::shared_ptr<const Looks> looks;  // colours and prints, preview/looks.hpp; none: those of the fabrics
   std::optional<Vec3> close_up_m;
   bool turntable = false, film = true;
   std::vector<int>
@@ -35,7 +39,7 @@ struct PictureOptions {
 // Three views, 1918 x 1080 together, and a film in 720 x 960 of the whole motion.
 PictureOptions studio_pictures();
 
-// `progress` gets the share done and may be empty; `stop` may be empty.  Throws IoError or InputError for files that are missing or wrong,
+// Throws InputError for looks of panels, garments or fabrics that the run does not have.  `progress` gets the share done and may be empty; `stop` may be empty.  Throws IoError or InputError for files that are missing or wrong,
 // and Error (usage) where Toile is built without pictures, before any file is read (preview/preview.hpp: can_draw).
 // A run whose seams did not close has no cloth.obj: its last sewing frame is pictured.
 void picture_run(const std::string& directory, const PictureOptions& options,

@@ -1,6 +1,7 @@
 // Stills in memory.
 #include "arrays.hpp"
 #include "io/scratch.hpp"
+#include "preview/png.hpp"
 #include "preview/preview.hpp"
 #include "toile/run.hpp"
 
@@ -79,6 +80,31 @@ TEST(Picture, OfARunAsInAStudio) {
   EXPECT_EQ(size_of(scratch.get("run/close-up.png")), (std::array<std::uint32_t, 2>{1080, 1080}));
   EXPECT_EQ(size_of(scratch.get("run/preview.png")), (std::array<std::uint32_t, 2>{1918, 1080}));
   EXPECT_FALSE(std::filesystem::exists(scratch / "run/preview.mp4"));
+}
+
+TEST(Picture, OfARunInColours) {
+  if (!internal::can_draw()) GTEST_SKIP() << "built without pictures";
+  const Scratch scratch;
+  Simulation sim = sheet();
+  RunWriter run(scratch / "run", sim, 30);
+  sim.advance(1.0 / 30);
+  run.add(sim);
+  run.finish();
+  const std::string looks = scratch.put(
+      "looks.json", R"({"looks": [{"garment": 0, "print": {"stripes": [["#c00000", 20], ["#000000", 20]]}}]})");
+  std::string last;
+  for (const char* style : {"technical", "studio"}) {
+    preview(scratch / "run", {.style = style, .film = false, .looks = looks});
+    last = scratch.get("run/preview.png");
+    const internal::RgbaImage image = internal::parse_png(last, "preview.png");
+    std::size_t red = 0;
+    for (std::size_t p = 0; p < image.rgba.size(); p += 4) red += image.rgba[p] > 2 * image.rgba[p + 1] ? 1 : 0;
+    EXPECT_GT(red, image.rgba.size() / 4 / 200) << style;  // the sheet is seen flat
+  }
+  scratch.put("looks.json", R"({"looks": [{"panel": "sleeve", "colour": "#c00000"}]})");
+  EXPECT_THROW(preview(scratch / "run", {.film = false, .looks = looks}), InputError);
+  EXPECT_THROW(preview(scratch / "run", {.film = false, .looks = scratch / "none.json"}), IoError);
+  EXPECT_EQ(scratch.get("run/preview.png"), last);
 }
 
 }  // namespace

@@ -130,6 +130,31 @@ TEST(Run, PicturesAsInAStudio) {
   EXPECT_EQ(run_toile(scratch, {"preview", "a", "--close-up", "0,nan,0"}).exit_code, 3);
 }
 
+TEST(Run, PicturesInColours) {
+  const Scratch scratch;
+  run_hanging_sheet(scratch);
+  const std::string before = scratch.get("a/report.json");
+  const std::vector<std::string> words{"preview", "a", "--no-film", "--looks", "looks.json"};
+  scratch.put("looks.json",
+              R"({"looks": [{"fabric": "cotton", "print": {"check": [["#c00000", 20], ["#ffffff", 20]]}}]})");
+  ASSERT_EQ(run_toile(scratch, {"preview", "a", "--no-film"}).exit_code, 0);
+  const std::string plain = scratch.get("a/preview.png");
+  const Ended drawn = run_toile(scratch, words);
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_NE(scratch.get("a/preview.png"), plain);
+  EXPECT_EQ(scratch.get("a/report.json"), before);
+  scratch.put("looks.json", "{\"looks\": [\n  {\"fabric\": \"silk\", \"colour\": \"#c00000\"}\n]}");
+  const Ended refused = run_toile(scratch, words);
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("looks.json:2:14: /looks/0/fabric: expected a fabric of this run: \"cotton\""),
+            std::string::npos)
+      << refused.err;
+  EXPECT_EQ(run_toile(scratch, {"preview", "a", "--looks", "none.json"}).exit_code, 6);
+  // A picture that would be written over.
+  scratch.put("looks.json", R"({"looks": [{"print": {"image": "a/preview.png", "width_mm": 100}}]})");
+  EXPECT_EQ(run_toile(scratch, words).exit_code, 6);
+}
+
 TEST(Run, TheJudgeNamesAndDrawsCrossings) {
   const Scratch scratch;
   run_hanging_sheet(scratch);
