@@ -47,7 +47,7 @@ class Panel:
 
     def __init__(self, name, label, translation, turn=0, start=None):
         self.name, self.label, self.translation, self.turn = name, label, translation, turn
-        self.start, self.pieces, self.extension, self.folds = start, [], {}, []
+        self.start, self.pieces, self.extension, self.folds, self.finishes = start, [], {}, [], []
 
     def to(self, x, y, *via, name=None, label=None):
         self.pieces.append({"to": (x, y), "via": list(via), "name": name, "label": label})
@@ -60,6 +60,20 @@ class Panel:
     def of(self, fabric):
         self.extension["fabric"] = fabric
         return self
+
+    def finished(self, mm, *names):
+        """A tape or a hem, "tape_mm" or "hem_mm", on these edges."""
+        self.finishes += [(name, mm) for name in names]
+        return self
+
+    def on_the_bias(self):
+        """Cut at 45 degrees to the warp: drawn turned, and hung turned back."""
+        turned = lambda p: ((p[0] - p[1]) * math.sqrt(0.5), (p[0] + p[1]) * math.sqrt(0.5))
+        other = Panel(self.name, self.label, self.translation, self.turn - 45, turned(self.start))
+        for p in self.pieces:
+            other.to(*turned(p["to"]), *map(turned, p["via"]), name=p["name"], label=p["label"])
+        other.extension, other.finishes = self.extension, self.finishes
+        return other
 
     def fold(self, a, b, angle_deg):
         """Along the straight line between two corners, given by their coordinates."""
@@ -88,7 +102,7 @@ class Panel:
         for k in reversed(range(len(self.pieces))):
             p = self.pieces[k]
             other.to(*corners[k], *reversed(p["via"]), name=p["name"], label=p["label"])
-        other.extension, other.folds = self.extension, self.folds
+        other.extension, other.folds, other.finishes = self.extension, self.folds, self.finishes
         return other
 
     def whole(self, name):
@@ -104,6 +118,7 @@ class Panel:
             p = pieces[k]
             other.to(-points[k][0], points[k][1], *[(-x, y) for x, y in reversed(p["via"])], name="right_" + p["name"], label=p["label"])
         other.extension = self.extension
+        other.finishes = [(side + name, mm) for name, mm in self.finishes for side in ("left_", "right_")]
         return other
 
     def facing(self):
@@ -119,6 +134,7 @@ class Panel:
             other.to(*flip(p["to"]), *map(flip, p["via"]), name=swap(p["name"]), label=p["label"])
         other.extension = dict(self.extension)
         other.folds = [(flip(a), flip(b), angle) for a, b, angle in self.folds]
+        other.finishes = [(swap(name), mm) for name, mm in self.finishes]
         return other.facing()
 
 
@@ -180,6 +196,8 @@ class Garment:
             if panel.folds:
                 more["folds"] = [{"endpoints": [number[tuple(map(rounded, a))], number[tuple(map(rounded, b))]], "angle_deg": angle}
                                  for a, b, angle in panel.folds]
+            if panel.finishes:
+                more["edges"] = [{"edge": panel.edge(name), **mm} for name, mm in panel.finishes]
             if more:
                 extension[panel.name] = more
         stitches = ",\n".join("   " + one([self.side(a), self.side(b)] + ["right_wrong"] * turned) for a, b, turned, _ in self.stitches)
@@ -448,6 +466,56 @@ def pants(name, body, ease, band, band_height, band_b, waist_y, hem_y, hem):
     return garment
 
 
+def slip(name, body, bust, waist, hips, hip_y, hem, hem_y, strap, peak, low, underarm_y, bust_dart):
+    """Front and back on the bias, hung from straps.
+
+    Half widths (front, back) at bust, waist and hips, and at the hem; the hips are measured at hip_y; `peak` = heights of the straps' lower ends in front and
+    behind, `low` = of the edge between them in the middle; strap = (width, x in front, x behind, length in front, length behind).
+    """
+    garment = Garment(name)
+    width, at, strap_long = strap[0], strap[1:3], strap[3:]
+    sides = {}
+    for k, (which, z) in enumerate((("front", FRONT), ("back", BACK))):
+        y = lambda height: height - hem_y
+        panel = Panel(which, "body", (0, hem_y, z), start=(hem, 0))
+        x, drop = at[k], 0 if k else bust_dart  # below the dart the front is drawn lower
+        mid, under = (waist[k], y(body["waist_y"]) - drop), (bust[k], y(underarm_y))
+        low_line = lambda start_y, hip: ((hem, start_y), (hip[0] + 0.35 * (hem - hip[0]), start_y + 0.5 * (hip[1] - start_y)), hip)
+        mid_line = lambda hip: (hip, (hip[0] + 0.1, hip[1] + 0.35 * (mid[1] - hip[1])), (mid[0], mid[1] - 0.3 * (mid[1] - hip[1])), mid)
+        hip, start_y = (hips[k], y(hip_y) - drop), -drop
+        if k:  # as long as the front's, though wider at the hips
+            hip = (hips[k], -solved(sides["middle"], lambda h: length(*mid_line((hips[k], -h))), -hip[1] - 5, -hip[1] + 5))
+            start_y = -solved(sides["low"], lambda d: length(*low_line(-d, hip)), -5, 5)
+        panel.start = (hem, start_y)
+        panel.to(*hip, low_line(start_y, hip)[1], name="side_low")
+        panel.to(*mid, *mid_line(hip)[1:3], name="side_middle")
+        if not k:
+            dart(panel, mid, under, 0.68, bust_dart, 10.5, (8, y(body["bust_y"])), "side")
+            sides = {edge: panel.edge_length("side_" + edge) for edge in ("low", "middle", "before", "after")}
+        else:
+            share = sides["before"] / (sides["before"] + sides["after"])
+            panel.to(mid[0] + share * (under[0] - mid[0]), mid[1] + share * (under[1] - mid[1]), name="side_before").to(*under, name="side_after")
+        top = y(peak[k])
+        out, inner = (x + width / 2, top), (x - width / 2, top)
+        panel.to(*out, (out[0] + 3.5, under[1] + 0.3), (out[0] + 0.6, out[1] - 4), name="armhole")
+        panel.to(*inner, name="strap")
+        centre = (0, y(low[k]))
+        panel.to(*centre, (inner[0] - 1.5, inner[1] - 3.5), (0.45 * inner[0], centre[1]), name="neck")
+        panel.to(0, panel.start[1], name="middle").to(*panel.start, name="hem")
+        panel.finished({"tape_mm": 6}, "armhole", "neck").finished({"hem_mm": 6}, "hem")
+        garment.add(panel.whole(which).on_the_bias())
+        piece = Panel("left_strap_" + which, "body", (x, peak[k] + 0.6, z), start=(-width / 2, 0))
+        piece.to(width / 2, 0, name="lower").to(width / 2, strap_long[k], name="outer").to(-width / 2, strap_long[k], name="shoulder")
+        piece.to(-width / 2, 0, name="inner")
+        garment.pair(piece)
+        garment.sew_sides(f"left_strap_{which}/lower", f"{which}/left_strap")
+    garment.sew_sides("left_strap_front/shoulder", "left_strap_back/shoulder")
+    for edge in ("low", "middle", "before", "after"):
+        garment.sew_sides("front/left_side_" + edge, "back/left_side_" + edge)
+    garment.sew_sides("front/left_side_leg_a", "front/left_side_leg_b")
+    return garment
+
+
 # ---- the garments ----
 
 def garments():
@@ -462,6 +530,7 @@ def garments():
         skirt("long_skirt", DANCER, 84, 72, 1.12, 84),
         pleated_skirt("pleated_skirt", DANCER, 52, 70, 0.93, 8),
         top("blouse", DANCER, (26.2, 26.6), (27, 26.5), 120.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve, 1.5),
+        slip("slip", DANCER, (22.8, 20.8), (19.2, 18.6), (24.6, 26.4), 84, 31.5, 46, (1.2, 9.0, 6.5, 17.6, 19.0), (131, 127), (122.5, 121.5), 122.5, 2.5),
     ]
 
 

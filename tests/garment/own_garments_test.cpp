@@ -26,7 +26,8 @@ class OwnGarments : public testing::TestWithParam<OwnGarment> {};
 INSTANTIATE_TEST_SUITE_P(All, OwnGarments,
                          testing::Values(OwnGarment{"man_shirt", 6450, 12654}, OwnGarment{"man_pants", 8757, 17352},
                                          OwnGarment{"short_skirt", 2153, 4020}, OwnGarment{"long_skirt", 4530, 8844},
-                                         OwnGarment{"blouse", 5108, 10016}, OwnGarment{"blouse", 5188, 10194}),
+                                         OwnGarment{"blouse", 5108, 10016}, OwnGarment{"blouse", 5188, 10194},
+                                         OwnGarment{"slip", 6480, 12640}),
                          [](const auto& which) {
                            return std::string(which.param.name) + "_" + std::to_string(which.param.particles);
                          });
