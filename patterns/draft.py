@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Drafts our garments for the man and the dancer and writes their pattern files.
+"""Drafts our garments for the mannequins and writes their pattern files.
 
 Usage: draft.py [--check]        writes beside this file; --check only compares, and fails where a file differs
 
@@ -45,8 +45,8 @@ def solved(wanted, measure, low, high):
 class Panel:
     """An outline: start, then pieces.  A piece is a dict: to, via (0 to 2 control points), name, label."""
 
-    def __init__(self, name, label, translation, turn=0, start=None):
-        self.name, self.label, self.translation, self.turn = name, label, translation, turn
+    def __init__(self, name, label, translation, turn=0, start=None, yaw=0):
+        self.name, self.label, self.translation, self.turn, self.yaw = name, label, translation, turn, yaw
         self.start, self.pieces, self.extension, self.folds, self.finishes = start, [], {}, [], []
 
     def to(self, x, y, *via, name=None, label=None):
@@ -97,7 +97,7 @@ class Panel:
         return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1])) / 2
 
     def reversed(self):
-        other = Panel(self.name, self.label, self.translation, self.turn, self.start)
+        other = Panel(self.name, self.label, self.translation, self.turn, self.start, self.yaw)
         corners = self.corners()
         for k in reversed(range(len(self.pieces))):
             p = self.pieces[k]
@@ -129,7 +129,7 @@ class Panel:
         swap = lambda s: s.replace("left", "right") if s else s
         flip = lambda p: (-p[0], p[1])
         x, y, z = self.translation
-        other = Panel(swap(self.name), self.label, (-x, y, z), -self.turn, flip(self.start))
+        other = Panel(swap(self.name), self.label, (-x, y, z), -self.turn, flip(self.start), -self.yaw)
         for p in self.pieces:
             other.to(*flip(p["to"]), *map(flip, p["via"]), name=swap(p["name"]), label=p["label"])
         other.extension = dict(self.extension)
@@ -163,10 +163,14 @@ class Garment:
         self.sew(a, b, **how)
         self.sew(a.replace("left", "right"), b.replace("left", "right"), **how)
 
+    def part(self, name, side="left"):
+        """The panel of that name, or that side's half of it."""
+        return next(p for p in self.panels if p.name in (name, f"{side}_{name}"))
+
     def side(self, text):
         name, edge = text.split("/")
-        panel = next(p for p in self.panels if p.name == name)
-        return {"panel": name, "edge": panel.edge(edge)}
+        panel = self.part(name, edge.split("_")[0])
+        return {"panel": panel.name, "edge": panel.edge(edge)}
 
     def text(self):
         one = lambda value: json.dumps(value)
@@ -189,7 +193,7 @@ class Garment:
                     edge["label"] = piece["label"]
                 edges.append("     " + one(edge))
             lines.append(f'   {one(panel.name)}: {{\n    "translation": {one([rounded(t) for t in panel.translation])},\n'
-                         f'    "rotation": {one([0, 0, panel.turn])},\n    "vertices": [\n     '
+                         f'    "rotation": {one([0, panel.yaw, panel.turn])},\n    "vertices": [\n     '
                          + ",\n     ".join(one([rounded(c) for c in corner]) for corner in corners)
                          + '\n    ],\n    "edges": [\n' + ",\n".join(edges) + f'\n    ],\n    "label": {one(panel.label)}\n   }}')
             more = dict(panel.extension)
@@ -314,8 +318,11 @@ def pleated_skirt(name, body, length_cm, band, band_b, pleats):
     return garment
 
 
-def bodice(garment, which, body, z, chest, hem, underarm_y, hem_y, neck_half, neck_depth, scoop, balance, bust_dart=0, side=None):
-    """Front or back in one piece; chest and hem are half widths, `scoop` is how far the armhole is cut in."""
+def bodice(garment, which, body, z, chest, hem, underarm_y, hem_y, neck_half, neck_depth, scoop, balance, bust_dart=0, side=None, lap=0):
+    """Front or back in one piece; chest and hem are half widths, `scoop` is how far the armhole is cut in.
+
+    With `lap` in two that reach so far over the middle, the right one outside.
+    """
     tip = (body["tip"][0], body["tip"][1] + balance)
     neck = (neck_half, body["neck"][1] - (neck_half - body["neck"][0]) * 0.41 + balance)
     y0 = hem_y
@@ -333,9 +340,18 @@ def bodice(garment, which, body, z, chest, hem, underarm_y, hem_y, neck_half, ne
     left.to(neck[0], neck[1] - y0, name="shoulder")
     low = (0, neck[1] - neck_depth - y0)
     left.to(*low, (neck[0] - 0.15 * neck[0], neck[1] - 0.75 * neck_depth - y0), (0.55 * neck[0], low[1]), name="neck")
-    left.to(0, -bust_dart, name="middle").to(*left.start, name="hem")
-    garment.add(left.whole(which))
-    return next(p for p in garment.panels if p.name == which)
+    if lap:
+        left.name = "left_" + which
+        left.to(-lap, low[1] + 0.15 * lap, name="lapel").to(-lap, 0, name="edge").to(*left.start, name="hem")
+        for p in left.pieces:
+            p["name"] = "left_" + p["name"]
+        right = left.mirrored()
+        right.translation = (0, y0, z + 4)
+        garment.add(left, right)
+    else:
+        left.to(0, -bust_dart, name="middle").to(*left.start, name="hem")
+        garment.add(left.whole(which))
+    return garment.part(which)
 
 
 def sleeves(garment, body, fronts, half_arm, cap, sleeve_end, wrist, cuff, cuff_height, cuff_b, drop=0, turn=-45, ease=1.01):
@@ -365,13 +381,13 @@ def sleeves(garment, body, fronts, half_arm, cap, sleeve_end, wrist, cuff, cuff_
             garment.sew_sides(f"left_{part}_front/{edge}", f"left_{part}_back/{edge}")
 
 
-def top(name, body, chest, hem, underarm_y, hem_y, neck, bust_dart, sleeve, balance):
+def top(name, body, chest, hem, underarm_y, hem_y, neck, bust_dart, sleeve, balance, lap=0):
     """neck = (half width, depth in front, depth behind); chest and hem = half widths (front, back).
 
     `balance` makes the front longer and the back shorter above the armhole: a chest stands farther forward than a back does behind.
     """
     garment = Garment(name)
-    front = bodice(garment, "front", body, FRONT + 1, chest[0], hem[0], underarm_y, hem_y, neck[0], neck[1], 7.1, balance, bust_dart)
+    front = bodice(garment, "front", body, FRONT + 1, chest[0], hem[0], underarm_y, hem_y, neck[0], neck[1], 7.1, balance, bust_dart, lap=lap)
     back = bodice(garment, "back", body, BACK - 1, chest[1], hem[1], underarm_y, hem_y, neck[0], neck[2], 5.8, -balance,
                   side=front.edge_length("left_side_before"))
     for edge in ("shoulder", "side_before", "side_after"):
@@ -384,8 +400,7 @@ def top(name, body, chest, hem, underarm_y, hem_y, neck, bust_dart, sleeve, bala
 
 def collar(garment, body, stand, fall, angle_deg, fabric):
     """A turned-down collar, open in front: a stand on the neckline, and a fall that hangs over it from a pressed seam."""
-    front = next(p for p in garment.panels if p.name == "front")
-    back = next(p for p in garment.panels if p.name == "back")
+    front, back = garment.part("front"), garment.part("back")
     y = body["neck"][1] + 2.5
     ends = 0.6 * stand  # the stand's height in front
     for name, z, lower, low in (("front", FRONT + 1, front.edge_length("left_neck"), ends), ("back", BACK - 1, back.edge_length("left_neck"), stand)):
@@ -415,6 +430,48 @@ def collar(garment, body, stand, fall, angle_deg, fabric):
     garment.sew_sides("stand_back/left_top", "fall_back/left_top", right_wrong=True, angle_deg=angle_deg)
     for layer in ("stand", "fall"):
         garment.sew_sides(f"left_{layer}_front/side", f"{layer}_back/left_side")
+
+
+def hem_band(garment, halves, height, b, fabric):
+    """A rib below the hem, `halves` = half widths in front and behind, which the hem is eased into."""
+    for which, w in zip(("front", "back"), halves):
+        above = garment.part(which)
+        x, y, z = above.translation
+        panel = Panel("waistband_" + which, "body", (x, y - 1 - height, z), start=(-w, 0))
+        panel.to(w, 0, name="lower").to(w, height, name="left_end").to(0, height, name="left_upper").to(-w, height, name="right_upper")
+        panel.to(-w, 0, name="right_end").elastic(v=b).of(fabric)
+        garment.add(panel)
+        garment.sew_sides(f"waistband_{which}/left_upper", f"{which}/left_hem")
+    garment.sew_sides("waistband_front/left_end", "waistband_back/left_end")
+
+
+def hood(garment, body, apart, z, raised, rise, height, depth):
+    """Two halves beside the head, `apart` from the middle plane, seen from the side: x runs to the back.  `rise` = how much higher than in front
+    the neck's edge ends at the side and behind."""
+    spans = [garment.part(which).edge_length("left_neck") for which in ("front", "back")]
+    line = lambda x: ((0, 0), (0.45 * x, 0), (x, rise))
+    side = solved(spans[0], lambda x: length(*line(x)), 1, 40)
+    nape = side + math.sqrt(spans[1] ** 2 - 1)
+    half = Panel("left_hood", "body", (apart, body["neck"][1] + raised, z), start=(0, 0), yaw=90)
+    half.to(side, rise, line(side)[1], name="neck_front").to(nape, rise - 1, name="neck_back")
+    half.to(depth, 0.55 * height, (nape, rise + 5), (depth, 0.4 * height), name="nape")
+    half.to(1, height, (depth, 0.88 * height), (0.6 * depth, height), name="crown").to(0, 0, name="face")
+    garment.pair(half)
+    garment.sew_sides("left_hood/neck_front", "front/left_neck")
+    garment.sew_sides("left_hood/neck_back", "back/left_neck")
+    for edge in ("nape", "crown"):
+        garment.sew("left_hood/" + edge, "right_hood/" + edge)
+
+
+def belt(name, body, girth, height, b):
+    """A ring of two halves around the waist, to be worn over something."""
+    garment = Garment(name)
+    for which, z in (("front", FRONT + 10), ("back", BACK - 10)):
+        w = girth / 4
+        panel = Panel(which, "body", (0, body["waist_y"] - height / 2, z), start=(-w, 0)).to(w, 0, name="lower", label="lower_interface")
+        garment.add(panel.to(w, height, name="left_end").to(-w, height, name="upper").to(-w, 0, name="right_end").elastic(v=b))
+    garment.sew_sides("front/left_end", "back/left_end")
+    return garment
 
 
 def pants(name, body, ease, band, band_height, band_b, waist_y, hem_y, hem):
@@ -523,6 +580,13 @@ def garments():
     shirt_sleeve = dict(half_arm=11, cap=13, sleeve_end=54.5, wrist=13, cuff=12, cuff_height=5, cuff_b=1)
     shirt = top("man_shirt", MAN, (28.0, 27.6), (25.0, 24.6), 126, 85, (9.0, 9.5, 1.5), 0, shirt_sleeve, 1.5)
     collar(shirt, MAN, 3.0, 5.0, -120, None)
+    hoody_sleeve = dict(half_arm=11.5, cap=13, sleeve_end=53.5, wrist=12, cuff=10.4, cuff_height=6, cuff_b=0.88, drop=1.5)
+    hoody = top("hoody", MAN, (29.0, 28.6), (26.5, 26.1), 125, 90, (9.5, 8.5, 1.5), 0, hoody_sleeve, 1.5)
+    hem_band(hoody, (24.4, 24.0), 6, 0.97, "knit")
+    hood(hoody, MAN, 13, 11, 0, 5, 40, 26.5)
+    coat_sleeve = dict(half_arm=12.5, cap=13.5, sleeve_end=55, wrist=16, cuff=15.8, cuff_height=6, cuff_b=1, drop=3)
+    coat = top("coat", MAN, (31.0, 30.4), (36, 36), 122, 58, (9.8, 10.0, 1.8), 0, coat_sleeve, 1.5, lap=9)
+    collar(coat, MAN, 3.5, 6.5, -120, None)
     return [
         shirt,
         pants("man_pants", MAN, 10, 88, 4, 0.80, 104, 9.5, (22, 24)),
@@ -530,6 +594,9 @@ def garments():
         skirt("long_skirt", DANCER, 84, 72, 1.12, 84),
         pleated_skirt("pleated_skirt", DANCER, 52, 70, 0.93, 8),
         top("blouse", DANCER, (26.2, 26.6), (27, 26.5), 120.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve, 1.5),
+        hoody,
+        coat,
+        belt("belt", MAN, 140, 5, 0.68),
         slip("slip", DANCER, (22.8, 20.8), (19.2, 18.6), (24.6, 26.4), 84, 31.5, 46, (1.2, 9.0, 6.5, 17.6, 19.0), (131, 127), (122.5, 121.5), 122.5, 2.5),
     ]
 

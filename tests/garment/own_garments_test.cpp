@@ -27,7 +27,8 @@ INSTANTIATE_TEST_SUITE_P(All, OwnGarments,
                          testing::Values(OwnGarment{"man_shirt", 6450, 12654}, OwnGarment{"man_pants", 8757, 17352},
                                          OwnGarment{"short_skirt", 2153, 4020}, OwnGarment{"long_skirt", 4530, 8844},
                                          OwnGarment{"blouse", 5108, 10016}, OwnGarment{"blouse", 5188, 10194},
-                                         OwnGarment{"slip", 6480, 12640}),
+                                         OwnGarment{"slip", 6480, 12640}, OwnGarment{"hoody", 6290, 12300},
+                                         OwnGarment{"coat", 6800, 13000}, OwnGarment{"belt", 340, 508}),
                          [](const auto& which) {
                            return std::string(which.param.name) + "_" + std::to_string(which.param.particles);
                          });
@@ -43,6 +44,7 @@ TEST_P(OwnGarments, MeshToTheirCounts) {
 }
 
 TEST_P(OwnGarments, AreTheirOwnMirrorImages) {
+  if (GetParam().name == std::string("coat")) GTEST_SKIP() << "its right front hangs before the left one";
   const Pattern pattern = load(GetParam().name);
   std::vector<std::array<long, 3>> points, images;
   for (const Panel& panel : pattern.panels) {

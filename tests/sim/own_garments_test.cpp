@@ -34,7 +34,8 @@ INSTANTIATE_TEST_SUITE_P(All, OwnGarmentOnItsBody,
                                          Worn{"short_skirt", MannequinKind::dancer},
                                          Worn{"long_skirt", MannequinKind::dancer},
                                          Worn{"blouse", MannequinKind::dancer}, Worn{"blouse", MannequinKind::woman},
-                                         Worn{"slip", MannequinKind::woman}),
+                                         Worn{"slip", MannequinKind::woman}, Worn{"hoody", MannequinKind::man},
+                                         Worn{"coat", MannequinKind::man}, Worn{"belt", MannequinKind::man}),
                          [](const auto& which) {
                            return std::string(which.param.name) + "_" + std::string(to_string(which.param.by));
                          });
