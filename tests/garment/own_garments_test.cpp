@@ -122,6 +122,31 @@ TEST(OwnGarments, WaistbandsCloseWithEaseAndThenHoldByElastic) {
   }
 }
 
+const Panel& panel_of(const Pattern& pattern, const std::string& name) {
+  return *std::find_if(pattern.panels.begin(), pattern.panels.end(), [&](const Panel& p) { return p.name == name; });
+}
+
+TEST(OwnGarments, ASlipHangsOnTheBias) {
+  const Pattern slip = load("slip");
+  for (const char* name : {"front", "back"}) {
+    const Panel& panel = panel_of(slip, name);
+    const Vec3 warp = panel.place(Vec2(0, 1)) - panel.place(Vec2(0, 0));
+    EXPECT_NEAR(std::abs(warp.x()), std::sqrt(0.5), 1e-9) << name;
+    EXPECT_NEAR(warp.y(), std::sqrt(0.5), 1e-9) << name;
+  }
+}
+
+TEST(OwnGarments, ACoatLapsRightOverLeft) {
+  const Pattern coat = load("coat");
+  const Panel &left = panel_of(coat, "left_front"), &right = panel_of(coat, "right_front");
+  double least = 1, most = -1;
+  for (const Vec2& p : left.corners) least = std::min(least, left.place(p).x());
+  for (const Vec2& p : right.corners) most = std::max(most, right.place(p).x());
+  EXPECT_NEAR(least, -0.09, 1e-9);
+  EXPECT_NEAR(most, 0.09, 1e-9);
+  EXPECT_NEAR(right.place(Vec2(0, 0)).z() - left.place(Vec2(0, 0)).z(), 0.04, 1e-9) << "no panel through another";
+}
+
 TEST(MeshToCount, IsTheSameAsThatEdgeLengthOrNearItAndSaysWhatItCannotReach) {
   const Pattern skirt = load("long_skirt");
   const CountedGarment counted = mesh_garment_to_count(skirt, 1000);
