@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Drafts our garments for the man and the dancer and writes their pattern files.
+"""Drafts our garments for the mannequins and writes their pattern files.
 
 Usage: draft.py [--check]        writes beside this file; --check only compares, and fails where a file differs
 
@@ -7,194 +7,11 @@ Centimetres, y up, bodies on the floor facing +z: docs/patterns.md.  Panels are 
 body, backs behind it, sleeves along the arms; the left side is drawn and the right one is its mirror image.  Fronts run
 counter-clockwise and backs clockwise, so that outer sides face away from the body.
 """
-import json
 import math
 import pathlib
 import sys
 
-
-# ---- lines: a piece of an outline is (control points..., end), with the point before it as its start ----
-
-def bezier(points, t):
-    while len(points) > 1:
-        points = [((1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1]) for a, b in zip(points, points[1:])]
-    return points[0]
-
-
-def length(*points):
-    fine = [bezier(list(points), i / 400) for i in range(401)]
-    return sum(math.dist(a, b) for a, b in zip(fine, fine[1:]))
-
-
-def arc(radius, angle0, angle1, centre=(0, 0)):
-    """Control points of the cubic next to an arc of a circle, angles in degrees from +x."""
-    a, b = math.radians(angle0), math.radians(angle1)
-    k = 4 / 3 * math.tan((b - a) / 4) * radius
-    p = lambda t, along: (centre[0] + radius * math.cos(t) - along * math.sin(t), centre[1] + radius * math.sin(t) + along * math.cos(t))
-    return [p(a, 0), p(a, k), p(b, -k), p(b, 0)]
-
-
-def solved(wanted, measure, low, high):
-    """x between low and high where measure(x), which rises, is `wanted`."""
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (middle, high) if measure(middle) < wanted else (low, middle)
-    return (low + high) / 2
-
-
-class Panel:
-    """An outline: start, then pieces.  A piece is a dict: to, via (0 to 2 control points), name, label."""
-
-    def __init__(self, name, label, translation, turn=0, start=None):
-        self.name, self.label, self.translation, self.turn = name, label, translation, turn
-        self.start, self.pieces, self.extension, self.folds = start, [], {}, []
-
-    def to(self, x, y, *via, name=None, label=None):
-        self.pieces.append({"to": (x, y), "via": list(via), "name": name, "label": label})
-        return self
-
-    def elastic(self, **rest_stretch):
-        self.extension.update({f"rest_stretch_{k}": v for k, v in rest_stretch.items()})
-        return self
-
-    def of(self, fabric):
-        self.extension["fabric"] = fabric
-        return self
-
-    def fold(self, a, b, angle_deg):
-        """Along the straight line between two corners, given by their coordinates."""
-        self.folds.append((a, b, angle_deg))
-        return self
-
-    def corners(self):
-        return [self.start] + [p["to"] for p in self.pieces[:-1]]
-
-    def points(self, k):
-        return [self.corners()[k], *self.pieces[k]["via"], self.pieces[k]["to"]]
-
-    def edge(self, name):
-        return next(k for k, p in enumerate(self.pieces) if p["name"] == name)
-
-    def edge_length(self, name):
-        return length(*self.points(self.edge(name)))
-
-    def area(self):
-        ring = [bezier(self.points(k), i / 16) for k in range(len(self.pieces)) for i in range(16)]
-        return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1])) / 2
-
-    def reversed(self):
-        other = Panel(self.name, self.label, self.translation, self.turn, self.start)
-        corners = self.corners()
-        for k in reversed(range(len(self.pieces))):
-            p = self.pieces[k]
-            other.to(*corners[k], *reversed(p["via"]), name=p["name"], label=p["label"])
-        other.extension, other.folds = self.extension, self.folds
-        return other
-
-    def whole(self, name):
-        """The panel, drawn counter-clockwise with its last or first edge "middle" on x = 0, and its image in one."""
-        k = self.edge("middle")
-        pieces = self.pieces[k + 1:] + self.pieces[:k]
-        start = self.pieces[k]["to"]
-        other = Panel(name, self.label, self.translation, self.turn, start)
-        for p in pieces:
-            other.to(*p["to"], *p["via"], name="left_" + p["name"], label=p["label"])
-        points = [start] + [p["to"] for p in pieces]
-        for k in reversed(range(len(pieces))):
-            p = pieces[k]
-            other.to(-points[k][0], points[k][1], *[(-x, y) for x, y in reversed(p["via"])], name="right_" + p["name"], label=p["label"])
-        other.extension = self.extension
-        return other
-
-    def facing(self):
-        """Counter-clockwise in front of the body, clockwise behind it."""
-        return self if (self.area() > 0) == (self.translation[2] > 0) else self.reversed()
-
-    def mirrored(self):
-        swap = lambda s: s.replace("left", "right") if s else s
-        flip = lambda p: (-p[0], p[1])
-        x, y, z = self.translation
-        other = Panel(swap(self.name), self.label, (-x, y, z), -self.turn, flip(self.start))
-        for p in self.pieces:
-            other.to(*flip(p["to"]), *map(flip, p["via"]), name=swap(p["name"]), label=p["label"])
-        other.extension = dict(self.extension)
-        other.folds = [(flip(a), flip(b), angle) for a, b, angle in self.folds]
-        return other.facing()
-
-
-def rounded(x, digits=3):
-    x = round(x, digits)
-    return int(x) if x == int(x) else x
-
-
-class Garment:
-    def __init__(self, name):
-        self.name, self.panels, self.stitches = name, [], []
-
-    def add(self, *panels):
-        self.panels += [p.facing() for p in panels]
-
-    def pair(self, panel):
-        """The panel and its mirror image."""
-        self.add(panel, panel.mirrored())
-
-    def sew(self, a, b, right_wrong=False, angle_deg=0):
-        """Edges as "panel/edge"."""
-        self.stitches.append((a, b, right_wrong, angle_deg))
-
-    def sew_sides(self, a, b, **how):
-        """The same on the left and on the right."""
-        self.sew(a, b, **how)
-        self.sew(a.replace("left", "right"), b.replace("left", "right"), **how)
-
-    def side(self, text):
-        name, edge = text.split("/")
-        panel = next(p for p in self.panels if p.name == name)
-        return {"panel": name, "edge": panel.edge(edge)}
-
-    def text(self):
-        one = lambda value: json.dumps(value)
-        lines, extension = [], {}
-        for panel in self.panels:
-            corners = panel.corners()
-            number = {tuple(rounded(c) for c in corner): k for k, corner in enumerate(corners)}
-            edges = []
-            for k, piece in enumerate(panel.pieces):
-                start, end = corners[k], piece["to"]
-                edge = {"endpoints": [k, (k + 1) % len(corners)]}
-                if piece["via"]:
-                    e = (end[0] - start[0], end[1] - start[1])
-                    e2 = e[0] ** 2 + e[1] ** 2
-                    relative = lambda p: [rounded(((p[0] - start[0]) * e[0] + (p[1] - start[1]) * e[1]) / e2, 5),
-                                          rounded(((p[1] - start[1]) * e[0] - (p[0] - start[0]) * e[1]) / e2, 5)]
-                    edge["curvature"] = {"type": "quadratic" if len(piece["via"]) == 1 else "cubic",
-                                         "params": [relative(p) for p in piece["via"]]}
-                if piece["label"]:
-                    edge["label"] = piece["label"]
-                edges.append("     " + one(edge))
-            lines.append(f'   {one(panel.name)}: {{\n    "translation": {one([rounded(t) for t in panel.translation])},\n'
-                         f'    "rotation": {one([0, 0, panel.turn])},\n    "vertices": [\n     '
-                         + ",\n     ".join(one([rounded(c) for c in corner]) for corner in corners)
-                         + '\n    ],\n    "edges": [\n' + ",\n".join(edges) + f'\n    ],\n    "label": {one(panel.label)}\n   }}')
-            more = dict(panel.extension)
-            if panel.folds:
-                more["folds"] = [{"endpoints": [number[tuple(map(rounded, a))], number[tuple(map(rounded, b))]], "angle_deg": angle}
-                                 for a, b, angle in panel.folds]
-            if more:
-                extension[panel.name] = more
-        stitches = ",\n".join("   " + one([self.side(a), self.side(b)] + ["right_wrong"] * turned) for a, b, turned, _ in self.stitches)
-        pressed = [{"stitch": k, "angle_deg": angle} for k, (_, _, _, angle) in enumerate(self.stitches) if angle]
-        text = ('{\n "pattern": {\n  "panels": {\n' + ",\n".join(lines) + '\n  },\n  "stitches": [\n' + stitches
-                + '\n  ],\n  "panel_order": ' + one([p.name for p in self.panels]) + '\n },\n')
-        ours = []
-        if extension:
-            ours.append('  "panels": {\n' + ",\n".join(f"   {one(k)}: {one(v)}" for k, v in extension.items()) + '\n  }')
-        if pressed:
-            ours.append('  "stitches": ' + one(pressed))
-        if ours:
-            text += ' "toile": {\n' + ",\n".join(ours) + '\n },\n'
-        return text + (' "parameters": {},\n "parameter_order": [],\n "properties": {\n  "curvature_coords": "relative",\n'
-                       '  "normalize_panel_translation": false,\n  "normalized_edge_loops": true,\n  "units_in_meter": 100\n }\n}\n')
+from panels import Garment, Panel, arc, length, rounded, solved
 
 
 # ---- bodies ----
@@ -296,8 +113,11 @@ def pleated_skirt(name, body, length_cm, band, band_b, pleats):
     return garment
 
 
-def bodice(garment, which, body, z, chest, hem, underarm_y, hem_y, neck_half, neck_depth, scoop, balance, bust_dart=0, side=None):
-    """Front or back in one piece; chest and hem are half widths, `scoop` is how far the armhole is cut in."""
+def bodice(garment, which, body, z, chest, hem, underarm_y, hem_y, neck_half, neck_depth, scoop, balance, bust_dart=0, side=None, lap=0):
+    """Front or back in one piece; chest and hem are half widths, `scoop` is how far the armhole is cut in.
+
+    With `lap` in two that reach so far over the middle, the right one outside.
+    """
     tip = (body["tip"][0], body["tip"][1] + balance)
     neck = (neck_half, body["neck"][1] - (neck_half - body["neck"][0]) * 0.41 + balance)
     y0 = hem_y
@@ -315,9 +135,18 @@ def bodice(garment, which, body, z, chest, hem, underarm_y, hem_y, neck_half, ne
     left.to(neck[0], neck[1] - y0, name="shoulder")
     low = (0, neck[1] - neck_depth - y0)
     left.to(*low, (neck[0] - 0.15 * neck[0], neck[1] - 0.75 * neck_depth - y0), (0.55 * neck[0], low[1]), name="neck")
-    left.to(0, -bust_dart, name="middle").to(*left.start, name="hem")
-    garment.add(left.whole(which))
-    return next(p for p in garment.panels if p.name == which)
+    if lap:
+        left.name = "left_" + which
+        left.to(-lap, low[1] + 0.15 * lap, name="lapel").to(-lap, 0, name="edge").to(*left.start, name="hem")
+        for p in left.pieces:
+            p["name"] = "left_" + p["name"]
+        right = left.mirrored()
+        right.translation = (0, y0, z + 4)
+        garment.add(left, right)
+    else:
+        left.to(0, -bust_dart, name="middle").to(*left.start, name="hem")
+        garment.add(left.whole(which))
+    return garment.part(which)
 
 
 def sleeves(garment, body, fronts, half_arm, cap, sleeve_end, wrist, cuff, cuff_height, cuff_b, drop=0, turn=-45, ease=1.01):
@@ -347,13 +176,13 @@ def sleeves(garment, body, fronts, half_arm, cap, sleeve_end, wrist, cuff, cuff_
             garment.sew_sides(f"left_{part}_front/{edge}", f"left_{part}_back/{edge}")
 
 
-def top(name, body, chest, hem, underarm_y, hem_y, neck, bust_dart, sleeve, balance):
+def top(name, body, chest, hem, underarm_y, hem_y, neck, bust_dart, sleeve, balance, lap=0):
     """neck = (half width, depth in front, depth behind); chest and hem = half widths (front, back).
 
     `balance` makes the front longer and the back shorter above the armhole: a chest stands farther forward than a back does behind.
     """
     garment = Garment(name)
-    front = bodice(garment, "front", body, FRONT + 1, chest[0], hem[0], underarm_y, hem_y, neck[0], neck[1], 7.1, balance, bust_dart)
+    front = bodice(garment, "front", body, FRONT + 1, chest[0], hem[0], underarm_y, hem_y, neck[0], neck[1], 7.1, balance, bust_dart, lap=lap)
     back = bodice(garment, "back", body, BACK - 1, chest[1], hem[1], underarm_y, hem_y, neck[0], neck[2], 5.8, -balance,
                   side=front.edge_length("left_side_before"))
     for edge in ("shoulder", "side_before", "side_after"):
@@ -366,8 +195,7 @@ def top(name, body, chest, hem, underarm_y, hem_y, neck, bust_dart, sleeve, bala
 
 def collar(garment, body, stand, fall, angle_deg, fabric):
     """A turned-down collar, open in front: a stand on the neckline, and a fall that hangs over it from a pressed seam."""
-    front = next(p for p in garment.panels if p.name == "front")
-    back = next(p for p in garment.panels if p.name == "back")
+    front, back = garment.part("front"), garment.part("back")
     y = body["neck"][1] + 2.5
     ends = 0.6 * stand  # the stand's height in front
     for name, z, lower, low in (("front", FRONT + 1, front.edge_length("left_neck"), ends), ("back", BACK - 1, back.edge_length("left_neck"), stand)):
@@ -397,6 +225,48 @@ def collar(garment, body, stand, fall, angle_deg, fabric):
     garment.sew_sides("stand_back/left_top", "fall_back/left_top", right_wrong=True, angle_deg=angle_deg)
     for layer in ("stand", "fall"):
         garment.sew_sides(f"left_{layer}_front/side", f"{layer}_back/left_side")
+
+
+def hem_band(garment, halves, height, b, fabric):
+    """A rib below the hem, `halves` = half widths in front and behind, which the hem is eased into."""
+    for which, w in zip(("front", "back"), halves):
+        above = garment.part(which)
+        x, y, z = above.translation
+        panel = Panel("waistband_" + which, "body", (x, y - 1 - height, z), start=(-w, 0))
+        panel.to(w, 0, name="lower").to(w, height, name="left_end").to(0, height, name="left_upper").to(-w, height, name="right_upper")
+        panel.to(-w, 0, name="right_end").elastic(v=b).of(fabric)
+        garment.add(panel)
+        garment.sew_sides(f"waistband_{which}/left_upper", f"{which}/left_hem")
+    garment.sew_sides("waistband_front/left_end", "waistband_back/left_end")
+
+
+def hood(garment, body, apart, z, raised, rise, height, depth):
+    """Two halves beside the head, `apart` from the middle plane, seen from the side: x runs to the back.  `rise` = how much higher than in front
+    the neck's edge ends at the side and behind."""
+    spans = [garment.part(which).edge_length("left_neck") for which in ("front", "back")]
+    line = lambda x: ((0, 0), (0.45 * x, 0), (x, rise))
+    side = solved(spans[0], lambda x: length(*line(x)), 1, 40)
+    nape = side + math.sqrt(spans[1] ** 2 - 1)
+    half = Panel("left_hood", "body", (apart, body["neck"][1] + raised, z), start=(0, 0), yaw=90)
+    half.to(side, rise, line(side)[1], name="neck_front").to(nape, rise - 1, name="neck_back")
+    half.to(depth, 0.55 * height, (nape, rise + 5), (depth, 0.4 * height), name="nape")
+    half.to(1, height, (depth, 0.88 * height), (0.6 * depth, height), name="crown").to(0, 0, name="face")
+    garment.pair(half)
+    garment.sew_sides("left_hood/neck_front", "front/left_neck")
+    garment.sew_sides("left_hood/neck_back", "back/left_neck")
+    for edge in ("nape", "crown"):
+        garment.sew("left_hood/" + edge, "right_hood/" + edge)
+
+
+def belt(name, body, girth, height, b):
+    """A ring of two halves around the waist, to be worn over something."""
+    garment = Garment(name)
+    for which, z in (("front", FRONT + 10), ("back", BACK - 10)):
+        w = girth / 4
+        panel = Panel(which, "body", (0, body["waist_y"] - height / 2, z), start=(-w, 0)).to(w, 0, name="lower", label="lower_interface")
+        garment.add(panel.to(w, height, name="left_end").to(-w, height, name="upper").to(-w, 0, name="right_end").elastic(v=b))
+    garment.sew_sides("front/left_end", "back/left_end")
+    return garment
 
 
 def pants(name, body, ease, band, band_height, band_b, waist_y, hem_y, hem):
@@ -448,6 +318,56 @@ def pants(name, body, ease, band, band_height, band_b, waist_y, hem_y, hem):
     return garment
 
 
+def slip(name, body, bust, waist, hips, hip_y, hem, hem_y, strap, peak, low, underarm_y, bust_dart):
+    """Front and back on the bias, hung from straps.
+
+    Half widths (front, back) at bust, waist and hips, and at the hem; the hips are measured at hip_y; `peak` = heights of the straps' lower ends in front and
+    behind, `low` = of the edge between them in the middle; strap = (width, x in front, x behind, length in front, length behind).
+    """
+    garment = Garment(name)
+    width, at, strap_long = strap[0], strap[1:3], strap[3:]
+    sides = {}
+    for k, (which, z) in enumerate((("front", FRONT), ("back", BACK))):
+        y = lambda height: height - hem_y
+        panel = Panel(which, "body", (0, hem_y, z), start=(hem, 0))
+        x, drop = at[k], 0 if k else bust_dart  # below the dart the front is drawn lower
+        mid, under = (waist[k], y(body["waist_y"]) - drop), (bust[k], y(underarm_y))
+        low_line = lambda start_y, hip: ((hem, start_y), (hip[0] + 0.35 * (hem - hip[0]), start_y + 0.5 * (hip[1] - start_y)), hip)
+        mid_line = lambda hip: (hip, (hip[0] + 0.1, hip[1] + 0.35 * (mid[1] - hip[1])), (mid[0], mid[1] - 0.3 * (mid[1] - hip[1])), mid)
+        hip, start_y = (hips[k], y(hip_y) - drop), -drop
+        if k:  # as long as the front's, though wider at the hips
+            hip = (hips[k], -solved(sides["middle"], lambda h: length(*mid_line((hips[k], -h))), -hip[1] - 5, -hip[1] + 5))
+            start_y = -solved(sides["low"], lambda d: length(*low_line(-d, hip)), -5, 5)
+        panel.start = (hem, start_y)
+        panel.to(*hip, low_line(start_y, hip)[1], name="side_low")
+        panel.to(*mid, *mid_line(hip)[1:3], name="side_middle")
+        if not k:
+            dart(panel, mid, under, 0.68, bust_dart, 10.5, (8, y(body["bust_y"])), "side")
+            sides = {edge: panel.edge_length("side_" + edge) for edge in ("low", "middle", "before", "after")}
+        else:
+            share = sides["before"] / (sides["before"] + sides["after"])
+            panel.to(mid[0] + share * (under[0] - mid[0]), mid[1] + share * (under[1] - mid[1]), name="side_before").to(*under, name="side_after")
+        top = y(peak[k])
+        out, inner = (x + width / 2, top), (x - width / 2, top)
+        panel.to(*out, (out[0] + 3.5, under[1] + 0.3), (out[0] + 0.6, out[1] - 4), name="armhole")
+        panel.to(*inner, name="strap")
+        centre = (0, y(low[k]))
+        panel.to(*centre, (inner[0] - 1.5, inner[1] - 3.5), (0.45 * inner[0], centre[1]), name="neck")
+        panel.to(0, panel.start[1], name="middle").to(*panel.start, name="hem")
+        panel.finished({"tape_mm": 6}, "armhole", "neck").finished({"hem_mm": 6}, "hem")
+        garment.add(panel.whole(which).on_the_bias())
+        piece = Panel("left_strap_" + which, "body", (x, peak[k] + 0.6, z), start=(-width / 2, 0))
+        piece.to(width / 2, 0, name="lower").to(width / 2, strap_long[k], name="outer").to(-width / 2, strap_long[k], name="shoulder")
+        piece.to(-width / 2, 0, name="inner")
+        garment.pair(piece)
+        garment.sew_sides(f"left_strap_{which}/lower", f"{which}/left_strap")
+    garment.sew_sides("left_strap_front/shoulder", "left_strap_back/shoulder")
+    for edge in ("low", "middle", "before", "after"):
+        garment.sew_sides("front/left_side_" + edge, "back/left_side_" + edge)
+    garment.sew_sides("front/left_side_leg_a", "front/left_side_leg_b")
+    return garment
+
+
 # ---- the garments ----
 
 def garments():
@@ -455,6 +375,13 @@ def garments():
     shirt_sleeve = dict(half_arm=11, cap=13, sleeve_end=54.5, wrist=13, cuff=12, cuff_height=5, cuff_b=1)
     shirt = top("man_shirt", MAN, (28.0, 27.6), (25.0, 24.6), 126, 85, (9.0, 9.5, 1.5), 0, shirt_sleeve, 1.5)
     collar(shirt, MAN, 3.0, 5.0, -120, None)
+    hoody_sleeve = dict(half_arm=11.5, cap=13, sleeve_end=53.5, wrist=12, cuff=10.4, cuff_height=6, cuff_b=0.88, drop=1.5)
+    hoody = top("hoody", MAN, (29.0, 28.6), (26.5, 26.1), 125, 90, (9.5, 8.5, 1.5), 0, hoody_sleeve, 1.5)
+    hem_band(hoody, (24.4, 24.0), 6, 0.97, "knit")
+    hood(hoody, MAN, 13, 11, 0, 5, 40, 26.5)
+    coat_sleeve = dict(half_arm=12.5, cap=13.5, sleeve_end=55, wrist=16, cuff=15.8, cuff_height=6, cuff_b=1, drop=3)
+    coat = top("coat", MAN, (31.0, 30.4), (36, 36), 122, 58, (9.8, 10.0, 1.8), 0, coat_sleeve, 1.5, lap=9)
+    collar(coat, MAN, 3.5, 6.5, -120, None)
     return [
         shirt,
         pants("man_pants", MAN, 10, 88, 4, 0.80, 104, 9.5, (22, 24)),
@@ -462,6 +389,10 @@ def garments():
         skirt("long_skirt", DANCER, 84, 72, 1.12, 84),
         pleated_skirt("pleated_skirt", DANCER, 52, 70, 0.93, 8),
         top("blouse", DANCER, (26.2, 26.6), (27, 26.5), 120.5, 86, (9.5, 9.5, 2.0), 2.5, blouse_sleeve, 1.5),
+        hoody,
+        coat,
+        belt("belt", MAN, 140, 5, 0.68),
+        slip("slip", DANCER, (22.8, 20.8), (19.2, 18.6), (24.6, 26.4), 84, 31.5, 46, (1.2, 9.0, 6.5, 17.6, 19.0), (131, 127), (122.5, 121.5), 122.5, 2.5),
     ]
 
 

@@ -19,9 +19,13 @@ views = ("front", "side", "back")
 scenes = {
     "tshirt": ("scenes/tshirt.json", "front", "T-shirt, knit, with a neckband; walking"),
     "walking-shirt": ("scenes/gallery/walking-shirt.json", "front", "shirt with collar and cuffs, cotton; walking"),
+    "hoody": ("scenes/gallery/hoody.json", "front", "hoody, knit, with its hood up"),
+    "coat": ("scenes/gallery/coat.json", "front", "coat, wool, lapped and belted"),
     "jeans": ("scenes/gallery/jeans.json", "back", "trousers with an elastic waist, denim"),
     "silk-blouse": ("scenes/gallery/silk-blouse.json", "front", "blouse, silk, over a long skirt, wool"),
+    "slip": ("scenes/gallery/slip.json", "front", "slip on the bias, silk"),
     "pleated-skirt": ("scenes/gallery/pleated-skirt.json", "front", "pleated skirt, wool suiting, on an elastic band"),
+    "scarf": ("scenes/gallery/scarf.json", "front", "scarf, wool, wound around the neck by moved pins"),
     "table-cloth": ("scenes/gallery/table-cloth.json", "front", "table cloth, cotton"),
     "flag": ("scenes/gallery/flag.json", "front", "flag, silk, in a wind of 6 m/s"),
     "curtain": ("scenes/gallery/curtain.json", "front", "curtain, silk, drawn together"),
@@ -39,8 +43,8 @@ def run(toile, out, name):
     subprocess.run([toile, "preview", folder, "--style", "studio", "--no-film", "--quiet"], check=True)
     left = margin + views.index(view) * (width + margin)
     picture = Image.open(folder / "preview.png").crop((left, margin, left + width, margin + height))
-    # What is drawn fills the width, seldom the height: the middle is kept.
-    cut = (height - width) // 2 if name in ("table-cloth", "flag", "bed-sheet", "wrung-towel", "cushion") else 0
+    # What is drawn, outstretched arms among it, fills the width, seldom the height: the middle is kept.
+    cut = (height - width) // 2 if name in ("table-cloth", "flag", "bed-sheet", "wrung-towel", "cushion", "hoody", "coat") else 0
     picture = picture.crop((0, cut, width, height - cut))
     picture = picture.resize((shown_px, shown_px * picture.height // width), Image.Resampling.LANCZOS)
     target = root / "docs/pictures/gallery" / f"{name}.png"

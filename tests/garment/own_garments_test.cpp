@@ -26,7 +26,9 @@ class OwnGarments : public testing::TestWithParam<OwnGarment> {};
 INSTANTIATE_TEST_SUITE_P(All, OwnGarments,
                          testing::Values(OwnGarment{"man_shirt", 6450, 12654}, OwnGarment{"man_pants", 8757, 17352},
                                          OwnGarment{"short_skirt", 2153, 4020}, OwnGarment{"long_skirt", 4530, 8844},
-                                         OwnGarment{"blouse", 5108, 10016}, OwnGarment{"blouse", 5188, 10194}),
+                                         OwnGarment{"blouse", 5108, 10016}, OwnGarment{"blouse", 5188, 10194},
+                                         OwnGarment{"slip", 6480, 12640}, OwnGarment{"hoody", 6290, 12300},
+                                         OwnGarment{"coat", 6800, 13000}, OwnGarment{"belt", 340, 508}),
                          [](const auto& which) {
                            return std::string(which.param.name) + "_" + std::to_string(which.param.particles);
                          });
@@ -42,6 +44,7 @@ TEST_P(OwnGarments, MeshToTheirCounts) {
 }
 
 TEST_P(OwnGarments, AreTheirOwnMirrorImages) {
+  if (GetParam().name == std::string("coat")) GTEST_SKIP() << "its right front hangs before the left one";
   const Pattern pattern = load(GetParam().name);
   std::vector<std::array<long, 3>> points, images;
   for (const Panel& panel : pattern.panels) {
@@ -117,6 +120,31 @@ TEST(OwnGarments, WaistbandsCloseWithEaseAndThenHoldByElastic) {
     EXPECT_LT(relaxed, 0.95 * waist_m) << name;
     EXPECT_GT(relaxed, 0.85 * waist_m) << name << ": elastic, not a corset";
   }
+}
+
+const Panel& panel_of(const Pattern& pattern, const std::string& name) {
+  return *std::find_if(pattern.panels.begin(), pattern.panels.end(), [&](const Panel& p) { return p.name == name; });
+}
+
+TEST(OwnGarments, ASlipHangsOnTheBias) {
+  const Pattern slip = load("slip");
+  for (const char* name : {"front", "back"}) {
+    const Panel& panel = panel_of(slip, name);
+    const Vec3 warp = panel.place(Vec2(0, 1)) - panel.place(Vec2(0, 0));
+    EXPECT_NEAR(std::abs(warp.x()), std::sqrt(0.5), 1e-9) << name;
+    EXPECT_NEAR(warp.y(), std::sqrt(0.5), 1e-9) << name;
+  }
+}
+
+TEST(OwnGarments, ACoatLapsRightOverLeft) {
+  const Pattern coat = load("coat");
+  const Panel &left = panel_of(coat, "left_front"), &right = panel_of(coat, "right_front");
+  double least = 1, most = -1;
+  for (const Vec2& p : left.corners) least = std::min(least, left.place(p).x());
+  for (const Vec2& p : right.corners) most = std::max(most, right.place(p).x());
+  EXPECT_NEAR(least, -0.09, 1e-9);
+  EXPECT_NEAR(most, 0.09, 1e-9);
+  EXPECT_NEAR(right.place(Vec2(0, 0)).z() - left.place(Vec2(0, 0)).z(), 0.04, 1e-9) << "no panel through another";
 }
 
 TEST(MeshToCount, IsTheSameAsThatEdgeLengthOrNearItAndSaysWhatItCannotReach) {

@@ -16,7 +16,7 @@ import tempfile
 # pattern, body, edge length (cm) of the counts in docs/patterns.md, height of the upper edge (m): least and most
 GARMENTS = (("man_shirt", "man", "1.39", 1.45, 1.60), ("man_pants", "man", "1.163", 1.02, 1.12), ("man_pants", "man", "1.5", 1.02, 1.12),
             ("short_skirt", "dancer", "1.521", 1.03, 1.12), ("long_skirt", "dancer", "2.1", 1.03, 1.12),
-            ("blouse", "dancer", "1.4", 1.40, 1.50))
+            ("blouse", "dancer", "1.4", 1.40, 1.50), ("slip", "woman", "1.2", 1.38, 1.50))
 
 
 def frames(path):

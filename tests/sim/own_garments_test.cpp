@@ -33,7 +33,9 @@ INSTANTIATE_TEST_SUITE_P(All, OwnGarmentOnItsBody,
                          testing::Values(Worn{"man_shirt", MannequinKind::man}, Worn{"man_pants", MannequinKind::man},
                                          Worn{"short_skirt", MannequinKind::dancer},
                                          Worn{"long_skirt", MannequinKind::dancer},
-                                         Worn{"blouse", MannequinKind::dancer}, Worn{"blouse", MannequinKind::woman}),
+                                         Worn{"blouse", MannequinKind::dancer}, Worn{"blouse", MannequinKind::woman},
+                                         Worn{"slip", MannequinKind::woman}, Worn{"hoody", MannequinKind::man},
+                                         Worn{"coat", MannequinKind::man}, Worn{"belt", MannequinKind::man}),
                          [](const auto& which) {
                            return std::string(which.param.name) + "_" + std::string(to_string(which.param.by));
                          });
