@@ -125,6 +125,9 @@ void turn_over(GarmentMesh& garment, Index panel, const MeshedPanel& meshed) {
   for (FoldedEdge& fold : garment.mesh.folds) {
     if (fold.a >= meshed.first_particle && fold.a < meshed.end_particle) fold.angle_rad *= -1;
   }
+  for (FinishedEdge& edge : garment.mesh.finished) {
+    if (edge.a >= meshed.first_particle && edge.a < meshed.end_particle) std::swap(edge.a, edge.b);
+  }
 }
 
 // Panels joined right to wrong must be turned over for the surface to have one right side.

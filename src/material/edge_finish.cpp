@@ -36,9 +36,4 @@ LineStiffness line_stiffness(const Fabric& fabric, const Vec2& along, const Edge
   return line;
 }
 
-Mat3 with_line(const Mat3& rigidity_N_m, const Vec2& along, double bend_N_m2, double side_m, double area_m2) {
-  const Vec3 m = moment_along(along.normalized());
-  return rigidity_N_m + (bend_N_m2 * side_m / area_m2) * m * m.transpose();
-}
-
 }  // namespace toile::internal

@@ -27,7 +27,4 @@ struct LineStiffness {  // of a line, added to the cloth's own
 //   bending:                                             1/D = m.C^-1 m,   m = (c^2, s^2, c s),   C of material/plate.hpp
 LineStiffness line_stiffness(const Fabric& fabric, const Vec2& along, const EdgeFinish& finish);
 
-// C of a triangle whose side `side_m` long lies on the line: the line's bending spread over the triangle.
-Mat3 with_line(const Mat3& rigidity_N_m, const Vec2& along, double bend_N_m2, double side_m, double area_m2);
-
 }  // namespace toile::internal
