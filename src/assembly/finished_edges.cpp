@@ -1,6 +1,7 @@
 #include "assembly/finished_edges.hpp"
 
 #include "assembly/plate_moments.hpp"
+#include "assembly/topstitched_bands.hpp"
 #include "material/edge_finish.hpp"
 
 #include <algorithm>
@@ -109,6 +110,7 @@ void finish_edges(ClothModel& model, std::span<const Fabric> fabrics, bool plate
   const ClothMesh& mesh = model.mesh;
   if (mesh.finished.empty()) return;
   Lines lines(model);
+  TopstitchedBands bands(model);
   for (const FinishedEdge& edge : mesh.finished) {
     const Side* side = lines.side_of(edge.a, edge.b);
     if (side == nullptr) continue;
@@ -117,13 +119,16 @@ void finish_edges(ClothModel& model, std::span<const Fabric> fabrics, bool plate
     const Vec2 along = mesh.uv[t][next] - mesh.uv[t][k];
     Fabric fabric = fabric_of(mesh, fabrics, t);
     if (!plates) fabric.bend_friction_N = 0;  // nothing remembers where threads have slipped
-    const LineStiffness line = line_stiffness(fabric, along, {edge.hem_m, edge.tape_m});
+    const LineStiffness line =
+        line_stiffness(fabric, along, {edge.hem_m, edge.tape_m, edge.allowance_m, edge.topstitched});
     model.threads.push_back({mesh.triangles[t][k], mesh.triangles[t][next], static_cast<Index>(t),
                              static_cast<std::uint8_t>(k), line.stretch_N});
     for (const Index end : {edge.a, edge.b}) model.mass_kg[at(end)] += 0.5 * line.mass_kg_per_m * along.norm();
     lines.add(*side, along.norm(), line.bend_N_m2);
+    if (plates && edge.topstitched && edge.allowance_m > 0) bands.add(fabric, t, k, edge.allowance_m);
   }
   model.line_bends = lines.bends();
+  bands.apply(fabrics, model);
 }
 
 }  // namespace toile::internal

@@ -10,6 +10,15 @@
 //
 // with t between the directions of both edges.  Heights of particles alone are in it: on a straight line it is exact for constant curvature,
 // on any triangles, and whatever the cloth beside it is.                                              docs/theory/sewing.md#finished-edges
+//
+//   bending across it    where an allowance is stitched down, in the plates: of the triangles of its own panel within its width of the edge
+//
+// A triangle has one moment, and the two cloths in it, covered for a share s of its area, bend by as much each as their own rigidity says:
+//
+//   C^-1 = (1 - s) C_cloth^-1 + s C_topstitched^-1
+//
+// which is exact for a moment across the seam, wherever the allowance ends in the triangles.  A triangle that several edges' bands cover shares them by
+// area.  Hinges by themselves do without.
 #pragma once
 #include "assembly/cloth_model.hpp"
 

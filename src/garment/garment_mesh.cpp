@@ -64,7 +64,8 @@ MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_inde
     const EdgeFinish& finish = panel.edges[e].finish;
     const std::vector<Index>& line = meshed.edge_particles[e];
     for (std::size_t k = 0; !finish.none() && k + 1 < line.size(); ++k)
-      garment.mesh.finished.push_back({line[k], line[k + 1], finish.hem_m, finish.tape_m});
+      garment.mesh.finished.push_back(
+          {line[k], line[k + 1], finish.hem_m, finish.tape_m, finish.allowance_m, finish.topstitched});
   }
   meshed.first_particle = first;
   meshed.end_particle = garment.mesh.particle_count;

@@ -37,6 +37,26 @@ TEST(EdgeFinish, AHemIsTwoMoreLayersOnTheGrainAndATapeTwoAlongTheWarp) {
   EXPECT_NEAR(warp.bend_N_m2, 2 * hem_m * cotton.bend_u_N_m * (1 - cotton.bend_poisson * cotton.bend_poisson), 1e-12);
 }
 
+TEST(EdgeFinish, AnAllowanceIsOneMoreLayerAndStitchedDownABundle) {
+  Fabric denim = fabric_preset("denim", "", "");
+  const Vec2 bias(1, 1);
+  const LineStiffness hem = line_stiffness(denim, bias, {hem_m, 0}),
+                      loose = line_stiffness(denim, bias, {0, 0, 2 * hem_m, false}),
+                      stitched = line_stiffness(denim, bias, {0, 0, 2 * hem_m, true});
+  EXPECT_NEAR(loose.mass_kg_per_m, hem.mass_kg_per_m, 1e-15) << "two layers of half the width";
+  EXPECT_NEAR(loose.stretch_N, hem.stretch_N, 1e-9);
+  EXPECT_NEAR(loose.bend_N_m2, hem.bend_N_m2, 1e-15);
+  EXPECT_EQ(stitched.mass_kg_per_m, loose.mass_kg_per_m);
+  EXPECT_EQ(stitched.stretch_N, loose.stretch_N);
+  const double V = denim.compression_ratio / (1 + denim.compression_ratio), t = denim.density_kg_per_m2 / 500;
+  EXPECT_NEAR(stitched.bend_N_m2 - loose.bend_N_m2, V * t * t * stitched.stretch_N, 1e-12);
+  // Where nothing buckles it is the sandwich of interfacing.
+  denim.compression_ratio = 1;
+  denim.bend_friction_N = 0;
+  const Fabric both = fused(denim, denim, t);
+  EXPECT_NEAR(2 * denim.bend_u_N_m + layer_coupling_N_m(denim, {1, 0}), both.bend_u_N_m, 1e-12);
+}
+
 struct Finished {
   ClothModel model;
   ClothState state;
