@@ -61,8 +61,7 @@ void refuse_beside(const Json& value, const ScenePattern&, const SceneCloth& cho
 
 MeshedCloth load(const ScenePattern& given, const SceneCloth& whole, const TextSource& read) {
   if (given.finish.topstitched && given.finish.allowance_m <= 0)
-    throw InputError("", cloth_in_words(whole.name) + ", topstitched",
-                     "an allowance above zero beside it (allowance_mm, --allowance)", "none");
+    throw InputError("", "topstitched", "an allowance above zero beside it (allowance_mm, --allowance)", "none");
   MeshedCloth meshed;
   const std::string text = read(given.path), file = printable(given.path);
   meshed.input_hash = hash_of_text(text);
