@@ -115,6 +115,10 @@ void add_garment_options(CLI::App& command, CommandLine& line) {
       ->check(CLI::Range(0.0, 200.0));
   command.add_option("--tape", line.tape_mm, "Width of a tape on open edges with a label, mm (default: 10)")
       ->check(CLI::Range(0.0, 200.0));
+  command
+      .add_option("--allowance", line.allowance_mm, "Width of the allowances on a pattern's seams, mm (default: none)")
+      ->check(CLI::Range(0.0, 200.0));
+  command.add_flag("--topstitched", line.topstitched, "The seam allowances are stitched down");
   command.add_option("--fps", line.fps, "Frames per second of the output")->check(CLI::Range(1.0, 1000.0));
   command.add_option("--quality", line.quality, "draft, good or final: resolution, step and tolerance")
       ->check(CLI::IsMember({"draft", "good", "final"}));
@@ -283,6 +287,7 @@ void require_finite(const CommandLine& line) {
   for (const auto& [option, value] : {std::pair{"--resolution", line.resolution_cm},
                                       {"--hem", line.hem_mm},
                                       {"--tape", line.tape_mm},
+                                      {"--allowance", line.allowance_mm},
                                       {"--fps", line.fps},
                                       {"--seconds", line.seconds},
                                       {"--max-memory", line.limits.memory_mb},

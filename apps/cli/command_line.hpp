@@ -46,7 +46,8 @@ struct CommandLine {
   std::optional<int> export_frame;          // of export; absent: the last
   bool all = false;                         // of export
   std::optional<std::string> fabric;        // a preset, or a file
-  std::optional<double> resolution_cm, hem_mm, tape_mm, fps, seconds;
+  std::optional<double> resolution_cm, hem_mm, tape_mm, allowance_mm, fps, seconds;
+  bool topstitched = false;
   bool strict_start = false;
   bool list = false;
   std::optional<int> checkpoint_frames;  // absent: by time

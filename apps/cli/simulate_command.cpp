@@ -196,6 +196,8 @@ SceneFile scene_of(const CommandLine& line) {
     if (auto* pattern = std::get_if<ScenePattern>(&cloth.kind)) {
       if (line.hem_mm) pattern->finish.hem_m = 1e-3 * *line.hem_mm;
       if (line.tape_mm) pattern->finish.tape_m = 1e-3 * *line.tape_mm;
+      if (line.allowance_mm) pattern->finish.allowance_m = 1e-3 * *line.allowance_mm;
+      if (line.topstitched) pattern->finish.topstitched = true;
     }
   }
   if (!line.start.empty()) scene.start = line.start;

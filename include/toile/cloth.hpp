@@ -14,8 +14,10 @@ namespace toile {
 
 struct PatternOptions {
   double edge_m = 0.01;  // of its triangles
-  // Widths, where the file says nothing: of a hem on open edges, and of a tape on those with a label (waists, collars, armholes); 0: none.
-  double hem_m = 0, tape_m = 0.01;
+  // Widths, where the file says nothing: of a hem on open edges, of a tape on those with a label (waists, collars, armholes), and of the allowances on
+  // sewn edges; 0: none.
+  double hem_m = 0, tape_m = 0.01, allowance_m = 0;
+  bool topstitched = false;  // these allowances are stitched down; needs an allowance_m
 };
 struct GridOptions {
   double width_m = 1, height_m = 1, edge_m = 0.02;

@@ -44,10 +44,16 @@ void bind_cloth(nb::module_& module) {
       .def(nb::init<const Cloth&>(), "other"_a)
       .def_static(
           "from_pattern",
-          [](const std::string& path, double edge_m, double hem_m, double tape_m) {
-            return Cloth::from_pattern(path, {.edge_m = edge_m, .hem_m = hem_m, .tape_m = tape_m});
+          [](const std::string& path, double edge_m, double hem_m, double tape_m, double allowance_m,
+             bool topstitched) {
+            return Cloth::from_pattern(path, {.edge_m = edge_m,
+                                              .hem_m = hem_m,
+                                              .tape_m = tape_m,
+                                              .allowance_m = allowance_m,
+                                              .topstitched = topstitched});
           },
-          nb::call_guard<nb::gil_scoped_release>(), "path"_a, "edge_m"_a, "hem_m"_a, "tape_m"_a)
+          nb::call_guard<nb::gil_scoped_release>(), "path"_a, "edge_m"_a, "hem_m"_a, "tape_m"_a, "allowance_m"_a,
+          "topstitched"_a)
       .def_static("from_file", &from_file, nb::call_guard<nb::gil_scoped_release>(), "path"_a, "unit"_a, "rest_shape"_a)
       .def_static(
           "grid",

@@ -126,6 +126,13 @@ def test_what_is_no_cloth_is_refused_with_its_place():
         toile.Cloth(holed, faces)
 
 
+def test_seam_allowances_have_widths_and_may_be_stitched_down():
+    assert "skirt" in repr(toile.Cloth.from_pattern("patterns/skirt.json", allowance_m=0.01, topstitched=True))
+    for options, what in (({"allowance_m": -0.01}, "allowance_m"), ({"topstitched": True}, "topstitched.*allowance_m")):
+        with pytest.raises(toile.InputError, match=what):
+            toile.Cloth.from_pattern("patterns/skirt.json", **options)
+
+
 def test_hems_and_tapes_have_widths():
     assert "skirt" in repr(toile.Cloth.from_pattern("patterns/skirt.json", hem_m=0.02, tape_m=0))
     for widths in ({"hem_m": -0.01}, {"tape_m": float("nan")}):

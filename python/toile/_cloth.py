@@ -84,15 +84,23 @@ class Cloth(Made):
 
     @classmethod
     def from_pattern(
-        cls, path: str | os.PathLike[str], *, edge_m: float = 0.01, hem_m: float = 0.0, tape_m: float = 0.01
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        edge_m: float = 0.01,
+        hem_m: float = 0.0,
+        tape_m: float = 0.01,
+        allowance_m: float = 0.0,
+        topstitched: bool = False,
     ) -> Cloth:
         """The panels of a sewing pattern (GarmentCode's JSON), which Simulation.dress() sews around the body.
 
-        edge_m: length of the triangles' edges.  hem_m, tape_m: widths, where the file says nothing, of a hem on open edges and of a
-        tape on those with a label (waists, collars, armholes); 0 is none.  The file is read when a simulation is made of it, which
+        edge_m: length of the triangles' edges.  hem_m, tape_m, allowance_m: widths, where the file says nothing, of a hem on open edges,
+        of a tape on those with a label (waists, collars, armholes), and of the allowances on sewn edges; 0 is none.  topstitched: these
+        allowances are stitched down, and seams bend as a bundle.  The file is read when a simulation is made of it, which
         raises IoError where it cannot be read and InputError where it is no such pattern (check_pattern() tells all that is wrong with it).
         """
-        return cls._make("from_pattern", path=file_path(path), edge_m=edge_m, hem_m=hem_m, tape_m=tape_m)
+        return cls._make("from_pattern", path=file_path(path), edge_m=edge_m, hem_m=hem_m, tape_m=tape_m, allowance_m=allowance_m, topstitched=topstitched)
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str], *, unit: str = "m", rest_shape: str = "automatic") -> Cloth:

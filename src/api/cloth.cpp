@@ -36,8 +36,12 @@ Cloth Cloth::from_pattern(const std::string& path, const PatternOptions& options
     require_above_zero("edge_m", options.edge_m);
     require_at_least_zero("hem_m", options.hem_m);
     require_at_least_zero("tape_m", options.tape_m);
+    require_at_least_zero("allowance_m", options.allowance_m);
+    if (options.topstitched && options.allowance_m <= 0)
+      throw internal::InputError("", "topstitched", "an allowance_m above zero beside it", "none");
     auto parts = std::make_unique<Parts>();
-    parts->cloth.kind = internal::ScenePattern{path, {}, {options.hem_m, options.tape_m}};
+    parts->cloth.kind =
+        internal::ScenePattern{path, {}, {options.hem_m, options.tape_m, options.allowance_m, options.topstitched}};
     parts->cloth.resolution_m = options.edge_m;
     parts->cloth.name = std::filesystem::path(path).stem().string();
     return Cloth(std::move(parts));

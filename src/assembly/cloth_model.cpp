@@ -1,12 +1,12 @@
 #include "assembly/cloth_model.hpp"
 
+#include "assembly/finished_edges.hpp"
+#include "assembly/line_moments.hpp"
 #include "assembly/plate_moments.hpp"
 #include "core/error.hpp"
-#include "material/edge_finish.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace toile::internal {
 namespace {
@@ -20,10 +20,6 @@ Vec2 edge_in_pattern(const ClothMesh& mesh, Index triangle, Index x0, Index x1) 
     if (mesh.triangles[t][c] == x1) ends[1] = mesh.uv[t][c];
   }
   return ends[1] - ends[0];
-}
-
-const Fabric& fabric_of(const ClothMesh& mesh, std::span<const Fabric> fabrics, std::size_t triangle) {
-  return fabrics[fabrics.size() == 1 ? 0 : at(mesh.panel[triangle])];
 }
 
 BendRest hinge_rest(const ClothModel& model, std::span<const Fabric> fabrics, const Hinge& hinge, bool plates,
@@ -76,35 +72,6 @@ void set_pair_friction(ClothModel& model, std::span<const Fabric> fabrics, const
   }
 }
 
-// The threads of finished edges, their mass, and with plates their bending.  A free edge has no hinge along it, and those that meet it bend about
-// other lines: without plates a finished edge bends as the cloth does.
-void finish_edges(ClothModel& model, std::span<const Fabric> fabrics, bool plates) {
-  const ClothMesh& mesh = model.mesh;
-  if (mesh.finished.empty()) return;
-  std::map<std::pair<Index, Index>, std::pair<Index, std::uint8_t>> side_of;  // [edge] of its first triangle
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::uint8_t k = 0; k < 3; ++k)
-      side_of.emplace(std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1U) % 3]),
-                      std::pair(static_cast<Index>(t), k));
-  std::map<Index, Mat3> rigidity;  // of triangles beside finished edges: two of them may meet in one
-  for (const FinishedEdge& edge : mesh.finished) {
-    const auto found = side_of.find(std::minmax(edge.a, edge.b));
-    if (found == side_of.end()) continue;
-    const auto [triangle, k] = found->second;
-    const auto t = at(triangle);
-    const std::array<Vec2, 3>& uv = mesh.uv[t];
-    const Vec2 along = uv[(k + 1U) % 3] - uv[k];
-    const Fabric& fabric = fabric_of(mesh, fabrics, t);
-    const LineStiffness line = line_stiffness(fabric, along, {edge.hem_m, edge.tape_m});
-    model.threads.push_back({mesh.triangles[t][k], mesh.triangles[t][(k + 1U) % 3], triangle, k, line.stretch_N});
-    for (const Index end : {edge.a, edge.b}) model.mass_kg[at(end)] += 0.5 * line.mass_kg_per_m * along.norm();
-    if (!plates) continue;
-    Mat3& C = rigidity.emplace(triangle, bending_rigidity(fabric)).first->second;
-    C = with_line(C, along, line.bend_N_m2, along.norm(), material_frame(uv).area_m2);
-    model.plate_compliance[t] = plate_compliance(uv, C);
-  }
-}
-
 void check_rest_stretch(const Vec2& b) {
   if (b.allFinite() && b.minCoeff() > 0) return;
   throw InputError("cloth", "rest stretch", "two numbers above zero",
@@ -113,9 +80,18 @@ void check_rest_stretch(const Vec2& b) {
 
 }  // namespace
 
+const Fabric& fabric_of(const ClothMesh& mesh, std::span<const Fabric> fabric_of_panel, std::size_t triangle) {
+  return fabric_of_panel[fabric_of_panel.size() == 1 ? 0 : at(mesh.panel[triangle])];
+}
+
 void set_plate_bounds(ClothModel& model) {
-  const std::vector<double> bounds = plate_bounds_N_m(model.topology, model.plate_compliance);
-  for (std::size_t h = 0; h < bounds.size(); ++h) model.bend[h].plate_N_m = bounds[h];
+  if (!model.plate_compliance.empty()) {
+    const std::vector<double> bounds = plate_bounds_N_m(model.topology, model.plate_compliance);
+    for (std::size_t h = 0; h < bounds.size(); ++h) model.bend[h].plate_N_m = bounds[h];
+  } else {
+    for (BendRest& rest : model.bend) rest.plate_N_m = 0;
+  }
+  add_line_bounds(model);
 }
 
 ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const ModelOptions& options) {
@@ -164,7 +140,7 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
   for (const Hinge& hinge : model.topology.hinges) {
     model.bend.push_back(hinge_rest(model, fabrics, hinge, plates, options.paper_scaling));
   }
-  if (plates) set_plate_bounds(model);
+  set_plate_bounds(model);
   set_folds(model, 1);
   set_gathers(model, 1);
   set_pair_friction(model, fabrics, options.pair_friction);
@@ -283,11 +259,9 @@ void set_panel_stiffness(ClothModel& model, Index panel, const StiffnessShare& s
     const auto& [a, b] = model.topology.hinges[h].triangle;
     model.bend[h].kappa_N_m = 0.5 * (bend_of(a) + bend_of(b)) * model.built_kappa_N_m[h];
   }
-  if (!model.plate_compliance.empty()) {
-    for (std::size_t t = 0; t < model.plate_compliance.size(); ++t)
-      model.plate_compliance[t] = model.built_compliance[t] / bend_of(static_cast<Index>(t));
-    set_plate_bounds(model);
-  }
+  for (std::size_t t = 0; t < model.plate_compliance.size(); ++t)
+    model.plate_compliance[t] = model.built_compliance[t] / bend_of(static_cast<Index>(t));
+  set_plate_bounds(model);
   ++model.rest_version;
 }
 

@@ -52,6 +52,17 @@ struct EdgeThread {
   double stretch_N = 0;  // force per strain
 };
 
+// Bending along finished edges, at a particle between two of them (assembly/finished_edges.hpp): of the kink sum share * fold angle.
+struct LineBend {
+  struct Part {
+    Index hinge = 0;
+    double share = 0;
+  };
+  double stiffness_N_m = 0;      // moment per kink
+  std::array<Index, 2> panel{};  // of both edges
+  std::vector<Part> hinges;
+};
+
 struct ClothModel {
   ClothMesh mesh;
   Topology topology;
@@ -61,6 +72,7 @@ struct ClothModel {
   std::vector<Mat3> plate_compliance;              // [triangle], rad/(N m); empty: hinges alone
   std::vector<BendHysteresis> hysteresis;          // [panel], or one for all; empty: bends are forgotten
   std::vector<EdgeThread> threads;                 // along mesh.finished
+  std::vector<LineBend> line_bends;                // along mesh.finished
   std::vector<double> mass_kg;                     // [particle]
   std::vector<double> thickness_m;                 // [particle] contact distance of two layers
   std::vector<double> friction;                    // [particle] the largest of its fabrics
@@ -90,8 +102,11 @@ struct ClothModel {
 
 // `fabric_of_panel` has one entry, or one per panel of the mesh.  Hinges on a seam take the mean of both sides.
 // Plates: every triangle has the rigidity of its own fabric, on a seam too.  Masses: a third of each triangle's density * area goes to each corner.  Rest angles are those of mesh.folds, zero
-// elsewhere; rest shapes are gathered.  Finished edges add mass, a thread, and bending along them.
+// elsewhere; rest shapes are gathered.  Finished edges add mass, a thread, and bending along them (finished_edges.hpp).
 ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabric_of_panel, const ModelOptions& options = {});
+
+// Of `fabric_of_panel` as above.
+const Fabric& fabric_of(const ClothMesh& mesh, std::span<const Fabric> fabric_of_panel, std::size_t triangle);
 
 // Rest angles = share * mesh.folds: panels are sewn flat (0) and then folded.  Folds on a free edge have no effect.
 void set_folds(ClothModel& model, double share);
@@ -114,7 +129,7 @@ void set_gathers(ClothModel& model, double share);
 void set_rest_stretch(ClothModel& model, Index triangle, const Vec2& b);
 void set_panel_rest_stretch(ClothModel& model, Index panel, const Vec2& b);
 
-// What matrices take for the plates (BendRest::plate_N_m), after a change of plate_compliance.
+// What matrices take for plates and finished edges (BendRest::plate_N_m), after a change of plate_compliance or of shares of stiffness.
 void set_plate_bounds(ClothModel& model);
 
 // Changes how stiff a panel is, as a share of its fabric; damping keeps its relaxation time, and with it the same share.  Hinges on a seam take

@@ -1,5 +1,6 @@
 #include "assembly/elements.hpp"
 
+#include "assembly/line_moments.hpp"
 #include "core/parallel.hpp"
 
 #include <algorithm>
@@ -33,7 +34,8 @@ void for_batches(std::size_t count, const Work& work) {
 }  // namespace
 
 Elements::Elements(const ClothModel& model)
-    : triangles_(model.mesh.triangles),
+    : model_(&model),
+      triangles_(model.mesh.triangles),
       hinges_(model.topology.hinges),
       bend_rest_(model.bend),
       rest_(batches_for(triangles_.size())),
@@ -44,9 +46,11 @@ Elements::Elements(const ClothModel& model)
       beyond_linear_(rest_.size() * batch_size) {
   if (!model.plate_compliance.empty()) {
     plates_.emplace(model);
+    if (!model.hysteresis.empty()) memory_.emplace(model);
+  }
+  if (plates_ || !model.line_bends.empty()) {
     turned_.resize(hinges_.size());
     plate_moment_.resize(hinges_.size());
-    if (!model.hysteresis.empty()) memory_.emplace(model);
   }
   pattern_ = std::make_shared<const BlockPattern>(pattern_of_cloth(model.particle_count(), triangles_, hinges_));
   if (!model.threads.empty()) threads_.emplace(model, *pattern_);
@@ -127,14 +131,23 @@ void Elements::evaluate(const ClothModel& model, const ClothState& state) {
     bend_[h] = bend_response(model.bend[h], corner_x, corner_v);
   });
   if (threads_) threads_->evaluate(x, v);
-  if (!plates_) return;
+  if (turned_.empty()) return;
   // A relaxation time tau: angle and rate have one moment, that of C + tau dC/dt.
   parallel_for(hinges_.size(), element_grain, [&](std::size_t h) {
     turned_[h] =
         bend_[h].degenerate ? 0 : bend_[h].theta - bend_rest_[h].theta_0 + bend_rest_[h].tau_s * bend_[h].theta_dot;
   });
   if (memory_) memory_->subtract_rest(turned_);
-  plates_->solve(turned_, plate_moment_);
+  find_moments(plate_moment_);
+}
+
+// Of hinges folded by turned_.
+void Elements::find_moments(std::span<double> moment) {
+  if (plates_)
+    plates_->solve(turned_, moment);
+  else
+    std::fill(moment.begin(), moment.end(), 0);
+  add_line_moments(*model_, turned_, moment);
 }
 
 void Elements::follow_bends(const ClothModel& model, std::span<const Vec3> x, double h_s) {
@@ -152,12 +165,12 @@ void Elements::follow_bends(const ClothModel& model, std::span<const Vec3> x, do
 
 double Elements::energy_J() {
   double energy = threads_ ? threads_->energy_J() : 0;
-  if (plates_) {
+  if (!turned_.empty()) {
     for (std::size_t h = 0; h < hinges_.size(); ++h)
       turned_[h] = bend_[h].degenerate ? 0 : bend_[h].theta - bend_rest_[h].theta_0;
     if (memory_) memory_->subtract_rest(turned_);
     std::vector<double> moment(hinges_.size());
-    plates_->solve(turned_, moment);
+    find_moments(moment);
     for (std::size_t h = 0; h < hinges_.size(); ++h) energy += 0.5 * moment[h] * turned_[h];
   }
   for (std::size_t t = 0; t < triangles_.size(); ++t) energy += state_[t / batch_size].energy_J[t % batch_size];
@@ -189,7 +202,7 @@ void Elements::forces(std::span<Vec3> f) const {
   for_batches(rest_.size(),
               [&](std::size_t begin, std::size_t end) { membrane_forces(batches(begin, end), of_triangles_.data()); });
   parallel_for(hinges_.size(), element_grain, [&](std::size_t h) {
-    of_hinges_[h] = bend_[h].moment + bend_[h].damping + (plates_ ? plate_moment_[h] : 0);
+    of_hinges_[h] = bend_[h].moment + bend_[h].damping + (plate_moment_.empty() ? 0 : plate_moment_[h]);
   });
   std::fill(f.begin(), f.end(), Vec3::Zero());
   gather(f, -1);

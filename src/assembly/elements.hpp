@@ -70,10 +70,12 @@ class Elements {
  private:
   void add_incidence(const ClothModel& model);
   void pack_rest(const ClothModel& model);
+  void find_moments(std::span<double> moment);
   MembraneBatches batches(std::size_t begin, std::size_t end) const {
     return {rest_.data(), state_.data(), begin, end, form_};
   }
 
+  const ClothModel* model_;
   std::shared_ptr<const BlockPattern> pattern_;
   std::span<const Triangle> triangles_;  // of the model
   std::span<const Hinge> hinges_;
@@ -96,7 +98,7 @@ class Elements {
   std::optional<EdgeThreads> threads_;  // none without finished edges
   std::optional<PlateMoments> plates_;
   std::optional<BendMemory> memory_;           // none where no fabric remembers its bends
-  std::vector<double> turned_, plate_moment_;  // [hinge], empty without plates
+  std::vector<double> turned_, plate_moment_;  // [hinge], of plates and lines; empty without both
   std::vector<double> beyond_linear_;          // [triangle]
   void gather(std::span<Vec3> f, double sign) const;
 };

@@ -34,8 +34,11 @@ GarmentMesh over(const Outfit& outfit, const GarmentMesh& garment) {
   both.mesh.panel_cloth.resize(both.mesh.panel_names.size());
   for (const FoldedEdge& fold : garment.mesh.folds)
     both.mesh.folds.push_back({fold.a + worn, fold.b + worn, fold.angle_rad});
-  for (const FinishedEdge& edge : garment.mesh.finished)
-    both.mesh.finished.push_back({edge.a + worn, edge.b + worn, edge.hem_m, edge.tape_m});
+  for (FinishedEdge edge : garment.mesh.finished) {
+    edge.a += worn;
+    edge.b += worn;
+    both.mesh.finished.push_back(edge);
+  }
   both.x = outfit.state.x;
   both.x.insert(both.x.end(), garment.x.begin(), garment.x.end());
   for (SeamPair& pair : both.pairs) {

@@ -64,7 +64,8 @@ MeshedPanel add_panel(GarmentMesh& garment, const Panel& panel, Index panel_inde
     const EdgeFinish& finish = panel.edges[e].finish;
     const std::vector<Index>& line = meshed.edge_particles[e];
     for (std::size_t k = 0; !finish.none() && k + 1 < line.size(); ++k)
-      garment.mesh.finished.push_back({line[k], line[k + 1], finish.hem_m, finish.tape_m});
+      garment.mesh.finished.push_back(
+          {line[k], line[k + 1], finish.hem_m, finish.tape_m, finish.allowance_m, finish.topstitched});
   }
   meshed.first_particle = first;
   meshed.end_particle = garment.mesh.particle_count;
@@ -124,6 +125,9 @@ void turn_over(GarmentMesh& garment, Index panel, const MeshedPanel& meshed) {
   // A ridge on the drawn side is a valley on the other.
   for (FoldedEdge& fold : garment.mesh.folds) {
     if (fold.a >= meshed.first_particle && fold.a < meshed.end_particle) fold.angle_rad *= -1;
+  }
+  for (FinishedEdge& edge : garment.mesh.finished) {
+    if (edge.a >= meshed.first_particle && edge.a < meshed.end_particle) std::swap(edge.a, edge.b);
   }
 }
 

@@ -199,7 +199,7 @@ double edge_length_m(const Panel& panel, const PanelEdge& edge) {
   return BezierLength(c).total();
 }
 
-void finish_open_edges(Pattern& pattern, const EdgeFinish& finish) {
+void finish_other_edges(Pattern& pattern, const EdgeFinish& finish) {
   std::vector<std::vector<char>> sewn;
   for (const Panel& panel : pattern.panels) sewn.emplace_back(panel.edges.size(), 0);
   for (const Stitch& stitch : pattern.stitches)
@@ -207,7 +207,9 @@ void finish_open_edges(Pattern& pattern, const EdgeFinish& finish) {
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     for (std::size_t e = 0; e < sewn[p].size(); ++e) {
       PanelEdge& edge = pattern.panels[p].edges[e];
-      if (!sewn[p][e] && !edge.finish_given) edge.finish = {finish.hem_m, edge.label.empty() ? 0 : finish.tape_m};
+      if (edge.finish_given) continue;
+      edge.finish = sewn[p][e] ? EdgeFinish{0, 0, finish.allowance_m, finish.topstitched}
+                               : EdgeFinish{finish.hem_m, edge.label.empty() ? 0 : finish.tape_m};
     }
   }
 }

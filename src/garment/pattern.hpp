@@ -73,9 +73,9 @@ struct Pattern {
   bool units_assumed = false;   // the file does not say: 100 was assumed
 };
 
-// Finishes the open edges for which the file says nothing: a hem on all, and a tape on those of them with a label, which shall lie on the body at
-// their length as cut: waists, collars, armholes, strapless tops.
-void finish_open_edges(Pattern& pattern, const EdgeFinish& finish);
+// Finishes the edges for which the file says nothing: an allowance on those that are sewn, a hem on open ones, and a tape on those of them with a label,
+// which shall lie on the body at their length as cut: waists, collars, armholes, strapless tops.
+void finish_other_edges(Pattern& pattern, const EdgeFinish& finish);
 
 // Points of an edge from start to end, `count` + 1 of them (count >= 1), equally spaced by arc length to 1e-9 of the
 // length.  First and last point are the corners to the bit, and the edge reversed gives the same points reversed, to the

@@ -68,6 +68,7 @@ class PatternReader {
       if (const Json* stitches = extension->find("stitches")) read_pressed(*stitches);
     }
     if (!leniently_) report_faults(pattern);
+    if (!leniently_) check_allowances();
     pattern_.legacy_frame = is_legacy_frame();
     return {std::move(pattern_), std::move(sources_), stitches_, absolute_, centre_panels_, std::move(places_)};
   }
@@ -340,10 +341,10 @@ class PatternReader {
     }
   }
 
-  void read_finishes(Panel& panel, const Json& edges) const {
+  void read_finishes(Panel& panel, const Json& edges) {
     for (const Json& entry : edges.array()) {
       if (!entry.is_object()) entry.fail("an edge: an object", entry.describe());
-      entry.allow_only({"edge", "hem_mm", "tape_mm"});
+      entry.allow_only({"edge", "hem_mm", "tape_mm", "allowance_mm", "topstitched"});
       const Json& number = entry.at("edge");
       const Index wanted = read_index_or_none(number, panel.edges.size(), "an edge");
       const auto edge = std::find_if(panel.edges.begin(), panel.edges.end(),
@@ -356,7 +357,11 @@ class PatternReader {
         if (!(width->number() >= 0 && width->number() <= 200)) width->fail("a number from 0 to 200", width->describe());
         return 1e-3 * width->number();
       };
-      edge->finish = {width_m("hem_mm"), width_m("tape_mm")};
+      edge->finish = {width_m("hem_mm"), width_m("tape_mm"), width_m("allowance_mm"),
+                      entry.boolean_or("topstitched", false)};
+      if (edge->finish.topstitched && edge->finish.allowance_m <= 0)
+        entry.at("topstitched").fail("an `allowance_mm` above zero beside it", "none");
+      if (edge->finish.allowance_m > 0) allowances_.push_back({panel.name, wanted, &entry.at("allowance_mm")});
       edge->finish_given = true;
     }
   }
@@ -377,6 +382,20 @@ class PatternReader {
         stitch.right_wrong = true;
       }
       pattern_.stitches.push_back(stitch);
+    }
+  }
+
+  // Beyond an open edge there is no cloth.
+  void check_allowances() const {
+    for (const Allowance& given : allowances_) {
+      const auto is_its = [&](const StitchSide& side) {
+        const Panel& panel = pattern_.panels[at(side.panel)];
+        return panel.name == given.panel && panel.file_number(side.edge) == given.edge;
+      };
+      if (std::none_of(pattern_.stitches.begin(), pattern_.stitches.end(),
+                       [&](const Stitch& stitch) { return is_its(stitch.a) || is_its(stitch.b); }))
+        given.json->fail("none on an open edge: a seam allowance belongs to an edge that is stitched",
+                         given.json->describe());
     }
   }
 
@@ -445,6 +464,12 @@ class PatternReader {
   std::vector<PanelSource> sources_;             // as Pattern::panels
   const Json* stitches_ = nullptr;
   const Json* extension_ = nullptr;  // /toile/panels
+  struct Allowance {
+    std::string panel;
+    Index edge = 0;  // its number in the file
+    const Json* json = nullptr;
+  };
+  std::vector<Allowance> allowances_;
   JsonPlaces places_;
 };
 

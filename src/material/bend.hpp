@@ -21,8 +21,8 @@ inline constexpr double smallest_height = 0.05;
 
 struct BendRest {
   double kappa_N_m = 0;  // stiffness of this hinge by itself
-  double plate_N_m =
-      0;  // what the matrix of a step takes for the plates beside it (assembly/plate_moments.hpp); 0: a hinge alone
+  // What the matrix of a step takes for the plates beside it (assembly/plate_moments.hpp) and for lines that it is part of; 0: a hinge alone.
+  double plate_N_m = 0;
   double tau_s = 0;    // relaxation time k_d / k
   double theta_0 = 0;  // rest angle, rad
   // (smallest_height N_0)^2 of the triangles beside particles 2 and 3, m^4, N_0 being twice the area at rest; 0: g is never scaled down.

@@ -33,12 +33,25 @@ LineStiffness line_stiffness(const Fabric& fabric, const Vec2& along, const Edge
   line.stretch_N = layers * (finish.hem_m * strip_stretch_N_per_m(fabric, unit) +
                              finish.tape_m * strip_stretch_N_per_m(fabric, warp));
   line.bend_N_m2 = layers * (finish.hem_m * strip_rigidity_N_m(C, unit) + finish.tape_m * strip_rigidity_N_m(C, warp));
+  if (finish.allowance_m > 0) {
+    line.mass_kg_per_m += finish.allowance_m * fabric.density_kg_per_m2;
+    line.stretch_N += finish.allowance_m * strip_stretch_N_per_m(fabric, unit);
+    line.bend_N_m2 += finish.allowance_m *
+                      (strip_rigidity_N_m(C, unit) + (finish.topstitched ? layer_coupling_N_m(fabric, unit) : 0));
+  }
   return line;
 }
 
-Mat3 with_line(const Mat3& rigidity_N_m, const Vec2& along, double bend_N_m2, double side_m, double area_m2) {
-  const Vec3 m = moment_along(along.normalized());
-  return rigidity_N_m + (bend_N_m2 * side_m / area_m2) * m * m.transpose();
+double layer_coupling_N_m(const Fabric& fabric, const Vec2& direction) {
+  const double c = fabric.compression_ratio, t_m = fabric.density_kg_per_m2 / cloth_kg_per_m3;
+  return c / (1 + c) * strip_stretch_N_per_m(fabric, direction.normalized()) * t_m * t_m;
+}
+
+Mat3 topstitched_rigidity(const Fabric& fabric, const Vec2& across) {
+  const Vec2 unit = across.normalized();
+  const Mat3 C = bending_rigidity(fabric);
+  const Vec3 m = moment_along(unit);
+  return C + (strip_rigidity_N_m(C, unit) + layer_coupling_N_m(fabric, unit)) * m * m.transpose();
 }
 
 }  // namespace toile::internal

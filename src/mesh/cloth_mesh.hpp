@@ -28,9 +28,11 @@ struct FoldedEdge {  // an edge whose hinge is not flat at rest
   double angle_rad = 0;  // theta of mesh/topology.hpp: > 0 is a ridge on the right side
 };
 
-struct FinishedEdge {  // an edge with a hem or a tape along it (material/edge_finish.hpp)
+// An edge with a hem, a tape or a seam allowance along it (material/edge_finish.hpp), as the triangle walks it that is finished: both sides of a seam have their own.
+struct FinishedEdge {
   Index a = 0, b = 0;
-  double hem_m = 0, tape_m = 0;  // widths
+  double hem_m = 0, tape_m = 0, allowance_m = 0;  // widths
+  bool topstitched = false;                       // the allowance
 };
 
 struct ClothMesh {

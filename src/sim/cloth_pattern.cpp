@@ -53,20 +53,22 @@ ClothCost::Seams seams_of(const Pattern& pattern, const std::string& file) {
 
 void refuse_beside(const Json& value, const ScenePattern&, const SceneCloth& chosen) {
   const std::string pattern = "a pattern beside it";
-  for (const std::string_view key : {"vertices", "resolution_cm", "hem_mm", "tape_mm"})
+  for (const std::string_view key : {"vertices", "resolution_cm", "hem_mm", "tape_mm", "allowance_mm", "topstitched"})
     if (const Json* given = value.find(key))
       given->fail(key == "resolution_cm" && chosen.has_own_edge() ? pattern + ": other shapes have an edge_m" : pattern,
                   given->describe());
 }
 
 MeshedCloth load(const ScenePattern& given, const SceneCloth& whole, const TextSource& read) {
+  if (given.finish.topstitched && given.finish.allowance_m <= 0)
+    throw InputError("", "topstitched", "an allowance above zero beside it (allowance_mm, --allowance)", "none");
   MeshedCloth meshed;
   const std::string text = read(given.path), file = printable(given.path);
   meshed.input_hash = hash_of_text(text);
   meshed.edge_m = whole.resolution_m;
   PatternFile as_read = read_pattern(text, file);
   Pattern& pattern = meshed.pattern.emplace(std::move(as_read.pattern));
-  finish_open_edges(pattern, given.finish);
+  finish_other_edges(pattern, given.finish);
   GarmentMesh& garment = meshed.garment;
   try {
     if (given.vertices) {

@@ -15,8 +15,8 @@ struct ScenePattern {
   static constexpr bool sewn = true;
   std::string path;             // resolved
   std::optional<int> vertices;  // of the welded garment; overrides the cloth's resolution_m
-  EdgeFinish finish{
-      0, 0.01};  // of open edges for which the pattern says nothing: a hem on all, a tape on those with a label
+  // Of edges for which the pattern says nothing: a hem on open ones, a tape on those of them with a label, an allowance on sewn ones.
+  EdgeFinish finish{0, 0.01};
 };
 template <class V>
 void describe_choice(V& v, std::optional<ScenePattern>& pattern) {
@@ -32,6 +32,10 @@ void describe_beside(V& v, ScenePattern& pattern) {
       {0, 200, 1e-3}, pattern.finish.hem_m);
   v.number({"tape_mm", "width of a tape on those that have a label: waists, collars, armholes, strapless tops"},
            {0, 200, 1e-3}, pattern.finish.tape_m);
+  v.number({"allowance_mm", "width of the seam allowances on its sewn edges"}, {0, 200, 1e-3},
+           pattern.finish.allowance_m);
+  v.flag({"topstitched", "these allowances are stitched down: seams bend as a bundle; with an `allowance_mm`"},
+         pattern.finish.topstitched);
 }
 void refuse_beside(const Json& value, const ScenePattern& none, const SceneCloth& chosen);
 

@@ -326,6 +326,20 @@ TEST(Simulation, HemsAndTapesAreThoseOfThePatternsOptions) {
   EXPECT_THROW(Cloth::from_pattern("p.json", {.tape_m = std::numeric_limits<double>::infinity()}), InputError);
 }
 
+TEST(Simulation, SeamAllowancesAreThoseOfThePatternsOptions) {
+  const auto worn = [](const PatternOptions& options) {
+    Simulation sim(Cloth::from_pattern(internal::test::source_path("patterns/skirt.json"), options),
+                   Body::mannequin("woman"));
+    EXPECT_TRUE(sim.dress().ok());
+    return sim.state_hash();
+  };
+  const std::string loose = worn({.edge_m = 0.06, .allowance_m = 0.015});
+  EXPECT_NE(loose, worn({.edge_m = 0.06}));
+  EXPECT_NE(loose, worn({.edge_m = 0.06, .allowance_m = 0.015, .topstitched = true}));
+  EXPECT_THROW(Cloth::from_pattern("p.json", {.allowance_m = -0.01}), InputError);
+  EXPECT_THROW(Cloth::from_pattern("p.json", {.topstitched = true}), InputError);
+}
+
 TEST(Simulation, ACancelledAdvanceIsGoneOnWith) {
   bool cancel = true;
   Simulation sim(sheet(1), Body::none(), {.cancelled = [&] { return cancel; }});

@@ -2,8 +2,9 @@
 #include "assembly/edge_threads.hpp"
 
 #include "assembly/elements.hpp"
+#include "assembly/line_moments.hpp"
 #include "material/edge_finish.hpp"
-#include "material/plate.hpp"
+#include "support/bending_stiffness.hpp"
 #include "support/fabrics.hpp"
 #include "support/finished_sides.hpp"
 #include "support/finite_difference.hpp"
@@ -36,18 +37,24 @@ TEST(EdgeFinish, AHemIsTwoMoreLayersOnTheGrainAndATapeTwoAlongTheWarp) {
   EXPECT_NEAR(warp.bend_N_m2, 2 * hem_m * cotton.bend_u_N_m * (1 - cotton.bend_poisson * cotton.bend_poisson), 1e-12);
 }
 
-TEST(EdgeFinish, ALineBendsAlongItselfOnly) {
-  const Fabric cotton;
-  const Mat3 C = bending_rigidity(cotton);
-  const Vec2 along(0.6, 0.8), across(-0.8, 0.6);
-  constexpr double bend = 1e-6, side = 0.01, area = 5e-5;
-  const Mat3 added = with_line(C, along, bend, side, area) - C;
-  const auto energy = [&](const Vec2& d) {  // of unit curvature along d
-    const Vec3 S(d.x() * d.x(), d.y() * d.y(), 2 * d.x() * d.y());
-    return 0.5 * area * S.dot(added * S);
-  };
-  EXPECT_NEAR(energy(along), 0.5 * bend * side, 1e-15);
-  EXPECT_NEAR(energy(across), 0, 1e-18);
+TEST(EdgeFinish, AnAllowanceIsOneMoreLayerAndStitchedDownABundle) {
+  Fabric denim = fabric_preset("denim", "", "");
+  const Vec2 bias(1, 1);
+  const LineStiffness hem = line_stiffness(denim, bias, {hem_m, 0}),
+                      loose = line_stiffness(denim, bias, {0, 0, 2 * hem_m, false}),
+                      stitched = line_stiffness(denim, bias, {0, 0, 2 * hem_m, true});
+  EXPECT_NEAR(loose.mass_kg_per_m, hem.mass_kg_per_m, 1e-15) << "two layers of half the width";
+  EXPECT_NEAR(loose.stretch_N, hem.stretch_N, 1e-9);
+  EXPECT_NEAR(loose.bend_N_m2, hem.bend_N_m2, 1e-15);
+  EXPECT_EQ(stitched.mass_kg_per_m, loose.mass_kg_per_m);
+  EXPECT_EQ(stitched.stretch_N, loose.stretch_N);
+  const double V = denim.compression_ratio / (1 + denim.compression_ratio), t = denim.density_kg_per_m2 / 500;
+  EXPECT_NEAR(stitched.bend_N_m2 - loose.bend_N_m2, V * t * t * stitched.stretch_N, 1e-12);
+  // Where nothing buckles it is the sandwich of interfacing.
+  denim.compression_ratio = 1;
+  denim.bend_friction_N = 0;
+  const Fabric both = fused(denim, denim, t);
+  EXPECT_NEAR(2 * denim.bend_u_N_m + layer_coupling_N_m(denim, {1, 0}), both.bend_u_N_m, 1e-12);
 }
 
 struct Finished {
@@ -166,6 +173,95 @@ TEST(EdgeThreads, TakePartInTheForcesAndMatrixOfACloth) {
     threads.assemble(0.01, B);
     B.update_diagonal();
     EXPECT_EQ(A.to_dense(), B.to_dense());
+  }
+}
+
+// z = S_uu u^2/2 + S_vv v^2/2 + S_uv u v, finished along u: E = EI S_uu^2/2 per length from the middle of the first edge to that of the last.
+TEST(LineMoments, OfConstantCurvatureAreExactAndOfThatAlongTheLineOnly) {
+  test::Sheet sheet = test::equilateral_sheet(0.12, 0.12, 0.02);
+  test::Random random(7);
+  for (std::size_t t = 0; t < sheet.mesh.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {  // skew triangles; sides stay where they are
+      Vec2& uv = sheet.mesh.uv[t][k];
+      const double bump = uv.x() * (0.12 - uv.x()) * uv.y() * (0.12 - uv.y());
+      uv += bump * Vec2(90, 40);
+      sheet.x[at(sheet.mesh.triangles[t][k])] = Vec3(uv.x(), 0, -uv.y());
+    }
+  }
+  const ClothMesh plain = sheet.mesh;
+  test::finish_sides(sheet, 0.12, {0, 0, hem_m, tape_m}, false);
+  const Fabric fabric = test::elastic_cotton();
+  const double EI = line_stiffness(fabric, {1, 0}, {hem_m, tape_m}).bend_N_m2;
+  for (const BendElement element : {BendElement::plate, BendElement::hinge}) {
+    ModelOptions options;
+    options.bend_element = element;
+    const ClothModel with = build_model(sheet.mesh, {&fabric, 1}, options),
+                     without = build_model(plain, {&fabric, 1}, options);
+    ASSERT_EQ(with.line_bends.size(), 5U);
+    const Eigen::MatrixXd K = test::bending_stiffness(with, sheet.x) - test::bending_stiffness(without, sheet.x);
+    for (const Vec3& S : {Vec3(3, 0, 0), Vec3(0, 2, 0), Vec3(0, 0, 4), Vec3(1, -2, 3)}) {
+      Eigen::VectorXd z(static_cast<Eigen::Index>(sheet.x.size()));
+      for (std::size_t i = 0; i < sheet.x.size(); ++i) {
+        const double u = sheet.x[i].x(), v = -sheet.x[i].z();
+        z[static_cast<Eigen::Index>(i)] = 0.5 * S[0] * u * u + 0.5 * S[1] * v * v + S[2] * u * v;
+      }
+      const double expected = 0.5 * EI * S[0] * S[0] * 0.1;
+      EXPECT_NEAR(0.5 * z.dot(K * z), expected, 1e-9 * EI) << S.transpose();
+    }
+  }
+}
+
+TEST(LineMoments, TurnAtACornerAndGoOnAcrossASeam) {
+  const auto joints = [](bool all_sides, bool two_panels) {
+    test::Sheet sheet = test::equilateral_sheet(0.1, 0.1, 0.02);
+    if (two_panels) {
+      test::add_panel(sheet, "second", [](const Vec2& p) { return p.x() > 0.05; });
+      for (std::size_t t = 0; t < sheet.mesh.triangles.size(); ++t)  // drawn elsewhere, and turned
+        if (sheet.mesh.panel[t] == 1)
+          for (Vec2& uv : sheet.mesh.uv[t]) uv = Vec2(3 - uv.y(), 1 + uv.x());
+    }
+    test::finish_sides(sheet, 0.1, {0, 0, hem_m, 0}, false);
+    if (all_sides)
+      for (const Triangle& t : sheet.mesh.triangles)
+        for (std::size_t k = 0; k < 3; ++k)
+          if (sheet.x[at(t[k])].x() > 0.1 - 1e-9 && sheet.x[at(t[(k + 1) % 3])].x() > 0.1 - 1e-9)
+            sheet.mesh.finished.push_back({t[k], t[(k + 1) % 3], hem_m, 0});
+    const Fabric fabric;
+    return build_model(sheet.mesh, {&fabric, 1}).line_bends.size();
+  };
+  const std::size_t rows = 6;  // of the right-hand side's edges
+  EXPECT_EQ(joints(false, false), 4U);
+  EXPECT_EQ(joints(true, false), 4U + rows - 1);
+  EXPECT_EQ(joints(false, true), 4U);
+}
+
+TEST(LineMoments, ForcesAreMinusTheGradientOfTheEnergy) {
+  for (const BendElement element : {BendElement::plate, BendElement::hinge}) {
+    Finished cloth = crumpled_and_finished(0.004, element);
+    Elements elements(cloth.model);
+    const Vec3s rest(cloth.state.x.size(), Vec3::Zero());
+    const auto energy = [&](const Eigen::VectorXd& x) {
+      elements.evaluate(cloth.model, {unflat(x), rest});
+      return elements.energy_J();
+    };
+    test::Random random(12);
+    Eigen::VectorXd direction = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * rest.size()));
+    for (Eigen::Index i = 0; i < direction.size(); ++i) direction[i] = random(-1, 1);
+    const Eigen::VectorXd x = flat(cloth.state.x);
+    constexpr double step = 1e-7;
+    const double slope = (energy(x + step * direction) - energy(x - step * direction)) / (2 * step);
+    energy(x);
+    Vec3s f(rest.size());
+    elements.forces(f);
+    EXPECT_NEAR(slope, -flat(f).dot(direction), 1e-5 * flat(f).norm());
+    // A step's matrix is as stiff for them, and follows a panel's share of stiffness.
+    std::vector<double> before;
+    for (const BendRest& bend : cloth.model.bend) before.push_back(bend.plate_N_m);
+    set_panel_stiffness(cloth.model, 0, {1, 1, 3});
+    for (std::size_t h = 0; h < before.size(); ++h)
+      EXPECT_NEAR(cloth.model.bend[h].plate_N_m, 3 * before[h], 1e-9 * before[h] + 1e-18);
+    const double three = line_stiffness_N_m(cloth.model, cloth.model.line_bends.front());
+    EXPECT_NEAR(three, 3 * cloth.model.line_bends.front().stiffness_N_m, 1e-12 * three);
   }
 }
 

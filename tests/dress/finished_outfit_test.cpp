@@ -12,7 +12,7 @@ namespace {
 
 TEST(FinishedOutfit, EveryGarmentKeepsItsOwnAndIsSewnAsCut) {
   Pattern pattern = test::tube_pattern(0.2, 0.16, 0.1);
-  finish_open_edges(pattern, {0.02, 0});
+  finish_other_edges(pattern, {0.02, 0});
   const GarmentMesh garment = mesh_garment(pattern, 0.04);
   ASSERT_GT(garment.mesh.finished.size(), 8U);
   const std::vector<Fabric> fabrics(pattern.panels.size());

@@ -53,13 +53,30 @@ TEST(PatternExtension, FinishesEdgesByTheirNumberInTheFile) {
   EXPECT_EQ(pattern.panels[0].edges[2].finish, (EdgeFinish{0.02, 0}));
   // What the file says nothing of: a hem on open edges, a tape on those with a label.
   pattern.panels[0].edges[3].label = pattern.panels[0].edges[0].label = pattern.panels[1].edges[3].label = "waist";
-  finish_open_edges(pattern, {0.015, 0.01});
+  finish_other_edges(pattern, {0.015, 0.01});
   EXPECT_EQ(pattern.panels[0].edges[0].finish, (EdgeFinish{0, 0})) << "the file says that it has none";
   EXPECT_EQ(pattern.panels[0].edges[1].finish, (EdgeFinish{0, 0})) << "sewn";
   EXPECT_EQ(pattern.panels[0].edges[2].finish, (EdgeFinish{0.02, 0}));
   EXPECT_EQ(pattern.panels[0].edges[3].finish, (EdgeFinish{0.015, 0.01}));
   EXPECT_EQ(pattern.panels[1].edges[3].finish, (EdgeFinish{0, 0})) << "sewn, with a label";
   EXPECT_EQ(pattern.panels[1].edges[0].finish, (EdgeFinish{0.015, 0}));
+}
+
+TEST(PatternExtension, GivesSewnEdgesAllowances) {
+  const std::string seams =
+      std::string("[").append(stitch("front", 1, "back", 3)) + ", " + stitch("front", 3, "back", 1) + "]";
+  Pattern pattern = parse(with(
+      R"({"panels": {"front": {"edges": [{"edge": 1, "allowance_mm": 12, "topstitched": true}]},
+                     "back": {"edges": [{"edge": 1, "tape_mm": 6}]}}})",
+      seams));
+  EXPECT_EQ(pattern.panels[0].edges[1].finish, (EdgeFinish{0, 0, 0.012, true}));
+  EXPECT_EQ(pattern.panels[1].edges[3].finish, EdgeFinish()) << "each side by itself";
+  finish_other_edges(pattern, {0.02, 0.01, 0.01, false});
+  EXPECT_EQ(pattern.panels[0].edges[1].finish, (EdgeFinish{0, 0, 0.012, true})) << "the file's";
+  EXPECT_EQ(pattern.panels[1].edges[1].finish, (EdgeFinish{0, 0.006})) << "the file's: a tape and no allowance";
+  EXPECT_EQ(pattern.panels[0].edges[3].finish, (EdgeFinish{0, 0, 0.01, false}));
+  EXPECT_EQ(pattern.panels[1].edges[3].finish, (EdgeFinish{0, 0, 0.01, false}));
+  EXPECT_EQ(pattern.panels[0].edges[0].finish, (EdgeFinish{0.02, 0})) << "open";
 }
 
 TEST(PatternExtension, AbsoluteFoldsMoveWithTheirPanel) {
@@ -95,6 +112,11 @@ TEST(PatternExtension, IsRefusedWhereItCannotBeMeant) {
   expect_error(edges(R"([{"edge": 4}])"), {"edges/0/edge", "0 to 3"});
   expect_error(edges(R"([{"edge": 0, "hem": 20}])"), {"edges/0", "hem_mm"});
   expect_error(edges(R"([{"edge": 0, "tape_mm": -1}])"), {"tape_mm", "0 to 200", "-1"});
+  expect_error(edges(R"([{"edge": 0, "allowance_mm": 201}])"), {"allowance_mm", "0 to 200", "201"});
+  expect_error(edges(R"([{"edge": 0, "allowance_mm": 12}])"),
+               {"/toile/panels/front/edges/0/allowance_mm", "none on an open edge", "12"});
+  expect_error(edges(R"([{"edge": 0, "topstitched": true}])"), {"edges/0/topstitched", "`allowance_mm`"});
+  expect_error(edges(R"([{"edge": 0, "topstitched": 1}])"), {"edges/0/topstitched"});
   expect_error(edges(R"([{"edge": 1}, {"edge": 1}])"), {"edges/1/edge", "each edge once"});
   expect_error(with(R"({"stitches": [{"stitch": 0, "angle_deg": 10}]})"), {"/toile/stitches/0/stitch"});
 }

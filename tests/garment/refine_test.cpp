@@ -27,7 +27,7 @@ GarmentMesh tube(double edge_m) {
   fold.line.end = 2;
   fold.angle_rad = 1;
   pattern.panels[0].folds.push_back(fold);
-  finish_open_edges(pattern, {0.02, 0.01});
+  finish_other_edges(pattern, {0.02, 0.01});
   pattern.panels.push_back(test::back_rectangle(0.4, 0.1, {0, -0.2, -0.05}));
   pattern.panels.back().name = "tier";
   pattern.stitches.push_back(test::stitch(1, 0, 2, 2));

@@ -59,6 +59,7 @@ void ClothPart::set_shape(Object& cloth) const {
       cloth.set("resolution_cm", fine ? "9" : "13");
     }
     cloth.set("hem_mm", fine ? "20" : "0").set("tape_mm", fine ? "0" : "12");
+    if (!fine) cloth.set("allowance_mm", "10").set("topstitched", "true");
   } else if (is("cloth", "tube")) {
     cloth.set("tube",
               Object().set("radius_m", "0.35").set("length_m", "0.3").set("edge_m", fine ? "0.1" : "0.14").text());

@@ -54,6 +54,29 @@ TEST(Cloths, EveryKindIsChosenByItsKeyAndByNoOther) {
   EXPECT_EQ(keys_of_kinds<ClothKind>().size(), keys.size());
 }
 
+TEST(Cloths, SeamAllowancesAreOfPatternsAndTopstitchedOnlyWithAWidth) {
+  const auto cloth = [](const std::string& keys) {
+    return parse_scene(R"({"cloth": [{)" + keys + R"(}], "body": {"mannequin": "woman"}})", "s.json").cloth.front();
+  };
+  const auto complaint = [&](const std::string& keys) {
+    try {
+      cloth(keys);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("(no error)");
+  };
+  const SceneCloth sewn = cloth(R"("pattern": "p.json", "allowance_mm": 12, "topstitched": true)");
+  EXPECT_EQ(sewn.as<ScenePattern>()->finish, (EdgeFinish{0, 0.01, 0.012, true}));
+  EXPECT_EQ(cloth(R"("pattern": "p.json")").as<ScenePattern>()->finish, (EdgeFinish{0, 0.01, 0, false}));
+  EXPECT_NE(complaint(R"("pattern": "p.json", "allowance_mm": 201)").find("allowance_mm"), std::string::npos);
+  EXPECT_NE(complaint(R"("pattern": "p.json", "topstitched": 1)").find("topstitched"), std::string::npos);
+  EXPECT_NE(complaint(R"("grid": {"width_m": 1}, "allowance_mm": 12)").find("a pattern beside it"), std::string::npos);
+  std::string path;
+  EXPECT_NE(refusal(cloth(R"("pattern": "p.json", "topstitched": true)"), path).find("allowance above zero"),
+            std::string::npos);
+}
+
 TEST(Cloths, AnyKindTakesAnEdgeLength) {
   for (auto [key, cloth] : one_of_each()) {
     cloth.set_edge_m(0.0375);

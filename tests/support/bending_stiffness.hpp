@@ -1,6 +1,7 @@
 // tests/support/bending_stiffness.hpp: the stiffness of a flat cloth out of its plane, as a dense matrix: K = G^T H G with G = dtheta/dy,
-// and H = dm/dtheta: kappa of hinges by themselves, the inverse of the compliances of plates.  Cloth is in the plane y = 0.
+// and H = dm/dtheta: kappa of hinges by themselves, the inverse of the compliances of plates, and finished edges.  Cloth is in the plane y = 0.
 #pragma once
+#include "assembly/line_moments.hpp"
 #include "assembly/plate_moments.hpp"
 
 #include <Eigen/LU>
@@ -41,6 +42,11 @@ inline Eigen::MatrixXd bending_stiffness(const ClothModel& model, const Vec3s& f
   for (Eigen::Index h = 0; h < kappa.size(); ++h) kappa[h] = model.bend[static_cast<std::size_t>(h)].kappa_N_m;
   Eigen::MatrixXd K = G.transpose() * kappa.asDiagonal() * G;
   if (!model.plate_compliance.empty()) K += G.transpose() * compliance_of_hinges(model).lu().solve(G);
+  for (const LineBend& bend : model.line_bends) {
+    Eigen::VectorXd kink = Eigen::VectorXd::Zero(model.particle_count());
+    for (const LineBend::Part& part : bend.hinges) kink += part.share * G.row(part.hinge).transpose();
+    K += line_stiffness_N_m(model, bend) * kink * kink.transpose();
+  }
   return K;
 }
 

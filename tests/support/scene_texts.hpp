@@ -75,7 +75,7 @@ inline constexpr std::array<std::string_view, 11> scenes_with_every_setting = {
   "body": {"mannequin": "man", "motion": {"name": "walk", "lead_in_s": 0.5}}
 })",
     R"({
-  "cloth": [{"pattern": "p.json", "vertices": 500, "hem_mm": 20, "tape_mm": 8}],
+  "cloth": [{"pattern": "p.json", "vertices": 500, "hem_mm": 20, "tape_mm": 8, "allowance_mm": 12, "topstitched": true}],
   "body": {"mesh": "body.obj", "unit": "cm", "up": "y", "measurements": "body.yaml", "motion": {"file": "motion.pc2", "fps": 24, "lead_in_s": 2}}
 })",
     R"({
