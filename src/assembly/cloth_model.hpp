@@ -81,8 +81,8 @@ struct ClothModel {
   Vec3 gravity_m_per_s2{0, -9.81, 0};
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   double drag_per_s = 0;
-  double gathered = 1;  // share of mesh.gathered_uv
-  double finished = 1;  // share of the stiffness of `threads`
+  double gathered = 1;   // share of mesh.gathered_uv
+  double finished = 1;   // share of the stiffness of `threads`
   double stiffened = 1;  // share of what makes threads stiffen (MembraneStiffness::stiffened)
   // As built, once set_panel_stiffness has changed them: [panel], [hinge], [triangle].
   std::vector<MembraneStiffness> built_stiffness;

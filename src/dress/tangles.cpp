@@ -54,8 +54,8 @@ void Tangles::find(const Vec3s& x) {
 }
 
 void Tangles::push(const IntersectionContour& contour, std::span<const SurfaceCrossing> crossings, const Vec3s& x) {
-  const auto way = gently_ ? ContourPush::Way::gently
-                           : static_cast<ContourPush::Way>(waited_ / patience % ways_while_worn);
+  const auto way =
+      gently_ ? ContourPush::Way::gently : static_cast<ContourPush::Way>(waited_ / patience % ways_while_worn);
   (*push_)(contour, crossings, x, way, edge_m_, largest_part, unguarded_,
            [&](const ContourPull& point, const Vec3& move_m) {
              const double length_m = move_m.norm();

@@ -31,7 +31,6 @@ struct BendRest {
 
 inline double least_normal2(double area_m2) { return 4 * smallest_height * smallest_height * area_m2 * area_m2; }
 
-
 struct BendResponse {
   double theta = 0, theta_dot = 0, energy_J = 0;
   std::array<Vec3, 4> g;    // dtheta/dx_i, 1/m

@@ -24,9 +24,8 @@ struct Slotted {
     for (const IntersectionContour& contour : contours) {
       longest.push_back(0);
       std::vector<char> marked(start.x.size(), 0);
-      push(contour, crossings, start.x, way, edge_m, 1, marked, [&](const ContourPull&, const Vec3& move_m) {
-        longest.back() = std::max(longest.back(), move_m.norm());
-      });
+      push(contour, crossings, start.x, way, edge_m, 1, marked,
+           [&](const ContourPull&, const Vec3& move_m) { longest.back() = std::max(longest.back(), move_m.norm()); });
     }
     return longest;
   }
