@@ -40,7 +40,7 @@ BendRest hinge_rest(const ClothModel& model, std::span<const Fabric> fabrics, co
   BendRest rest;
   if (!plates) rest.kappa_N_m = paper_scaling ? rigidity : rigidity * bend_weight(length, area[0], area[1]);
   rest.tau_s = tau;
-  if (!paper_scaling) rest.least_normal2 = {least_normal2(area[0]), least_normal2(area[1])};
+  if (!paper_scaling) rest.least_normal2 = least_normal2(area[0], area[1]);
   return rest;
 }
 

@@ -57,11 +57,9 @@ std::array<Vec3, 4> gradient(const HingeFrame& f, const std::array<Vec3, 4>& x) 
 }
 
 // f of a hinge with a crushed triangle, else 1.
-double share_of_gradient(const HingeFrame& f, const std::array<double, 2>& least_normal2) {
-  double share = 1;
-  if (f.N_A2 < least_normal2[0]) share = f.N_A2 / least_normal2[0];
-  if (f.N_B2 < least_normal2[1]) share = std::min(share, f.N_B2 / least_normal2[1]);
-  return share;
+double share_of_gradient(const HingeFrame& f, double least_normal2) {
+  const double flatter = std::min(f.N_A2, f.N_B2);
+  return flatter < least_normal2 ? flatter / least_normal2 : 1;
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 // K = kappa g g^T and D = tau kappa g g^T with g = dtheta/dx: rank one, semidefinite by construction.
 // The part (theta - theta_0) d2theta is left out, because it is indefinite at every fold.     docs/theory/bend.md
 //
-// g grows as one over the height of a triangle that is crushed in its plane, and with it the force and the matrix, without end.  From a height of
-// smallest_height of the rest shape's on, g is scaled down by f = (N / (smallest_height N_0))^2, N being the flattest triangle's normal:
+// g grows as one over the height of a triangle that is crushed in its plane, and with it the force and the matrix, without end.  From an area of
+// smallest_height of the smaller triangle's at rest on, g is scaled down by f = (N / (smallest_height N_0))^2, N being the flatter one's normal:
 // |g| then falls to zero with the height.  One f for both triangles keeps the angular momentum; g g^T stays semidefinite.
 //
 // theta jumps from pi to -pi where the two triangles pass through each other.  theta - theta_0 is never wrapped:
@@ -25,11 +25,13 @@ struct BendRest {
   double plate_N_m = 0;
   double tau_s = 0;    // relaxation time k_d / k
   double theta_0 = 0;  // rest angle, rad
-  // (smallest_height N_0)^2 of the triangles beside particles 2 and 3, m^4, N_0 being twice the area at rest; 0: g is never scaled down.
-  std::array<double, 2> least_normal2{0, 0};
+  double least_normal2 = 0;  // (smallest_height N_0)^2, m^4, N_0 being twice the smaller triangle's area at rest; 0: g is never scaled down
 };
 
-inline double least_normal2(double area_m2) { return 4 * smallest_height * smallest_height * area_m2 * area_m2; }
+inline double least_normal2(double area_a_m2, double area_b_m2) {
+  const double least = 2 * smallest_height * (area_a_m2 < area_b_m2 ? area_a_m2 : area_b_m2);
+  return least * least;
+}
 
 struct BendResponse {
   double theta = 0, theta_dot = 0, energy_J = 0;
