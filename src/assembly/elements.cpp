@@ -135,7 +135,7 @@ void Elements::evaluate(const ClothModel& model, const ClothState& state) {
   // A relaxation time tau: angle and rate have one moment, that of C + tau dC/dt.
   parallel_for(hinges_.size(), element_grain, [&](std::size_t h) {
     turned_[h] =
-        bend_[h].degenerate ? 0 : bend_[h].theta - bend_rest_[h].theta_0 + bend_rest_[h].tau_s * bend_[h].theta_dot;
+        bend_[h].degenerate() ? 0 : bend_[h].theta - bend_rest_[h].theta_0 + bend_rest_[h].tau_s * bend_[h].theta_dot;
   });
   if (memory_) memory_->subtract_rest(turned_);
   find_moments(plate_moment_);
@@ -156,7 +156,7 @@ void Elements::follow_bends(const ClothModel& model, std::span<const Vec3> x, do
     std::array<Vec3, 4> corners;
     for (std::size_t c = 0; c < 4; ++c) corners[c] = x[at(hinges_[h].particle[c])];
     const BendResponse still = bend_response({}, corners, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
-    turned_[h] = still.degenerate ? 0 : still.theta - bend_rest_[h].theta_0;
+    turned_[h] = still.degenerate() ? 0 : still.theta - bend_rest_[h].theta_0;
   });
   memory_->subtract_rest(turned_);
   plates_->solve(turned_, plate_moment_);
@@ -167,20 +167,20 @@ double Elements::energy_J() {
   double energy = threads_ ? threads_->energy_J() : 0;
   if (!turned_.empty()) {
     for (std::size_t h = 0; h < hinges_.size(); ++h)
-      turned_[h] = bend_[h].degenerate ? 0 : bend_[h].theta - bend_rest_[h].theta_0;
+      turned_[h] = bend_[h].degenerate() ? 0 : bend_[h].theta - bend_rest_[h].theta_0;
     if (memory_) memory_->subtract_rest(turned_);
     std::vector<double> moment(hinges_.size());
     find_moments(moment);
     for (std::size_t h = 0; h < hinges_.size(); ++h) energy += 0.5 * moment[h] * turned_[h];
   }
   for (std::size_t t = 0; t < triangles_.size(); ++t) energy += state_[t / batch_size].energy_J[t % batch_size];
-  for (const BendResponse& response : bend_) energy += response.energy_J;
+  for (std::size_t h = 0; h < bend_.size(); ++h) energy += bend_[h].energy_J(bend_rest_[h]);
   return energy;
 }
 
 int Elements::degenerate_hinges() const {
   return static_cast<int>(
-      std::count_if(bend_.begin(), bend_.end(), [](const BendResponse& r) { return r.degenerate; }));
+      std::count_if(bend_.begin(), bend_.end(), [](const BendResponse& r) { return r.degenerate(); }));
 }
 
 void Elements::gather(std::span<Vec3> f, double sign) const {

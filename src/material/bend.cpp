@@ -69,7 +69,6 @@ BendResponse bend_response(const BendRest& rest, const std::array<Vec3, 4>& x, c
   const HingeFrame frame = hinge_frame(x);
   if (frame.degenerate) {
     r.g.fill(Vec3::Zero());
-    r.degenerate = true;
     return r;
   }
   r.theta = angle(frame);
@@ -79,7 +78,6 @@ BendResponse bend_response(const BendRest& rest, const std::array<Vec3, 4>& x, c
   // The gradient's rows sum to zero: velocities relative to x0, so that a fast common motion costs no digits.
   r.theta_dot = r.g[1].dot(v[1] - v[0]) + r.g[2].dot(v[2] - v[0]) + r.g[3].dot(v[3] - v[0]);
   const double C = r.theta - rest.theta_0;  // never wrapped by 2 pi: a fold that passes pi has passed through itself
-  r.energy_J = 0.5 * rest.kappa_N_m * C * C;
   r.moment = rest.kappa_N_m * C;
   r.damping = rest.tau_s * rest.kappa_N_m * r.theta_dot;
   return r;

@@ -25,7 +25,8 @@ struct BendRest {
   double plate_N_m = 0;
   double tau_s = 0;    // relaxation time k_d / k
   double theta_0 = 0;  // rest angle, rad
-  double least_normal2 = 0;  // (smallest_height N_0)^2, m^4, N_0 being twice the smaller triangle's area at rest; 0: g is never scaled down
+  double least_normal2 =
+      0;  // (smallest_height N_0)^2, m^4, N_0 being twice the smaller triangle's area at rest; 0: g is never scaled down
 };
 
 inline double least_normal2(double area_a_m2, double area_b_m2) {
@@ -33,12 +34,14 @@ inline double least_normal2(double area_a_m2, double area_b_m2) {
   return least * least;
 }
 
-struct BendResponse {
-  double theta = 0, theta_dot = 0, energy_J = 0;
-  std::array<Vec3, 4> g;    // dtheta/dx_i, 1/m
-  double moment = 0;        // kappa (theta - theta_0): elastic force on i is -moment g_i
-  double damping = 0;       // tau kappa theta_dot:     damping force on i is -damping g_i
-  bool degenerate = false;  // a triangle too thin for an angle: g, moment, damping are zero
+struct BendResponse {  // one per hinge of a cloth: what follows from the rest is not stored
+  double theta = 0, theta_dot = 0;
+  std::array<Vec3, 4> g;  // dtheta/dx_i, 1/m
+  double moment = 0;      // kappa (theta - theta_0): elastic force on i is -moment g_i
+  double damping = 0;     // tau kappa theta_dot:     damping force on i is -damping g_i
+  // A triangle too thin for an angle: g, moment, damping are zero.
+  bool degenerate() const { return g[2].isZero(0) || g[3].isZero(0); }
+  double energy_J(const BendRest& rest) const { return 0.5 * moment * (theta - rest.theta_0); }
 };
 
 // x in m, v in m/s.  A hinge is degenerate when one of its four angles at the edge has a sine below 1e-4.
