@@ -5,6 +5,7 @@
 #include "step/drag.hpp"
 #include "step/implicit_euler.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -28,6 +29,9 @@ struct PanelInTime {
   std::vector<StiffnessKey> stiffness_path;
   double pressure_Pa = 0;
   std::vector<PressureKey> pressure_path;  // replaces the constant
+  bool empty() const {
+    return rest_stretch_path.empty() && stiffness_path.empty() && pressure_Pa == 0 && pressure_path.empty();
+  }
 };
 struct TimedPanel {
   Index panel = 0;
@@ -43,6 +47,11 @@ struct Events {
   std::vector<TimedPanel> panels;
   std::vector<TimedFriction> friction;
   std::vector<VectorKey> gravity, wind;  // m/s^2, m/s; empty: constant
+  // Nothing but gravity, air and the body acts on the cloth.
+  bool empty() const {
+    return pins.empty() && drags.empty() && friction.empty() && gravity.empty() && wind.empty() &&
+           std::all_of(panels.begin(), panels.end(), [](const TimedPanel& panel) { return panel.own.empty(); });
+  }
 };
 
 }  // namespace toile::internal

@@ -19,7 +19,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the file is little-endian, and so must the machine be");
 
 constexpr std::string_view magic = "TOILESTATE";
-constexpr std::uint32_t format = 7;  // changes with the order and the members that the classes remember
+constexpr std::uint32_t format = 8;  // changes with the order and the members that the classes remember
 constexpr std::size_t head_bytes = magic.size() + sizeof format + 2 * sizeof(std::uint64_t);
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }

@@ -3,7 +3,7 @@
 //   simulation.cpp           construction, ends, saving and resuming
 //   simulation_phases.cpp    its phases as data, and the loop over the frames of all but sewing
 //   simulation_placing.cpp   placing the panels around a body
-//   simulation_put_on.cpp    sewing, growth, the drape of inner garments
+//   simulation_put_on.cpp    sewing, growth, the first drape of a garment that is cut finer or that another one goes over
 //   simulation_start.cpp     crossings before the first frame
 //   simulation_live.cpp      the written frames: the drape, then the motion
 //
@@ -34,7 +34,7 @@
 
 namespace toile::internal {
 
-enum class RunPhase : std::uint8_t { sewing, growth, inner_drape, drape, motion };
+enum class RunPhase : std::uint8_t { sewing, growth, first_drape, drape, motion };
 
 struct RunPlace {
   RunPhase phase = RunPhase::sewing;
@@ -156,7 +156,7 @@ class Simulation {
   void remember(Archive& archive) {
     if constexpr (!Archive::reads) report_.seconds_total = seconds();
     archive(place_, frames_shown_, report_, failure_, qualifications_, pose_, on_shoulders_, open_pairs_,
-            stopped_short_, pinned_, seconds_before_motion_, touches_, rest_);
+            stopped_short_, fallen_, pinned_, seconds_before_motion_, touches_, rest_);
   }
   // Until restore() has been called.
   bool resumes() const { return taken_up_ != nullptr; }
@@ -171,7 +171,7 @@ class Simulation {
   OutfitRun& outfit_run();
   Pace pace() const;
   PhasePlan growth_plan();
-  PhasePlan inner_drape_plan(std::size_t cloth);
+  PhasePlan first_drape_plan(std::size_t cloth);
   PhasePlan drape_plan();
   PhasePlan motion_plan();
   Phase drape_phase() const;
@@ -205,7 +205,8 @@ class Simulation {
   FrameReport sew_frames(Dressing& dressing, bool filmed);
   void leave_open(std::size_t cloth, Dressing& dressing);
   bool grow(std::size_t cloth);
-  bool drape_inner(std::size_t cloth);
+  bool falls_coarse(std::size_t cloth);
+  bool drape_first(std::size_t cloth);
 
   // simulation_live.cpp
   Events events();
@@ -251,6 +252,7 @@ class Simulation {
       open_pairs_;                     // [garment that is on] pairs its weld left open: indices of GarmentMesh::pairs
   std::vector<Belonging> belongings_;  // [garment]
   bool stopped_short_ = false;
+  bool fallen_ = false;  // the last garment has, before it was cut finer
   // [garment] its pinned particles, once all garments are on.
   std::vector<std::vector<PinnedParticle>> pinned_;
 

@@ -11,7 +11,11 @@ namespace toile::internal {
 namespace {
 
 constexpr double rest_s = 0.5;  // after a garment has settled, before it may count as still
-constexpr RestLimits rests_below_others{5, std::numeric_limits<double>::infinity()};  // of an inner garment
+constexpr double any_speed = std::numeric_limits<double>::infinity();
+constexpr RestLimits rests_below_others{5, any_speed};  // of an inner garment
+// Of cloth that is then cut finer: with 20 mm instead of 5 a garment comes to rest as soon or sooner (bench/notes.md).
+constexpr RestLimits has_fallen{20, any_speed};
+constexpr double longest_fall_s = 3;
 
 PhasePlan plan_of(RunPhase which, const Phase& cloth, std::string_view doing) {
   PhasePlan plan;
@@ -35,7 +39,7 @@ Pace Simulation::pace() const {
 }
 
 Phase Simulation::drape_phase() const {
-  if (!new_garment_) return as_drawn(pace(), sewn() ? Pace{} : pace());
+  if (!new_garment_ || fallen_) return as_drawn(pace(), sewn() ? Pace{} : pace());
   return after_weld(new_garment_->worn_before == 0, pace());
 }
 
@@ -47,12 +51,14 @@ PhasePlan Simulation::growth_plan() {
   return plan;
 }
 
-// An inner garment comes to rest before the next is put on.
-PhasePlan Simulation::inner_drape_plan(std::size_t cloth) {
-  PhasePlan plan = plan_of(RunPhase::inner_drape, drape_phase(), "draping");
+// An inner garment comes to rest before the next is put on; the last one has fallen before it is cut finer.
+PhasePlan Simulation::first_drape_plan(std::size_t cloth) {
+  const bool is_inner = cloth + 1 < cloth_.size();
+  PhasePlan plan = plan_of(RunPhase::first_drape, drape_phase(), "draping");
   plan.meanwhile = "while " + printable(cloth_[cloth].garment.name) + " was draped";
-  plan.frames = frames_in(scene_.drape_seconds) - 1;
-  plan.awaits = rests_below_others;
+  plan.frames = is_inner ? frames_in(scene_.drape_seconds) - 1
+                         : std::min<std::int64_t>(frames_in(longest_fall_s), drape_plan().frames);
+  plan.awaits = is_inner ? rests_below_others : has_fallen;
   plan.rest_from_s = settling_s + rest_s;
   return plan;
 }
@@ -138,8 +144,8 @@ bool Simulation::frame(const PhasePlan& plan) {
   if (plan.shown) {
     ++frames_shown_;
     observer_->frame(outfit_.state.x, body_x_);
-    if (fall_watch_) note_touches(outfit_.parts, *run_, touches_);
   }
+  if (fall_watch_ || !plan.shown) note_touches(outfit_.parts, *run_, touches_);
   between_frames(*run_);
   return !plan.shown || goes_on();
 }

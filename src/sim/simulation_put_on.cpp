@@ -34,7 +34,7 @@ bool Simulation::put_on() {
     if (k == 0 && !is_on && !stopped_short_ && !grow(k)) return false;
     stopped_short_ = stopped_short_ || (k < open_pairs_.size() && !open_pairs_[k].empty());
     const bool is_inner = k + 1 < cloth_.size();
-    if (!stopped_short_ && is_inner && !drape_inner(k) && !stopped_short_) return false;
+    if (!stopped_short_ && (is_inner || falls_coarse(k)) && !drape_first(k) && !stopped_short_) return false;
     cut_finer(k);
     if (stopped_short_) return true;
   }
@@ -206,12 +206,22 @@ bool Simulation::grow(std::size_t k) {
   return true;
 }
 
+// The last garment falls with the edges that it was sewn with where only the end is asked for and time does not matter: the folds of finer
+// cloth settle from there.
+bool Simulation::falls_coarse(std::size_t k) {
+  return is_cut_finer(cloth_[k]) && awaits_rest() && drape_plan().frames > 0 &&
+         events_of(scene_, outfit_, cloth_).empty() &&
+         std::all_of(scene_.cloth.begin(), scene_.cloth.end(),
+                     [](const SceneCloth& cloth) { return cloth.pins.empty(); });
+}
+
 // Its frames are not written, either.
-bool Simulation::drape_inner(std::size_t k) {
-  const PhasePlan plan = inner_drape_plan(k);
+bool Simulation::drape_first(std::size_t k) {
+  const PhasePlan plan = first_drape_plan(k);
   enter(plan, k);
   if (!go_through(plan)) return false;
   outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
+  fallen_ = k + 1 == cloth_.size();
   return true;
 }
 

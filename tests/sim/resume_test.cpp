@@ -198,6 +198,17 @@ TEST(Resume, OfAPersonThatGrowsIntoWhatIsCutFiner) {
           {45});
 }
 
+// The same until rest: it falls before it is cut finer, and is left in that fall and after it.
+TEST(Resume, OfAGarmentThatFallsBeforeItIsCutFiner) {
+  const Scratch scratch;
+  scratch.put("ring.json", test::tube_pattern_text(20, 6, 7, 6));
+  const Scene scene = parse_scene(
+      R"({"cloth": [{"pattern": "ring.json", "resolution_cm": 1}], "body": {"sphere": {"radius_m": 0.1}}, "time": {"seconds": 0.6}})",
+      scratch / "s.json");
+  ASSERT_TRUE(scene.until_still);
+  compare(scene, {29, 41});
+}
+
 // A strip between the sides of both seams of a tube blocks them, and is taken apart from them.  Left open they cross nothing: a run that took
 // them for blocked would go on from there.
 TEST(Resume, OfASeamThatIsStoppedWhileItIsTakenApart) {

@@ -257,6 +257,46 @@ TEST(Run, SewsATubeAndKeepsVtPerPanelAtTheSeams) {
   EXPECT_LT(std::abs(report.audit.stretch.p50), 0.02);
 }
 
+// A ring that falls along a post to the floor.
+struct Fall {
+  Report report;
+  double way_m = 0;  // from the first written frame to the last, downwards
+};
+Fall ring_around_a_post(const Scratch& scratch, const std::string& more) {
+  scratch.put("ring.json", test::tube_pattern_text(24, 6, 9, 8));
+  const std::string scene =
+      R"({"cloth": [{"pattern": "ring.json", "resolution_cm": 1)" + more +
+      R"(}], "body": {"cylinder": {"radius_m": 0.055, "height_m": 0.3, "top_m": [0, 0.3, 0]}},
+      "solids": [{"box": {"size_m": [0.4, 0.1, 0.4]}, "placement": {"translation_m": [0, -0.05, 0]}}],
+      "time": {"seconds": 6, "until_still": true}})";
+  Fall fall{run(scratch, parse_scene(scene, scratch / "s.json"))};
+  Pc2Reader film(scratch / "out/cloth.pc2");
+  const auto height = [&](int frame) {
+    std::vector<Vec3> x;
+    film.read(frame, x);
+    double sum = 0;
+    for (const Vec3& p : x) sum += p.y();
+    return sum / static_cast<double>(x.size());
+  };
+  fall.way_m = height(0) - height(film.samples() - 1);
+  return fall;
+}
+
+// Where only the end is asked for, what falls is the coarse cloth; where something holds it until 0.1 s, the fine cloth does.
+TEST(Run, AGarmentFallsBeforeItIsCutFiner) {
+  const Scratch scratch;
+  const Fall coarse = ring_around_a_post(scratch, ""),
+             fine = ring_around_a_post(scratch, R"(, "pins": [{"near_m": [0, 0.14, 0.06], "to_s": 0.1}])");
+  EXPECT_EQ(coarse.report.ended, "still");
+  EXPECT_EQ(fine.report.ended, "still");
+  EXPECT_EQ(coarse.report.vertices, fine.report.vertices) << "cut to the same edges";
+  EXPECT_GT(fine.way_m, 0.02);
+  EXPECT_LT(std::abs(coarse.way_m), 0.005);
+  EXPECT_LT(coarse.report.frames, fine.report.frames);
+  EXPECT_EQ(coarse.report.audit.cloth_body_edges.max, 0);
+  EXPECT_EQ(coarse.report.audit.cloth_cloth_edges.max, 0);
+}
+
 // Every seam of the T-shirt ends in a corner of four panels, at the underarm or at the shoulder.
 TEST(Run, TheTShirtIsSewnWithoutACrossingWhereFourPanelsMeet) {
   for (const char* resolution_cm : {"3", "2.4"}) {
