@@ -1,6 +1,7 @@
 #include "rig/retarget.hpp"
 
 #include "core/error.hpp"
+#include "rig/ankle_turns.hpp"
 #include "rig/feet.hpp"
 #include "rig/mend_jumps.hpp"
 #include "rig/smoothing.hpp"
@@ -91,6 +92,14 @@ class Standing {
       if (foot >= 0) length += 0.5 * (place(foot) - place(shank)).norm();
     }
     return length;
+  }
+
+  // Whether its foot at rest lies across the shank, as under one who stands: else a turn from rest is none of the ankle.
+  bool stands_on_foot(std::size_t side) const {
+    constexpr double upright = 0.77;  // cosine of 40 degrees; a foot stands at 90
+    const Vec3 shank = along(BodyPart::shank, BodyPart::foot, side), foot = along(BodyPart::foot, BodyPart::toes, side);
+    const double lengths = std::sqrt(shank.squaredNorm() * foot.squaredNorm());
+    return lengths > 0 && std::abs(shank.dot(foot)) < upright * lengths;
   }
 
   // From a joint to the next of its limb; zero where there is none.
@@ -198,6 +207,7 @@ class Retargeting {
     }
     turn_to_front();
     straighten_spine();
+    for (std::size_t side = 0; side < 2; ++side) straighten_ankle(side);
     align_ = align;
     for (std::size_t side = 0; side < 2; ++side) record_foot(side);
   }
@@ -238,6 +248,32 @@ class Retargeting {
                      "spine's joints",
                      quoted_name(source_.figure(), nodes[most.joint]), most.degrees,
                      static_cast<double>(most.frame) / moves_.rate_hz));
+  }
+
+  // With all that hangs on the foot.
+  void straighten_ankle(std::size_t side) {
+    const Index shank = source_.bone(BodyPart::shank, side), foot = source_.bone(BodyPart::foot, side);
+    if (foot < 0 || !source_.stands_on_foot(side)) return;
+    std::vector<AnkleTurn> ankle;
+    for (const Posed& frame : frames_) ankle.push_back({frame.turn[at(shank)], frame.turn[at(foot)]});
+    const AnkleFault most = hold_ankle(ankle, moves_.rate_hz);
+    if (most.degrees == 0) return;
+    const Figure& figure = source_.figure();
+    std::vector<char> of_foot(figure.nodes.size(), 0);
+    for (const Index node : figure.order) {
+      const Index parent = figure.nodes[at(node)].parent;
+      of_foot[at(node)] = node == foot || (parent >= 0 && of_foot[at(parent)] != 0) ? 1 : 0;
+    }
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+      std::vector<Quaternion>& turn = frames_[f].turn;
+      const Quaternion was = turn[at(foot)], back = ankle[f].foot * was.inverse();
+      if (was.w == ankle[f].foot.w && was.v == ankle[f].foot.v) continue;
+      for (std::size_t i = 0; i < turn.size(); ++i)
+        if (of_foot[i] != 0) turn[i] = back * turn[i];
+    }
+    notes_.push_back(fmt::sprintf("%s is turned by up to %.0f degrees (at %.3f s), farther than an ankle can: led back",
+                                  quoted_name(figure, foot), most.degrees,
+                                  static_cast<double>(most.frame) / moves_.rate_hz));
   }
 
   void record_foot(std::size_t side) {

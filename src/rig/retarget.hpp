@@ -9,8 +9,8 @@
 // the target does.  The hips go their way, scaled by the length of the legs, beginning where they stand; the body is then raised or lowered so that its
 // lower sole is on the floor, or in the air as it was.
 //
-// Turns of a spine that bends in one place farther than a spine can are shared by its joints first (rig/spine_bends.hpp), joints that jump are mended
-// (rig/mend_jumps.hpp).
+// Before all that joints that jump are mended (rig/mend_jumps.hpp), turns of a spine that bends in one place farther than a spine can are shared by its
+// joints (rig/spine_bends.hpp), and feet that are turned farther than ankles can are led back (rig/ankle_turns.hpp).
 //
 // What has no bone in the source stays as it is at rest, relative to its parent.
 #pragma once

@@ -122,12 +122,12 @@ FigureBody read_figure(const SceneMesh& mesh, std::string_view text, const Scene
   return {std::move(standing), std::move(moving)};
 }
 
-BodyMotion mannequin_motion(const Mannequin& mannequin, const SceneMotion& motion, const BytesSeen& seen) {
+BodyMotion mannequin_motion(const Mannequin& mannequin, const SceneMotion& motion, const BytesSeen& seen,
+                            std::vector<std::string>& notes) {
   if (!has_bvh_ending(motion.path))
     throw InputError(printable(motion.path), "motion",
                      "a name, a .pc2 file, a folder of OBJ files or a BVH file, for a mannequin", "a glTF file");
   Figure figure = mannequin_figure(mannequin);
-  std::vector<std::string> notes;  // a mannequin has every part
   PersonBones bones = person_bones(figure);
   PoseTrack track = recording(figure, bones, motion, seen, notes);
   return BodyMotion::of_mannequin(printable(motion.path), mannequin, std::move(figure), bones, std::move(track),

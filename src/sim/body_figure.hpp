@@ -24,8 +24,9 @@ struct FigureBody {
 };
 // Throw InputError, IoError.
 FigureBody read_figure(const SceneMesh& mesh, std::string_view text, const SceneMotion& motion, const BytesSeen& seen);
-// Of a recording; InputError for a file of animations.
-BodyMotion mannequin_motion(const Mannequin& mannequin, const SceneMotion& motion, const BytesSeen& seen);
+// Of a recording; InputError for a file of animations.  What was mended in it is added to `notes`.
+BodyMotion mannequin_motion(const Mannequin& mannequin, const SceneMotion& motion, const BytesSeen& seen,
+                            std::vector<std::string>& notes);
 
 // The files of the mesh's rig.
 std::vector<std::string> rig_paths(const SceneMesh& mesh);

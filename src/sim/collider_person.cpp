@@ -109,8 +109,9 @@ Collider load(const SceneMannequin& mannequin, const SceneCollider& whole) {
   CollisionBody body = from_mannequin(made);
   if (whole.motion && whole.motion->name.empty() && moves_a_skeleton(whole.motion->path)) {
     Hash bytes;
-    set_movement(mannequin_motion(made, *whole.motion, [&](std::string_view file) { bytes.add_text(file); }),
-                 name_of_motion(*whole.motion), collider);
+    BodyMotion moves = mannequin_motion(
+        made, *whole.motion, [&](std::string_view file) { bytes.add_text(file); }, collider.warnings);
+    set_movement(std::move(moves), name_of_motion(*whole.motion), collider);
     add_input(bytes.value(), collider);
   } else if (whole.motion && whole.motion->name.empty()) {
     load_movement(*whole.motion, LengthUnit::automatic, body, collider);

@@ -215,6 +215,25 @@ TEST(Retarget, MendsWhatNoJointCanDo) {
   EXPECT_LT((knee(20) - knee(23)).norm(), 1e-9);
 }
 
+// A foot turned back to front, toes and all, as where its markers are swapped.
+TEST(Retarget, AFootThatNoAnkleCanTurnIsLedBack) {
+  const auto turned = [](double radians) {
+    return moved({}, [radians](int, const Figure& figure, FigurePose& pose) {
+      pose.nodes[at(node(figure, "LeftFoot"))].turn = rotation_about(Vec3(0, 1, 0), radians);
+    });
+  };
+  const Moved broken = turned(2.8), still = turned(0), real = turned(0.5);
+  ASSERT_EQ(broken.result.notes.size(), 1U);
+  EXPECT_EQ(broken.result.notes[0],
+            "\"LeftFoot\" is turned by up to 160 degrees (at 0.000 s), farther than an ankle can: led back");
+  EXPECT_TRUE(real.result.notes.empty());
+  const auto foot = [](const Moved& m) {
+    return m.result.track.poses.back().nodes[at(node(m.target, "left_foot"))].turn;
+  };
+  EXPECT_NEAR(std::abs(foot(broken).dot(foot(still))), 1, 1e-12);
+  EXPECT_LT(std::abs(foot(real).dot(foot(still))), 0.98);
+}
+
 // From a leg turned outwards by 100 degrees to one turned inwards by 90: through the front, which is the longer way.
 TEST(Retarget, AJumpGoesTheWayThatAJointCanGo) {
   const Moved m = moved(

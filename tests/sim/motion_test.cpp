@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -36,6 +37,41 @@ double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double distance = 0;
   for (std::size_t i = 0; i < a.size(); ++i) distance = std::max(distance, (a[i] - b[i]).norm());
   return distance;
+}
+
+// The legs of a recording whose left foot is turned round by 160 degrees.
+std::string recording_with_a_turned_foot() {
+  const auto joint = [](const std::string& name, const std::string& offset, const std::string& below) {
+    return "JOINT " + name + "\n{\nOFFSET " + offset + "\nCHANNELS 3 Zrotation Xrotation Yrotation\n" + below + "}\n";
+  };
+  const std::string end = "End Site\n{\nOFFSET 0 0 5\n}\n";
+  const auto leg = [&](const std::string& side, const std::string& x) {
+    return joint(
+        side + "UpLeg", x + " -5 0",
+        joint(side + "Leg", "0 -40 0", joint(side + "Foot", "0 -40 0", joint(side + "ToeBase", "0 -5 12", end))));
+  };
+  const std::string frame = "0 90 0 0 0 0 0 0 0 0 0 0 0 0 160 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n";
+  return "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation "
+         "Yrotation\n" +
+         leg("Left", "10") + leg("Right", "-10") + "}\nMOTION\nFrames: 2\nFrame Time: 0.1\n" + frame + frame;
+}
+
+TEST(MovingBody, SaysWhatWasMendedInARecordingOfAMannequinToo) {
+  const Scratch scratch;
+  const std::string path = scratch.put("turned.bvh", recording_with_a_turned_foot());
+  const Scene scene = parse_scene(
+      R"({"cloth": [{"grid": {"width_m": 0.1, "height_m": 0.1, "edge_m": 0.05}, "placement": {"translation_m": [5, 9, 5]}}],
+      "body": {"mannequin": "man", "motion": {"file": ")" +
+          path + R"("}},
+      "world": {"gravity_m_per_s2": [0, 0, 0]}, "time": {"seconds": 0.1, "drape_seconds": 0}})",
+      "s.json");
+  const Report report = test::run_into(scratch / "out", scene);
+  const auto told = [](const std::string& warning) {
+    return warning.find(
+               "turned.bvh: \"LeftFoot\" is turned by up to 160 degrees (at 0.000 s), farther than an ankle can") !=
+           std::string::npos;
+  };
+  EXPECT_EQ(std::count_if(report.warnings.begin(), report.warnings.end(), told), 1);
 }
 
 TEST(MovingBody, StandsWhileTheClothDrapesAndThenMoves) {

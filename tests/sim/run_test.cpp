@@ -264,9 +264,8 @@ struct Fall {
 };
 Fall ring_around_a_post(const Scratch& scratch, const std::string& more) {
   scratch.put("ring.json", test::tube_pattern_text(24, 6, 9, 8));
-  const std::string scene =
-      R"({"cloth": [{"pattern": "ring.json", "resolution_cm": 1)" + more +
-      R"(}], "body": {"cylinder": {"radius_m": 0.055, "height_m": 0.3, "top_m": [0, 0.3, 0]}},
+  const std::string scene = R"({"cloth": [{"pattern": "ring.json", "resolution_cm": 1)" + more +
+                            R"(}], "body": {"cylinder": {"radius_m": 0.055, "height_m": 0.3, "top_m": [0, 0.3, 0]}},
       "solids": [{"box": {"size_m": [0.4, 0.1, 0.4]}, "placement": {"translation_m": [0, -0.05, 0]}}],
       "time": {"seconds": 6, "until_still": true}})";
   Fall fall{run(scratch, parse_scene(scene, scratch / "s.json"))};

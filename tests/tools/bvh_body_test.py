@@ -72,6 +72,14 @@ def main(program, shared):
         assert refused.returncode == 3 and "base.obj: skeleton: expected" in refused.stderr and "--rig" in refused.stderr, refused.stderr
     with tempfile.TemporaryDirectory() as name:
         check("mannequin", run(program, pathlib.Path(name), {"mannequin": "man", "motion": walk}, 2.5), 2.5, (1.8, 2.8), 15)
+    # Both feet of this recording are turned round for most of it; one passes half a turn 2.35 s from its begin.
+    dance = {"file": str(recordings / "cmu_05_06_dance.bvh"), "lead_in_s": LEAD_IN}
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        run(program, folder, {"mannequin": "man", "motion": dance}, 3)
+        warnings = json.loads((folder / "run" / "report.json").read_text())["warnings"]
+        for foot in ("LeftFoot", "RightFoot"):
+            assert any(f'"{foot}" is turned by up to 180 degrees' in warning for warning in warnings), warnings
 
 
 main(*sys.argv[1:])
