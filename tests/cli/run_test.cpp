@@ -2,14 +2,19 @@
 #include "cli/program.hpp"
 #include "io/json.hpp"
 #include "support/paths.hpp"
+#include "support/tube_pattern.hpp"
 
+#include <fmt/printf.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <numbers>
+#include <set>
 #include <thread>
 
 namespace toile::internal {
@@ -58,6 +63,49 @@ TEST(Run, AnotherInputHasAnotherHash) {
   EXPECT_NE(first.at("input_hash").string(), third.at("input_hash").string());
   EXPECT_NE(first.at("state_hash").string(), second.at("state_hash").string());
   EXPECT_NE(first.at("state_hash").string(), third.at("state_hash").string());
+}
+
+// A post of twelve sides and 1.6 m.
+std::string post_obj() {
+  constexpr int sides = 12;
+  std::string obj;
+  for (const double y : {0.0, 1.6})
+    for (int k = 0; k < sides; ++k) {
+      const double angle = 2 * std::numbers::pi * k / sides;
+      obj += fmt::sprintf("v %.6f %.1f %.6f\n", 0.1 * std::sin(angle), y, 0.1 * std::cos(angle));
+    }
+  for (int k = 0; k < sides; ++k) {
+    const int a = k + 1, b = (k + 1) % sides + 1;
+    obj += fmt::sprintf("f %d %d %d\nf %d %d %d\n", a, b, b + sides, a, b + sides, a + sides);
+    if (k > 0 && k + 1 < sides) obj += fmt::sprintf("f 1 %d %d\nf %d %d %d\n", b, a, 1 + sides, a + sides, b + sides);
+  }
+  return obj;
+}
+
+// Options of a pattern's finish arrive, each with another state.
+TEST(Run, DressesWithHemsAndSeamAllowances) {
+  const Scratch scratch;
+  scratch.put("post.obj", post_obj());
+  scratch.put("tube.json", test::tube_pattern_text(50, 20, 25, 120));
+  const auto dress = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"dress",     "tube.json", "--body",       "post.obj", "--resolution", "6",
+                                      "--seconds", "0.6",       "--no-preview", "--out",    "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_toile(scratch, words);
+  };
+  std::set<std::string> states;
+  const std::vector<std::vector<std::string>> finishes = {
+      {}, {"--hem", "20"}, {"--allowance", "10"}, {"--allowance", "10", "--topstitched"}};
+  for (const std::vector<std::string>& finish : finishes) {
+    const Ended ended = dress(finish);
+    ASSERT_EQ(ended.exit_code, 5) << "it still falls: " << ended.err;
+    states.insert(Json::load(scratch / "out/report.json").at("state_hash").string());
+  }
+  EXPECT_EQ(states.size(), finishes.size());
+  const Ended alone = dress({"--topstitched"});
+  EXPECT_EQ(alone.exit_code, 3) << alone.err;
+  EXPECT_NE(alone.err.find("an allowance above zero beside it (allowance_mm, --allowance)"), std::string::npos)
+      << alone.err;
 }
 
 TEST(Run, WritesTheFilesOfTheContractAndVerifyAgrees) {
