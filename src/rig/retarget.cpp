@@ -42,6 +42,17 @@ Posed posed(const Figure& figure, const FigurePose& pose) {
   return posed;
 }
 
+// [node] whether it is one of two, or hangs on it.
+std::vector<char> moved_by(const Figure& figure, const std::array<Index, 2>& movers) {
+  std::vector<char> moved(figure.nodes.size(), 0);
+  for (const Index node : figure.order) {
+    const Index parent = figure.nodes[at(node)].parent;
+    const bool is_mover = node == movers[0] || node == movers[1];
+    moved[at(node)] = is_mover || (parent >= 0 && moved[at(parent)] != 0) ? 1 : 0;
+  }
+  return moved;
+}
+
 Vec3 nearest_axis(const Vec3& v) {
   Eigen::Index k = 0;
   v.cwiseAbs().maxCoeff(&k);
@@ -259,11 +270,7 @@ class Retargeting {
     const AnkleFault most = hold_ankle(ankle, moves_.rate_hz);
     if (most.degrees == 0) return;
     const Figure& figure = source_.figure();
-    std::vector<char> of_foot(figure.nodes.size(), 0);
-    for (const Index node : figure.order) {
-      const Index parent = figure.nodes[at(node)].parent;
-      of_foot[at(node)] = node == foot || (parent >= 0 && of_foot[at(parent)] != 0) ? 1 : 0;
-    }
+    const std::vector<char> of_foot = moved_by(figure, {foot, foot});
     for (std::size_t f = 0; f < frames_.size(); ++f) {
       std::vector<Quaternion>& turn = frames_[f].turn;
       const Quaternion was = turn[at(foot)], back = ankle[f].foot * was.inverse();
@@ -365,12 +372,8 @@ class Retargeting {
   // The vertices that feet move most.
   std::vector<Index> soles() const {
     const Figure& figure = target_.figure();
-    std::vector<char> of_foot(figure.nodes.size(), 0);
-    for (const Index node : figure.order) {
-      const Index parent = figure.nodes[at(node)].parent;
-      const bool is_foot = node == target_.bone(BodyPart::foot, 0) || node == target_.bone(BodyPart::foot, 1);
-      of_foot[at(node)] = is_foot || (parent >= 0 && of_foot[at(parent)] != 0) ? 1 : 0;
-    }
+    const std::vector<char> of_foot =
+        moved_by(figure, {target_.bone(BodyPart::foot, 0), target_.bone(BodyPart::foot, 1)});
     std::vector<Index> vertices;
     for (const FigurePart& part : figure.parts)
       for (std::size_t i = part.first; i < part.first + part.count; ++i) {
