@@ -296,6 +296,16 @@ TEST(Run, AGarmentFallsBeforeItIsCutFiner) {
   EXPECT_EQ(coarse.report.audit.cloth_cloth_edges.max, 0);
 }
 
+// A ring tips off a ball before any of its frames is written.
+TEST(Run, WhatTouchedTheBodyInAnUnwrittenFallFellOff) {
+  const Scratch scratch;
+  scratch.put("ring.json", test::tube_pattern_text(20, 6, 7, 6));
+  const Report report = run(scratch, parse_scene(R"({"cloth": [{"pattern": "ring.json", "resolution_cm": 1}],
+      "body": {"sphere": {"radius_m": 0.1}}, "time": {"seconds": 6, "until_still": true}})",
+                                                 scratch / "s.json"));
+  EXPECT_EQ(report.ended, reason::fell_off);
+}
+
 // Every seam of the T-shirt ends in a corner of four panels, at the underarm or at the shoulder.
 TEST(Run, TheTShirtIsSewnWithoutACrossingWhereFourPanelsMeet) {
   for (const char* resolution_cm : {"3", "2.4"}) {
