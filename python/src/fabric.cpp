@@ -28,7 +28,9 @@ constexpr Field fields[] = {
     {"doubling_strain_v", &Fabric::doubling_strain_v, "The same of the weft."},
     {"shear_N_per_m", &Fabric::shear_N_per_m, "Stiffness against shear, N/m."},
     {"compression_ratio", &Fabric::compression_ratio,
-     "Of the stretch stiffness, in threads shorter than at rest; in (0, 1]."},
+     "Of the stretch stiffness, in threads shorter than at rest; in (0, 1]. Less where triangles are so large that the "
+     "sheet "
+     "buckles between their corners; 1: it does not."},
     {"strain_limit", &Fabric::strain_limit, "No thread gets longer than 1 + this of its length as cut; 0: no limit."},
     {"bend_u_N_m", &Fabric::bend_u_N_m, "Bending rigidity along the warp, N·m."},
     {"bend_v_N_m", &Fabric::bend_v_N_m, "Bending rigidity along the weft, N·m."},

@@ -109,9 +109,19 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
   model.friction.assign(particles, 0);
   model.membrane.resize(triangles);
   for (const Fabric& fabric : fabrics)
-    model.stiffness.push_back({fabric.stretch_u_N_per_m, fabric.stretch_v_N_per_m, fabric.shear_N_per_m,
-                               fabric.stretch_damping_s, fabric.shear_damping_s, fabric.compression_ratio,
-                               fabric.strain_limit, fabric.doubling_strain_u, fabric.doubling_strain_v});
+    model.stiffness.push_back(
+        {.k_u = fabric.stretch_u_N_per_m,
+         .k_v = fabric.stretch_v_N_per_m,
+         .k_shear = fabric.shear_N_per_m,
+         .tau_stretch = fabric.stretch_damping_s,
+         .tau_shear = fabric.shear_damping_s,
+         .compression = fabric.compression_ratio,
+         .strain_limit = fabric.strain_limit,
+         .doubling_u = fabric.doubling_strain_u,
+         .doubling_v = fabric.doubling_strain_v,
+         .bend = fabric.compression_ratio < 1 && !options.paper_scaling  // the paper's cloth does not buckle
+                     ? 0.5 * (fabric.bend_u_N_m + fabric.bend_v_N_m)
+                     : 0});
   for (std::size_t t = 0; t < triangles; ++t) {
     const Fabric& fabric = fabric_of(model.mesh, fabrics, t);
     const MaterialFrame frame = material_frame(model.mesh.uv[t]);
@@ -254,6 +264,7 @@ void set_panel_stiffness(ClothModel& model, Index panel, const StiffnessShare& s
   now.k_u = share.stretch * built.k_u;
   now.k_v = share.stretch * built.k_v;
   now.k_shear = share.shear * built.k_shear;
+  now.bend = share.bend * built.bend;
   const auto bend_of = [&](Index triangle) { return model.stiffness_share[at(model.mesh.panel[at(triangle)])].bend; };
   for (std::size_t h = 0; h < model.bend.size(); ++h) {
     const auto& [a, b] = model.topology.hinges[h].triangle;

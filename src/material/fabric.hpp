@@ -20,8 +20,10 @@ struct Fabric {
   // at least least_doubling_strain.
   double doubling_strain_u = 0, doubling_strain_v = 0;
   double shear_N_per_m = 60;
-  double compression_ratio = 0.1;  // of the stretch stiffness, in threads that are shorter than at rest; in (0, 1]
-  double strain_limit = 0;         // no thread gets longer than 1 + this of its length as cut; 0: no limit
+  // Of the stretch stiffness, in threads that are shorter than at rest; in (0, 1].  Less where triangles are so large that the sheet buckles between their
+  // corners; 1: it does not.
+  double compression_ratio = 0.1;
+  double strain_limit = 0;  // no thread gets longer than 1 + this of its length as cut; 0: no limit
   double bend_u_N_m = 7.3e-6, bend_v_N_m = 7.3e-6;
   double bend_poisson = 0.3;  // how much bending along one thread bends the other way along the other; in [0, 0.5]
   double bend_uv_N_m = 0;     // rigidity against twist; 0: (1 - bend_poisson)/2 times the mean of the other two

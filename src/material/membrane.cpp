@@ -1,6 +1,8 @@
 #include "material/membrane_batch.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace toile::internal {
 namespace {
@@ -12,6 +14,12 @@ MembraneRestBatch all_lanes(const MembraneRest& rest, const MembraneStiffness& k
 }
 
 }  // namespace
+
+double pushed_stiffness_N_per_m(double rigidity_N_m, double area_m2) {
+  const double wave_m = std::min(2 * std::sqrt(4 / std::sqrt(3.0) * area_m2), longest_wrinkle_m);
+  const double curvature_per_m = 2 * std::numbers::pi / wave_m;
+  return rigidity_N_m * curvature_per_m * curvature_per_m / wrinkle_shortening;
+}
 
 double membrane_energy(const MembraneRest& rest, const MembraneStiffness& k, const Vec3& w_u, const Vec3& w_v) {
   MembraneStateBatch state{};

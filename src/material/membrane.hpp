@@ -12,7 +12,8 @@
 //                                                              docs/theory/stretch-and-shear.md, docs/theory/damping.md
 //
 // A thread shorter than b may be softer, k times `compression`: the energy and the force stay continuous, and so does
-// the damping, which keeps the k of tension.  The projected K only loses its part along the thread.
+// the damping, which keeps the k of tension.  The projected K only loses its part along the thread.  Cloth of a rigidity D is softer still where its
+// triangles are so large that a sheet would buckle between their corners: pushed_stiffness_N_per_m.
 //
 // A thread may stiffen (off by default): with the excess e = |w| - b above zero and a doubling d, T = k (e + e^3 / d^2) pulls twice as hard
 // at e = d as the straight line, and the energy has s^2 k e^4 / (4 d^2) more; of the cubic term a share may count.
@@ -38,6 +39,7 @@ struct MembraneStiffness {
   // Excess at which a thread pulls twice as hard as a straight line; 0: it is one.
   double doubling_u = 0, doubling_v = 0;
   double stiffened = 1;  // share of e^3 / d^2, in [0, 1]
+  double bend = 0;       // N m; by which cloth buckles where it is pushed; 0: it does not
 };
 
 struct MembraneRest {
@@ -48,6 +50,11 @@ struct MembraneRest {
 
 // c, from which the strain limit of a thread of rest stretch b counts.
 inline double limited_from(double b) { return b > 1 ? b : 1; }
+
+// Of a sheet that is pushed until it has buckled by some percent, as force per width and shortening:  D (2 pi / l)^2 / e.
+// l = 2 h is the shortest wave that triangles of this area (equilateral, edges h) show, and no longer than the wrinkles of garments.
+constexpr double longest_wrinkle_m = 0.02, wrinkle_shortening = 0.05;
+double pushed_stiffness_N_per_m(double rigidity_N_m, double area_m2);
 
 // A symmetric 6x6 matrix over (w_u, w_v).
 struct FMatrix {

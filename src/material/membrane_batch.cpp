@@ -437,7 +437,9 @@ void MembraneRestBatch::set(std::size_t lane, const MembraneRest& rest, const Me
   b_v[lane] = rest.b_v;
   tau_stretch[lane] = k.tau_stretch;
   tau_shear[lane] = k.tau_shear;
-  compression[lane] = k.compression;
+  compression[lane] = k.bend > 0
+                          ? std::min(k.compression, pushed_stiffness_N_per_m(k.bend, s2) / (0.5 * (k.k_u + k.k_v)))
+                          : k.compression;
   strain_limit[lane] = k.strain_limit;
   stiffening_u[lane] = k.doubling_u > 0 ? k.stiffened / (k.doubling_u * k.doubling_u) : 0;
   stiffening_v[lane] = k.doubling_v > 0 ? k.stiffened / (k.doubling_v * k.doubling_v) : 0;

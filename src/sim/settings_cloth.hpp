@@ -63,8 +63,12 @@ void describe(V& v, Fabric& fabric) {
             as_base},
            {0, 10}, fabric.doubling_strain_u);
   v.number({"doubling_strain_v", "of the weft", as_base}, {0, 10}, fabric.doubling_strain_v);
-  v.number({"compression_ratio", "of the stretch stiffness, in threads that are shorter than at rest", as_base},
-           {0, 1, 1, true}, fabric.compression_ratio);
+  v.number(
+      {"compression_ratio",
+       "of the stretch stiffness, in threads that are shorter than at rest; less where triangles are so large that "
+       "the sheet buckles between their corners; 1: it does not",
+       as_base},
+      {0, 1, 1, true}, fabric.compression_ratio);
   v.number({"strain_limit", "0.05: no thread gets more than 5 % longer; 0: no limit", as_base}, {0, 1},
            fabric.strain_limit);
   v.number({"bend_u_N_m", "bending rigidity of the warp", as_base}, {0, 1e6}, fabric.bend_u_N_m);

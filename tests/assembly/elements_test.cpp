@@ -349,5 +349,20 @@ TEST(ClothModel, MassIsDensityTimesArea) {
   EXPECT_NEAR(mass, 0.2 * 0.4 * 0.3, 1e-12);
 }
 
+TEST(ClothModel, BucklesByTheMeanRigidityAndThePapersClothDoesNot) {
+  Fabric fabric;
+  fabric.bend_v_N_m = 3 * fabric.bend_u_N_m;
+  const ClothMesh sheet = test::equilateral_sheet(0.1, 0.1, 0.02).mesh;
+  ClothModel model = build_model(sheet, {&fabric, 1});
+  EXPECT_DOUBLE_EQ(model.stiffness[0].bend, 2 * fabric.bend_u_N_m);
+  set_panel_stiffness(model, 0, {.bend = 3});
+  EXPECT_DOUBLE_EQ(model.stiffness[0].bend, 6 * fabric.bend_u_N_m);
+  ModelOptions paper;
+  paper.paper_scaling = true;
+  EXPECT_EQ(build_model(sheet, {&fabric, 1}, paper).stiffness[0].bend, 0);
+  fabric.compression_ratio = 1;
+  EXPECT_EQ(build_model(sheet, {&fabric, 1}).stiffness[0].bend, 0);
+}
+
 }  // namespace
 }  // namespace toile::internal

@@ -7,6 +7,8 @@
 #include "material/membrane_derivatives.hpp"
 #include "material/random_elements.hpp"
 
+#include <numbers>
+
 namespace toile::internal {
 namespace {
 
@@ -62,6 +64,28 @@ TEST(Compression, ElementMatricesStaySemidefinite) {
       ASSERT_GT(least_eigenvalue(membrane_response(t.membrane, k, x, v, jacobian).K), -1e-9) << n;
     }
   }
+}
+
+// A sheet that is pushed by 5 % buckles in waves of two edges, and of 2 cm at most.
+TEST(Compression, LargeTrianglesAreAsSoftAsASheetThatBucklesBetweenTheirCorners) {
+  const double D = 7.3e-6, pi = std::numbers::pi;
+  MembraneStiffness k{.k_u = 3000, .k_v = 2000, .k_shear = 60, .compression = 0.1, .bend = D};
+  const auto push = [&](double h) {  // N/m at a shortening of 3 %, of an equilateral triangle
+    const RestTriangle t = rest_triangle({Vec2(0, 0), Vec2(h, 0), Vec2(0.5 * h, 0.5 * std::sqrt(3.0) * h)});
+    const std::array<Vec3, 3> x = deformed(t, Vec3(0.97, 0, 0), Vec3(0, 1.01, 0), Vec3::Zero());
+    const MembraneResponse r = membrane_response(t.membrane, k, x, at_rest);
+    EXPECT_NEAR(r.P_v.y() / t.membrane.scale2, 0.01 * 2000, 1e-9) << "pulled as ever";
+    return -r.P_u.x() / t.membrane.scale2;
+  };
+  const auto of_wave = [&](double wave_m) { return D * 4 * pi * pi / (wave_m * wave_m) / 0.05; };
+  const double mean = 2500;
+  for (const double h : {0.005, 0.007, 0.01}) EXPECT_NEAR(push(h), 0.03 * 3000 * of_wave(2 * h) / mean, 1e-9) << h;
+  for (const double h : {0.02, 0.05}) EXPECT_NEAR(push(h), push(0.01), 1e-9) << h;
+  EXPECT_NEAR(push(0.002), 0.03 * 3000 * 0.1, 1e-9) << "no softer than yarns";
+  k.bend *= 4;
+  EXPECT_NEAR(push(0.01), 4 * 0.03 * 3000 * of_wave(0.02) / mean, 1e-9);
+  k.bend = 0;
+  EXPECT_NEAR(push(0.01), 0.03 * 3000 * 0.1, 1e-9);
 }
 
 TEST(Compression, RatiosBeyondOneOrAtZeroAreRefused) {

@@ -245,7 +245,7 @@ TEST(Incline, WhatBrokeLooseSticksAgainWhenTheSlopeLessens) {
   run.frame(1.0 / 60);
   EXPECT_EQ(sticking(), 0u);
   tilt(run, 10);
-  run.run(10, 1.0 / 60);
+  run.run(30, 1.0 / 60);
   EXPECT_EQ(sticking(), run.state.x.size());
   EXPECT_LT(run.fastest(), 1e-5);
 }

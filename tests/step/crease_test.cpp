@@ -83,7 +83,7 @@ TEST(Crease, WhatIsDrawnIntoItComesToRestAtTheOffsetFromBothFaces) {
       BodySurface body = notched(half_angle, 0, 0.04);
       Drawn drawn(body, friction);
       drawn.run->step.relinearisations = 6;  // as scenes are run
-      drawn.run->run(120);
+      drawn.run->run(300);  // threads that are pushed come to rest late (docs/limits.md#cloth-that-is-slow-to-rest)
       const Vec3 settled = drawn.place();
       for (int frame = 0; frame < 30; ++frame) {
         drawn.run->frame();

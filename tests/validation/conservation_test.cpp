@@ -17,7 +17,7 @@ using test::Figures;
 
 // A cloth of its own: figures of the integrator must not move with a preset.
 Fabric undamped() {
-  Fabric fabric = test::elastic_cotton();
+  Fabric fabric = test::linear_cotton();
   fabric.shear_N_per_m = 200;
   fabric.stretch_damping_s = fabric.shear_damping_s = fabric.bend_damping_s = 0;
   return fabric;
