@@ -256,9 +256,10 @@ TEST(DrapeCurve, AscendsAndKnowsThePresets) {
   const std::pair<const char*, double> presets[] = {{"silk", 25.6}, {"wool", 52.4}, {"denim", 82.6}, {"knit", 41.8}};
   for (const auto& [name, percent] : presets) {
     const Fabric& fabric = fabric_preset(name, "", "");
+    const double scatters = fabric.name == "denim" ? 2.5 : 2;  // 5.5 points
     const double c = cube_root(std::sqrt(fabric.bend_u_N_m * fabric.bend_v_N_m) / (fabric.density_kg_per_m2 * 9.81));
     EXPECT_NEAR(drape_curve::percent_of_bending_length(fabric.compression_ratio).value(c), percent,
-                2.5 * drape_curve::uncertainty_points(c, fabric.compression_ratio))
+                scatters * drape_curve::uncertainty_points(c, fabric.compression_ratio))
         << name;
   }
 }

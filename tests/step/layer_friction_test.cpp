@@ -28,6 +28,7 @@ struct Slope {
   Slope(double friction, double degrees, double edge_m, int layers, double length_m, double across_m = 0,
         BendElement element = BendElement::plate)
       : run(stacked(edge_m, layers, length_m, across_m), fabric_of(friction, element), tilted(degrees, element)) {
+    run.model.stiffness.front().bend = 0;  // no block buckles
     lower = test::equilateral_sheet(length_m, 0.3, edge_m).mesh.particle_count;
     each = (run.model.particle_count() - lower) / layers;
     for (Index i = 0; i < lower; ++i) run.pin(i);
@@ -83,8 +84,8 @@ double acceleration_of(Slope& slope) {
   return (speed[1] - speed[0]) / 0.3;
 }
 
-// Which threads come to lie on which is chance: of five starts the median counts, and with hinges or at 2 cm the first as well.  Plates of 1 cm catch
-// near the cone (docs/limits.md#catching-threads): at mu = 0.3, where a tenth of the weight is left, one of five slides freely.
+// Near the cone what is left of the weight is little, and which threads come to lie on which is chance: of five starts the median counts.
+// The first start of plates is a tenth off, and more, at 1 cm and mu = 0.3 (docs/limits.md#catching-threads); that of hinges nowhere.
 TEST(LayerFriction, AboveTheConeASheetSlidesAsABlockWould) {
   const double a = 20 * std::numbers::pi / 180;
   for (const BendElement element : {BendElement::plate, BendElement::hinge}) {
@@ -97,15 +98,13 @@ TEST(LayerFriction, AboveTheConeASheetSlidesAsABlockWould) {
           Slope slope(mu, 20, edge_m, 1, 0.8, 0.37e-3 * static_cast<double>(k), element);
           found[k] = acceleration_of(slope) / exact;
         }
-        const bool coarse = edge_m > 0.015;
-        if (hinges || coarse) {
+        if (hinges || edge_m > 0.015 || mu < 0.25) {
           EXPECT_NEAR(found[0], 1, 0.1) << "edge " << edge_m << " m, mu " << mu << ", hinges " << hinges;
         }
         std::sort(found.begin(), found.end());
         std::printf("edge %g m, mu %g, %s: %.3f %.3f %.3f %.3f %.3f\n", edge_m, mu, hinges ? "hinges" : "plates",
                     found[0], found[1], found[2], found[3], found[4]);
-        EXPECT_NEAR(found[hinges || coarse || mu < 0.25 ? 2 : 4], 1, 0.1)
-            << "edge " << edge_m << " m, mu " << mu << ", hinges " << hinges;
+        EXPECT_NEAR(found[2], 1, 0.1) << "edge " << edge_m << " m, mu " << mu << ", hinges " << hinges;
       }
     }
   }
