@@ -108,6 +108,7 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
   model.thickness_m.assign(particles, 0);
   model.friction.assign(particles, 0);
   model.membrane.resize(triangles);
+  const bool threads_buckle = options.threads_buckle && !options.paper_scaling;
   for (const Fabric& fabric : fabrics)
     model.stiffness.push_back(
         {.k_u = fabric.stretch_u_N_per_m,
@@ -119,9 +120,7 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
          .strain_limit = fabric.strain_limit,
          .doubling_u = fabric.doubling_strain_u,
          .doubling_v = fabric.doubling_strain_v,
-         .bend = fabric.compression_ratio < 1 && !options.paper_scaling  // the paper's cloth does not buckle
-                     ? 0.5 * (fabric.bend_u_N_m + fabric.bend_v_N_m)
-                     : 0});
+         .bend = threads_buckle && fabric.compression_ratio < 1 ? 0.5 * (fabric.bend_u_N_m + fabric.bend_v_N_m) : 0});
   for (std::size_t t = 0; t < triangles; ++t) {
     const Fabric& fabric = fabric_of(model.mesh, fabrics, t);
     const MaterialFrame frame = material_frame(model.mesh.uv[t]);

@@ -30,6 +30,7 @@ enum class BendElement {
 struct ModelOptions {
   Vec3 gravity_m_per_s2{0, -9.81, 0};
   BendElement bend_element = BendElement::plate;
+  bool threads_buckle = true;  // where they are pushed together (material/membrane.hpp)
   bool paper_scaling = false;  // conditions scaled by area, hinges without geometry, as printed in 1998
   DampingJacobian damping_jacobian = DampingJacobian::gauss_newton;
   // Damps every motion, f = -drag m v.  Unphysical (it would brake falling too); sewing uses it to keep loose panels

@@ -61,27 +61,28 @@ std::vector<Index> Simulation::held_now(bool sewn_now) const {
 }
 
 // Crossings that remain after trials from rest may come apart as the garment moves, its threads contracting to their rest length, before
-// it has weight: first pushed gently, and where that is in vain from the same state with all force.  These frames are not written.  Returns the
-// number of frames.
+// it has weight: first pushed gently, and where that is in vain from the same state with all force.  These frames are not written.  Threads
+// do not buckle in them: what crosses is crumpled, and straightens the sooner the more its threads hold.  Returns the number of frames.
 int Simulation::come_apart() {
   const auto crosses = [&] { return start_crossings(outfit_, {}, {}).all() > 0; };
   if (!crosses()) return 0;
   const int most = frames_in(most_waiting_s);
   const Outfit welded = outfit_;
+  OutfitRunOptions options = run_options(scene_, step_, stop());
+  options.model.threads_buckle = false;
   int frames = 0;
   for (const bool gently : {true, false}) {
-    outfit_run().begin(coming_apart(pace()));
-    run_->push_tangles_gently(gently);
+    if (!gently) outfit_ = welded;
+    OutfitRun apart(options, outfit_, body(), new_garment_.value_or(NewGarment{}));
+    apart.begin(coming_apart(pace()));
+    apart.push_tangles_gently(gently);
     bool goes_on = true;
     for (int k = 0; k < most && goes_on && crosses(); ++k) {
-      const FrameReport frame = run_->frame();
+      const FrameReport frame = apart.frame();
       goes_on = !frame.interrupted && frame.ok;  // else the drape will report it
       frames += goes_on ? 1 : 0;
     }
-    run_->push_tangles_gently(false);
-    if (stopped() || !gently || !crosses()) break;
-    outfit_ = welded;
-    run_.reset();
+    if (stopped() || !crosses()) break;
   }
   outfit_.state.v.assign(outfit_.state.v.size(), Vec3::Zero());
   return frames;

@@ -349,7 +349,7 @@ TEST(ClothModel, MassIsDensityTimesArea) {
   EXPECT_NEAR(mass, 0.2 * 0.4 * 0.3, 1e-12);
 }
 
-TEST(ClothModel, BucklesByTheMeanRigidityAndThePapersClothDoesNot) {
+TEST(ClothModel, BucklesByTheMeanRigidityUnlessItsThreadsAreHeld) {
   Fabric fabric;
   fabric.bend_v_N_m = 3 * fabric.bend_u_N_m;
   const ClothMesh sheet = test::equilateral_sheet(0.1, 0.1, 0.02).mesh;
@@ -360,6 +360,10 @@ TEST(ClothModel, BucklesByTheMeanRigidityAndThePapersClothDoesNot) {
   ModelOptions paper;
   paper.paper_scaling = true;
   EXPECT_EQ(build_model(sheet, {&fabric, 1}, paper).stiffness[0].bend, 0);
+  ModelOptions held;
+  held.threads_buckle = false;
+  EXPECT_EQ(build_model(sheet, {&fabric, 1}, held).stiffness[0].bend, 0);
+  EXPECT_EQ(build_model(sheet, {&fabric, 1}, held).stiffness[0].compression, fabric.compression_ratio);
   fabric.compression_ratio = 1;
   EXPECT_EQ(build_model(sheet, {&fabric, 1}).stiffness[0].bend, 0);
 }

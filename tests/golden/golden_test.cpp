@@ -21,6 +21,17 @@ constexpr std::string_view tube = R"({"pattern": {
   "panels": {
     "front": {"translation": [-14, 0, 10], "rotation": [0, 0, 0], "vertices": [[0, 0], [28, 0], [28, 16], [0, 16]],
       "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]},
+    "back": {"translation": [14, 0, -10], "rotation": [0, 180, 0], "vertices": [[0, 0], [28, 0], [28, 16], [0, 16]],
+      "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]}},
+  "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 3}],
+               [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 1}]]},
+  "properties": {"units_in_meter": 100, "curvature_coords": "relative"}})";
+
+// The same with the right side of its back inward: sewing leaves crossings.
+constexpr std::string_view flipped_tube = R"({"pattern": {
+  "panels": {
+    "front": {"translation": [-14, 0, 10], "rotation": [0, 0, 0], "vertices": [[0, 0], [28, 0], [28, 16], [0, 16]],
+      "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]},
     "back": {"translation": [-14, 0, -10], "rotation": [0, 0, 0], "vertices": [[0, 0], [28, 0], [28, 16], [0, 16]],
       "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]}},
   "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 1}],
@@ -31,6 +42,7 @@ void expect_hash(const std::string& scene, const std::string& state_hash) {
   const Scratch scratch;
   const std::string file = scratch.put("scene.json", scene);
   scratch.put("tube.json", tube);
+  scratch.put("flipped_tube.json", flipped_tube);
   int threads = 2;  // for the first
   test::on_every_target([&](const char* target) {
     RunOptions options;
@@ -63,7 +75,15 @@ TEST(Golden, ATubeIsSewnOnACylinder) {
       R"({"cloth": [{"pattern": "tube.json", "resolution_cm": 3, "panels": {"front": {"rest_stretch_v": 0.95}}}],
     "body": {"cylinder": {"radius_m": 0.08, "height_m": 0.4, "top_m": [0, 0.3, 0]}, "friction": 0.3},
     "time": {"fps": 30, "seconds": 0.6, "until_still": false}})",
-      "52693e4b63cee498");
+      "a55ad65f14b2c36b");
+}
+
+TEST(Golden, WhatAFlippedPanelTanglesIsPushedApart) {
+  expect_hash(
+      R"({"cloth": [{"pattern": "flipped_tube.json", "resolution_cm": 3, "panels": {"front": {"rest_stretch_v": 0.95}}}],
+    "body": {"cylinder": {"radius_m": 0.08, "height_m": 0.4, "top_m": [0, 0.3, 0]}, "friction": 0.3},
+    "time": {"fps": 30, "seconds": 0.6, "until_still": false}})",
+      "0ba9df79d2529a2f");
 }
 
 TEST(Golden, APersonGrowsIntoASkirt) {
