@@ -108,7 +108,7 @@ ClothModel build_model(ClothMesh mesh, std::span<const Fabric> fabrics, const Mo
   model.thickness_m.assign(particles, 0);
   model.friction.assign(particles, 0);
   model.membrane.resize(triangles);
-  const bool threads_buckle = options.threads_buckle && !options.paper_scaling;
+  const bool threads_buckle = options.threads_buckle && !options.paper_scaling;  // the paper's cloth does not
   for (const Fabric& fabric : fabrics)
     model.stiffness.push_back(
         {.k_u = fabric.stretch_u_N_per_m,

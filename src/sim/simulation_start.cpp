@@ -62,7 +62,7 @@ std::vector<Index> Simulation::held_now(bool sewn_now) const {
 
 // Crossings that remain after trials from rest may come apart as the garment moves, its threads contracting to their rest length, before
 // it has weight: first pushed gently, and where that is in vain from the same state with all force.  These frames are not written.  Threads
-// do not buckle in them: what crosses is crumpled, and straightens the sooner the more its threads hold.  Returns the number of frames.
+// do not buckle in them: what crosses is crumpled, and straightens by the push that its threads resist.  Returns the number of frames.
 int Simulation::come_apart() {
   const auto crosses = [&] { return start_crossings(outfit_, {}, {}).all() > 0; };
   if (!crosses()) return 0;

@@ -16,33 +16,32 @@
 namespace toile::internal {
 namespace {
 
-// Two panels of 28 x 16 cm, sewn at both sides.
-constexpr std::string_view tube = R"({"pattern": {
-  "panels": {
-    "front": {"translation": [-14, 0, 10], "rotation": [0, 0, 0], "vertices": [[0, 0], [28, 0], [28, 16], [0, 16]],
-      "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]},
-    "back": {"translation": [14, 0, -10], "rotation": [0, 180, 0], "vertices": [[0, 0], [28, 0], [28, 16], [0, 16]],
-      "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]}},
-  "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 3}],
-               [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 1}]]},
-  "properties": {"units_in_meter": 100, "curvature_coords": "relative"}})";
+// Two panels of 28 x 16 cm, sewn at both sides.  `back`: where its panel lies, and which of its edges is sewn to the front's first and second.
+std::string tube(const std::string& back, int first, int second) {
+  const std::string outline = R"("vertices": [[0, 0], [28, 0], [28, 16], [0, 16]],
+      "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]})";
+  return R"({"pattern": {"panels": {
+    "front": {"translation": [-14, 0, 10], "rotation": [0, 0, 0], )" +
+         outline + R"(, "back": {)" + back + ", " + outline + R"(}, "stitches": [
+    [{"panel": "front", "edge": 1}, {"panel": "back", "edge": )" +
+         std::to_string(first) + R"(}], [{"panel": "front", "edge": 3}, {"panel": "back", "edge": )" +
+         std::to_string(second) + R"(}]]}, "properties": {"units_in_meter": 100, "curvature_coords": "relative"}})";
+}
 
-// The same with the right side of its back inward: sewing leaves crossings.
-constexpr std::string_view flipped_tube = R"({"pattern": {
-  "panels": {
-    "front": {"translation": [-14, 0, 10], "rotation": [0, 0, 0], "vertices": [[0, 0], [28, 0], [28, 16], [0, 16]],
-      "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]},
-    "back": {"translation": [-14, 0, -10], "rotation": [0, 0, 0], "vertices": [[0, 0], [28, 0], [28, 16], [0, 16]],
-      "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]}},
-  "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 1}],
-               [{"panel": "front", "edge": 3}, {"panel": "back", "edge": 3}]]},
-  "properties": {"units_in_meter": 100, "curvature_coords": "relative"}})";
+// A scene of a tube on a cylinder.
+std::string on_a_cylinder(const std::string& pattern) {
+  return R"({"cloth": [{"pattern": ")" + pattern +
+         R"(", "resolution_cm": 3, "panels": {"front": {"rest_stretch_v": 0.95}}}],
+    "body": {"cylinder": {"radius_m": 0.08, "height_m": 0.4, "top_m": [0, 0.3, 0]}, "friction": 0.3},
+    "time": {"fps": 30, "seconds": 0.6, "until_still": false}})";
+}
 
 void expect_hash(const std::string& scene, const std::string& state_hash) {
   const Scratch scratch;
   const std::string file = scratch.put("scene.json", scene);
-  scratch.put("tube.json", tube);
-  scratch.put("flipped_tube.json", flipped_tube);
+  scratch.put("tube.json", tube(R"("translation": [14, 0, -10], "rotation": [0, 180, 0])", 3, 1));
+  // The right side of its back is inward: sewing leaves crossings.
+  scratch.put("flipped_tube.json", tube(R"("translation": [-14, 0, -10], "rotation": [0, 0, 0])", 1, 3));
   int threads = 2;  // for the first
   test::on_every_target([&](const char* target) {
     RunOptions options;
@@ -70,20 +69,10 @@ TEST(Golden, LayersThatFoldOverABall) {
               "81b7accdb7808f3b");
 }
 
-TEST(Golden, ATubeIsSewnOnACylinder) {
-  expect_hash(
-      R"({"cloth": [{"pattern": "tube.json", "resolution_cm": 3, "panels": {"front": {"rest_stretch_v": 0.95}}}],
-    "body": {"cylinder": {"radius_m": 0.08, "height_m": 0.4, "top_m": [0, 0.3, 0]}, "friction": 0.3},
-    "time": {"fps": 30, "seconds": 0.6, "until_still": false}})",
-      "a55ad65f14b2c36b");
-}
+TEST(Golden, ATubeIsSewnOnACylinder) { expect_hash(on_a_cylinder("tube.json"), "a55ad65f14b2c36b"); }
 
 TEST(Golden, WhatAFlippedPanelTanglesIsPushedApart) {
-  expect_hash(
-      R"({"cloth": [{"pattern": "flipped_tube.json", "resolution_cm": 3, "panels": {"front": {"rest_stretch_v": 0.95}}}],
-    "body": {"cylinder": {"radius_m": 0.08, "height_m": 0.4, "top_m": [0, 0.3, 0]}, "friction": 0.3},
-    "time": {"fps": 30, "seconds": 0.6, "until_still": false}})",
-      "0ba9df79d2529a2f");
+  expect_hash(on_a_cylinder("flipped_tube.json"), "0ba9df79d2529a2f");
 }
 
 TEST(Golden, APersonGrowsIntoASkirt) {
