@@ -79,8 +79,7 @@ def tables(figures):
         "cantilever_refined": by_mesh([(f"{r[0]}, {r[1].rsplit(' ', 1)[0]}", r[1].rsplit(" ", 1)[1], *r[2:])
                                        for r in figures["cantilever_refined"]], "H/W"),
         "cantilever_anisotropic": by_mesh(figures["cantilever_anisotropic"], "D realised / asked", "D_u : D_v"),
-        "bending_length": by_mesh([(r[0], "chord at twice the bending length, degrees", *r[2:])
-                                   for r in figures["bending_length_fabrics"]], "chord deg", "strip"),
+        "bending_length": bending_length_table(figures["bending_length_fabrics"]),
         "lateral_buckling": by_mesh(figures["lateral_buckling"], "Gamma critical"),
         "hanging_strip": by_mesh(figures["hanging_strip"], "elongation mm"),
         "pure_shear": [line for q in ("force per width N/m", "energy mJ")
@@ -92,6 +91,16 @@ def tables(figures):
         "drape": drape_table(figures["drape"]),
         "drape_seeds": drape_table(figures["drape_seeds"]),
     }
+
+
+def bending_length_table(rows):
+    value = {(r[0].rsplit(" ", 1)[0], r[0].rsplit(" ", 1)[1], r[2]): r[4] for r in rows}
+    lines = ["| fabric | bending length, cm, warp and weft | chord at twice that, degrees | off |", "|---|---|---|---|"]
+    for fabric in dict.fromkeys(key[0] for key in value):
+        lengths, chords = ([value[fabric, thread, quantity] for thread in ("warp", "weft")] for quantity in ("bending length cm", "chord deg"))
+        lines.append(f"| {fabric} | {lengths[0]:.2f}, {lengths[1]:.2f} | {chords[0]:.1f}, {chords[1]:.1f} | "
+                     f"{deviation(41.5, chords[0])}, {deviation(41.5, chords[1])} |")
+    return lines
 
 
 def decay_table(rows):

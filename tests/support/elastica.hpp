@@ -1,8 +1,9 @@
 // tests/support/elastica.hpp: the heavy elastica: an inextensible strip, clamped level at one end, bent by its weight.
 //
-//   theta'' + Gamma (1 - s) cos theta = 0,   theta(0) = 0,   theta'(1) = 0,        Gamma = rho g L^3 / D,  s in units of L
+//   M' = (1 - s) cos theta,   theta' = kappa(M),   theta(0) = 0,   M(1) = 0        s in units of the length L, M in w L^2, kappa in 1/L
 //
-// Solved from the free end with delta = pi/2 - theta and t = 1 - s: delta'' = Gamma t sin delta, delta'(0) = 0.  A heavy strip hangs
+// w its weight per length and width.  An elastic strip has kappa = Gamma M, Gamma = w L^3 / D; threads that rub make it stiffer.
+// Solved from the free end with delta = pi/2 - theta and t = 1 - s: M' = t sin delta, delta' = kappa(M), M(0) = 0.  A heavy strip hangs
 // straight but for its last bending length, and there delta is exponentially small: the unknown is log delta(0), found by bisection.
 #pragma once
 #include <array>
@@ -15,14 +16,15 @@ struct Elastica {
   double tip_rad;  // slope at the tip
 };
 
-inline Elastica elastica(double gamma) {
+template <class Curvature>
+Elastica elastica_of(const Curvature& kappa) {
   constexpr double pi = 3.14159265358979323846;
   constexpr int steps = 1000;
-  // delta, delta', H, W along t; delta at the clamp.
+  // delta, M, H, W along t; delta at the clamp.
   const auto shoot = [&](double delta_0, Elastica& out) {
     std::array<double, 4> y = {delta_0, 0, 0, 0};
     const auto slope = [&](double t, const std::array<double, 4>& at) {
-      return std::array<double, 4>{at[1], gamma * t * std::sin(at[0]), std::cos(at[0]), std::sin(at[0])};
+      return std::array<double, 4>{kappa(at[1]), t * std::sin(at[0]), std::cos(at[0]), std::sin(at[0])};
     };
     const double dt = 1.0 / steps;
     for (int n = 0; n < steps; ++n) {
@@ -47,6 +49,10 @@ inline Elastica elastica(double gamma) {
     (shoot(std::exp(middle), found) < pi / 2 ? low : high) = middle;
   }
   return found;
+}
+
+inline Elastica elastica(double gamma) {
+  return elastica_of([gamma](double M) { return gamma * M; });
 }
 
 // The Gamma at which the strip's chord falls by H/W: the inverse of the above, which rises with Gamma.
