@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Feeds the reader of a format of meshes or motions with broken files until something breaks, by libFuzzer with address and undefined-behaviour sanitizers.
 #
-# Usage: fuzz_readers.sh FORMAT [SECONDS [FOLDER]]      FORMAT: obj, ply, stl, gltf; body (what makes a body of an OBJ); gltf-motion (skins
+# Usage: fuzz_readers.sh FORMAT [SECONDS [FOLDER]]      FORMAT: obj, ply, stl, gltf; body (what makes a body or a solid of an OBJ); gltf-motion (skins
 #                                                       and animations), bvh or rig (MakeHuman's: a target, a rig, weights); 60 seconds; FOLDER keeps what was found (build/fuzz/FORMAT)
 #
 # Needs clang (Debian: clang, libclang-rt-14-dev).  Ends with the fuzzer's code: 0 when nothing was found.
@@ -30,7 +30,7 @@ sources=("$root"/tests/fuzz/$harness.cpp "$root"/src/core/*.cpp "$root"/src/rig/
   "$root"/src/io/obj_*.cpp "$root"/src/io/ply_*.cpp "$root"/src/io/stl_*.cpp "$root"/src/io/gltf_*.cpp)
 if [ "$format" = body ]; then
   sources+=("$root"/src/mesh/*.cpp "$root"/src/body/body_parts.cpp "$root"/src/body/collision_body.cpp "$root"/src/body/measure.cpp
-    "$root"/src/body/upright.cpp)
+    "$root"/src/body/solid_shapes.cpp "$root"/src/body/upright.cpp)
 fi
 objects=()
 for source in "${sources[@]}"; do

@@ -55,7 +55,7 @@ class TOILE_EXPORT Body {
   // "woman", "man" or "dancer"; `motion` is one of motion_names(), or a file as above; empty: it stands.
   static Body mannequin(std::string_view who, const std::string& motion = {});
   static std::vector<std::string> motion_names();
-  // A closed mesh (OBJ, PLY, STL, glTF).  For the worn body only the person in the file is used, for a solid everything.
+  // A closed mesh (OBJ, PLY, STL, glTF).  For the worn body only the person in the file is used, for a solid everything, open sheets too.
   static Body from_file(const std::string& path, const BodyFileOptions& options = {});
   // A closed mesh in metres, counter-clockwise from outside.  It stands, or goes where Simulation::set_collider says.  Copies.
   static Body from_arrays(std::span<const Point> vertices_m, std::span<const Face> faces);

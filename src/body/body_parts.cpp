@@ -49,6 +49,7 @@ struct Part {
   double volume = 0, area = 0;  // volume only of a closed part
   bool closed = false, sound = false, named = false, wholly_named = true, taken = false;
   MendedPart mended;
+  bool is_sheet() const { return !mended.open.empty() && mended.crowded[0] < 0 && mended.one_sided[0] < 0; }
 };
 
 class Selection {
@@ -80,7 +81,7 @@ class Selection {
   BodyParts solid() {
     mend([](const Part&) { return true; });
     for (Part& part : parts_) {
-      if (!part.closed) refuse(part);
+      if (!part.closed && !part.is_sheet()) refuse(part);
       part.taken = true;
     }
     return result();
@@ -346,6 +347,13 @@ class Selection {
     std::vector<std::pair<Index, Triangle>> triangles;
     for (const Part& part : parts_) {
       if (!part.taken) continue;
+      if (part.is_sheet()) {
+        say(names_of(part) + " (" + std::to_string(part.mesh.triangles.size()) + " triangles) is open, with " +
+            holes_in_words(part.mended.open) +
+            fmt::sprintf(": a sheet, solid %.0f mm behind its faces", 1000 * sheet_thickness_m));
+        parts.sheets.insert(parts.sheets.end(), part.mesh.triangles.begin(), part.mesh.triangles.end());
+        continue;
+      }
       for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
         if (part.mesh.source[t] >= 0)
           triangles.emplace_back(part.mesh.source[t], part.mesh.triangles[t]);

@@ -15,8 +15,12 @@
 
 namespace toile::internal {
 
+// Of a solid that is an open sheet: four times cloth's offset of 2.5 mm, so that what is pressed into its front stays nearer to it than to the back.
+inline constexpr double sheet_thickness_m = 0.01;
+
 struct BodyParts {
   std::vector<Triangle> triangles;  // of the file's vertices; facing outwards
+  std::vector<Triangle> sheets;     // of a solid's parts that are open: their front, to be thickened
   std::vector<std::string> notes;   // sentences
 };
 
@@ -24,7 +28,8 @@ struct BodyParts {
 // Throws InputError, with `file` as its place, for what cannot be closed: the holes of the largest part, or an edge.
 BodyParts body_parts(const SurfaceMesh& mesh, std::string_view file, double unit_m);
 
-// All parts of a solid, mended likewise, none left out.  Throws InputError as above, for the first that cannot be closed.
+// All parts of a solid, mended likewise, none left out; with holes too large for a cap a part is a sheet.  Throws InputError as above, for the first
+// that is no surface.
 BodyParts solid_parts(const SurfaceMesh& mesh, std::string_view file, double unit_m);
 
 }  // namespace toile::internal

@@ -124,6 +124,19 @@ void cap_holes(MendedTriangles& part, std::span<const Vec3> x, MendedPart& mende
   swap_flat(part, x);
 }
 
+// A sheet has no outside: it looks where most of its triangles looked.
+void look_as_most_did(std::span<const Shell> shells, MendedTriangles& part, std::vector<char>& turned) {
+  for (const Shell& shell : shells) {
+    std::size_t count = 0;
+    for (const Index t : shell) count += turned[at(t)] != 0 ? 1 : 0;
+    if (2 * count <= shell.size()) continue;
+    for (const Index t : shell) {
+      std::swap(part.triangles[at(t)][1], part.triangles[at(t)][2]);
+      turned[at(t)] = static_cast<char>(1 - turned[at(t)]);
+    }
+  }
+}
+
 }  // namespace
 
 MendedPart mend_part(MendedTriangles& part, std::span<const Vec3> positions) {
@@ -141,11 +154,12 @@ MendedPart mend_part(MendedTriangles& part, std::span<const Vec3> positions) {
   const auto turn = [&](std::size_t t) { std::swap(part.triangles[t][1], part.triangles[t][2]); };
   std::vector<char> turned;
   const std::vector<Neighbour> near = neighbours(part.triangles, mended.crowded);
-  make_agree(near, part.triangles.size(), turned, mended.one_sided);
+  const std::vector<Shell> shells = make_agree(near, part.triangles.size(), turned, mended.one_sided);
   const std::size_t of_file = part.triangles.size();
   for (std::size_t t = 0; t < of_file; ++t)
     if (turned[t] != 0) turn(t);
   if (mended.closed()) cap_holes(part, positions, mended);
+  if (!mended.open.empty()) look_as_most_did(shells, part, turned);
   if (mended.closed()) {
     std::vector<char> ignored;
     turned.resize(part.triangles.size(), 0);

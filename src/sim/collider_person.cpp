@@ -5,6 +5,7 @@
 #include "core/hash.hpp"
 #include "io/file.hpp"
 #include "mesh/check.hpp"
+#include "mesh/thicken.hpp"
 #include "sim/body_figure.hpp"
 #include "sim/colliders.hpp"
 
@@ -126,14 +127,19 @@ Collider load(const SceneMannequin& mannequin, const SceneCollider& whole) {
 
 namespace {
 
-// A solid takes the whole file, closed parts of any number.
+// A solid takes the whole file, parts of any number; open ones get a back.
 CollisionBody read_whole(const SceneMesh& file_of, const BytesSeen& seen) {
   const std::string file = printable(file_of.path);
   const SurfaceMesh mesh = load_mesh(file_of.path, seen);
   const BodyParts parts = solid_parts(mesh, file, metres_in(file_of.unit));
-  SolidMesh read = whole_of(mesh, parts.triangles);
+  SolidMesh read = whole_of(mesh, parts.triangles), sheets = whole_of(mesh, parts.sheets);
   const Mat3 turn = file_of.up == UpAxis::z ? z_up_to_y_up() : Mat3(Mat3::Identity());
-  for (Vec3& x : read.positions) x = metres_in(file_of.unit) * (turn * x);
+  for (SolidMesh* part : {&read, &sheets})
+    for (Vec3& x : part->positions) x = metres_in(file_of.unit) * (turn * x);
+  thicken(sheet_thickness_m, sheets.positions, sheets.triangles);
+  const auto before = static_cast<Index>(read.positions.size());
+  read.positions.insert(read.positions.end(), sheets.positions.begin(), sheets.positions.end());
+  for (const auto& [a, b, c] : sheets.triangles) read.triangles.push_back({a + before, b + before, c + before});
   check_closed(file, read.positions, read.triangles);
   check_areas(file, read.positions, read.triangles);
   CollisionBody whole;

@@ -62,7 +62,9 @@ struct SceneMesh {
 };
 template <class V>
 void describe_choice(V& v, SceneMesh& mesh, bool worn) {
-  v.path({"mesh", worn ? "a closed [mesh file](#mesh-files)" : "a closed [mesh file](#mesh-files), with all its parts",
+  v.path({"mesh",
+          worn ? "a closed [mesh file](#mesh-files)"
+               : "a [mesh file](#mesh-files), with all its parts; open ones are [sheets](#open-sheets)",
           "no"},
          mesh.path);
 }

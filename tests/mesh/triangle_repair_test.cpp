@@ -226,6 +226,28 @@ TEST(TriangleRepair, LeavesTheRimOfASheetAndOfABowlOpen) {
   EXPECT_FALSE(mend_part(bowl.mesh, bowl.x).closed());
 }
 
+TEST(TriangleRepair, ASheetLooksWhereMostOfItsTrianglesDid) {
+  for (const std::size_t flipped : {0u, 5u}) {  // the first triangle is one of them, or is not
+    Vec3s x;
+    MendedTriangles sheet;
+    for (Index i = 0; i < 4; ++i)
+      for (Index j = 0; j < 2; ++j) x.emplace_back(i, 0, -j);
+    for (Index a = 0; a < 6; a += 2) {
+      sheet.triangles.insert(sheet.triangles.end(), {Triangle{a, a + 2, a + 3}, Triangle{a, a + 3, a + 1}});
+      sheet.source.insert(sheet.source.end(), {a, a + 1});
+    }
+    const std::vector<Triangle> good = sheet.triangles;
+    std::swap(sheet.triangles[flipped][1], sheet.triangles[flipped][2]);
+    const MendedPart mended = mend_part(sheet, x);
+    EXPECT_EQ(mended.open.size(), 1u);
+    EXPECT_EQ(mended.turned, 1u);
+    for (std::size_t t = 0; t < good.size(); ++t) {
+      const auto& [a, b, c] = sheet.triangles[t];
+      EXPECT_GT((x[at(b)] - x[at(a)]).cross(x[at(c)] - x[at(a)]).y(), 0) << t;
+    }
+  }
+}
+
 TEST(TriangleRepair, NamesTheEdgeOfAMoebiusStripAndOneWhereTwoSolidsTouch) {
   Vec3s x;
   MendedTriangles strip;

@@ -153,6 +153,60 @@ TEST(Colliders, OfAFileAreTheWholeOfItInItsUnit) {
   EXPECT_NEAR(box_of(in_m.joined.surface.positions).high.x(), 100, 1e-9);
 }
 
+// A quarter of a pipe, open along all four sides, of triangles that look outwards but for one, in cm; `more`: lines that follow.
+std::string pipe_obj(const std::string& more = "") {
+  constexpr int cells = 8;
+  std::string text;
+  for (int i = 0; i <= cells; ++i)
+    for (const int z : {0, 50}) {
+      const double phi = 0.5 * std::numbers::pi * i / cells;
+      text += "v " + std::to_string(30 * std::cos(phi)) + ' ' + std::to_string(30 * std::sin(phi)) + ' ' +
+              std::to_string(z) + '\n';
+    }
+  for (int i = 0; i < cells; ++i) {
+    const int a = 2 * i + 1;
+    const auto face = [&](int p, int q, int r) {
+      text += "f " + std::to_string(p) + ' ' + std::to_string(q) + ' ' + std::to_string(r) + '\n';
+    };
+    i == 0 ? face(a, a + 3, a + 2) : face(a, a + 2, a + 3);  // the first is flipped
+    face(a, a + 3, a + 1);
+  }
+  return text + more;
+}
+
+TEST(Colliders, AnOpenSheetIsASolidBehindItsFaces) {
+  const Scratch scratch;
+  scratch.put("pipe.obj", pipe_obj());
+  const LoadedColliders all = load(R"("solids": [{"mesh": "pipe.obj", "unit": "cm"}])", scratch / "s.json");
+  ASSERT_EQ(all.joined.surface.positions.size(), 36U);
+  double volume = 0, nearest = 1, farthest = 0;
+  for (const auto& [a, b, c] : all.joined.surface.triangles) {
+    const auto& x = all.joined.surface.positions;
+    volume += x[at(a)].dot(x[at(b)].cross(x[at(c)])) / 6;
+  }
+  for (const Vec3& p : all.joined.surface.positions) {
+    nearest = std::min(nearest, p.head<2>().norm());
+    farthest = std::max(farthest, p.head<2>().norm());
+  }
+  EXPECT_NEAR(farthest, 0.3, 1e-6);
+  EXPECT_NEAR(nearest, 0.29, 1e-4);
+  EXPECT_NEAR(volume, 0.25 * std::numbers::pi * (0.3 * 0.3 - 0.29 * 0.29) * 0.5, 4e-5);
+  std::string said;
+  for (const std::string& note : all.warnings) said += note + '\n';
+  EXPECT_NE(said.find("(16 triangles) is open, with 1 hole (1.94 m round at"), std::string::npos) << said;
+  EXPECT_NE(said.find("1 triangles are turned"), std::string::npos) << said;
+}
+
+TEST(Colliders, AnOpenSheetThatIsNoSurfaceIsRefused) {
+  const Scratch scratch;
+  scratch.put("fin.obj", pipe_obj("v 60 60 0\nf 3 4 19\n"));  // a third triangle at an edge
+  const std::string refusal =
+      collider_refusal(R"("solids": [{"mesh": ")" + (scratch / "fin.obj") + R"(", "unit": "cm"}])");
+  EXPECT_NE(refusal.find("three triangles or more at edge"), std::string::npos) << refusal;
+  const std::string body = collider_refusal(R"("body": {"mesh": ")" + (scratch / "pipe.obj") + R"(", "unit": "cm"})");
+  EXPECT_NE(body.find("pipe.obj"), std::string::npos) << body;
+}
+
 TEST(Colliders, ACapsuleIsEverywhereItsRadiusFromItsAxis) {
   const LoadedColliders all = load(
       R"("solids": [{"capsule": {"radius_m": 0.1, "from_m": [1, 0, 0], "to_m": [2, 0.5, -0.5]}, "edge_m": 0.01}])");
