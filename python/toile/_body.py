@@ -68,7 +68,7 @@ class Body(Made):
         weights: str | os.PathLike[str] = "",
         targets: Mapping[str | os.PathLike[str], float] | None = None,
     ) -> Body:
-        """A closed mesh (OBJ, PLY, STL, glTF).  It is read by the constructor of a simulation, which raises IoError and InputError.
+        """A closed mesh (OBJ, PLY, STL, glTF); as a solid an open sheet, too.  It is read by the constructor of a simulation, which raises IoError and InputError.
 
         unit          "automatic" (metres, or an error that says which unit would fit), "m", "dm", "cm", "mm" or "in"
         motion        a .pc2 or .mdd file, a folder of numbered mesh files, or the name of a motion for upright meshes; of a body with a skeleton a

@@ -305,7 +305,7 @@ class Selection {
     else if (part.mended.one_sided[0] >= 0)
       got += "that meets its own back at " + edge(part.mended.one_sided);
     else if (!part.mended.open.empty())
-      got += "with " + holes_in_words(part.mended.open);
+      got += "with " + holes_in_words(part.mended.open) + "; such a sheet may be one of a scene's `solids`";
     else
       got += "that encloses nothing";
     throw InputError(file_, "body", "a closed surface, but for holes as small as a neck's", got);

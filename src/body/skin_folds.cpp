@@ -2,6 +2,7 @@
 
 #include "contact/body_surface.hpp"
 #include "core/parallel.hpp"
+#include "mesh/corner_normal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -167,9 +168,7 @@ void SkinFolds::yield(double track_s, double share, std::span<Vec3> x) const {
     for (const Index t : around_[k]) {
       const Triangle& c = triangles_[at(t)];
       const std::size_t j = c[0] == vertices_[k] ? 0 : (c[1] == vertices_[k] ? 1 : 2);
-      const Vec3 a = x[at(c[(j + 1) % 3])] - x[at(c[j])], b = x[at(c[(j + 2) % 3])] - x[at(c[j])], n = a.cross(b);
-      const double area = std::sqrt(n.squaredNorm());
-      if (area > 0) normal += ieee_atan2(area, a.dot(b)) / area * n;
+      normal += corner_normal(x[at(c[(j + 1) % 3])] - x[at(c[j])], x[at(c[(j + 2) % 3])] - x[at(c[j])]);
     }
     const double length = std::sqrt(normal.squaredNorm());
     moved[k] = x[at(vertices_[k])];

@@ -1,10 +1,8 @@
 #include "mesh/thicken.hpp"
 
 #include "core/disjoint_sets.hpp"
-#include "core/elementary.hpp"
+#include "mesh/corner_normal.hpp"
 #include "mesh/half_edges.hpp"
-
-#include <Eigen/Geometry>
 
 #include <cmath>
 #include <cstddef>
@@ -46,9 +44,8 @@ std::vector<Vec3> normals(std::span<const Vec3> x, std::span<const Triangle> tri
   std::vector<Vec3> normal(x.size(), Vec3::Zero());
   for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 &p = x[at(t[k])], a = x[at(t[(k + 1) % 3])] - p, b = x[at(t[(k + 2) % 3])] - p, n = a.cross(b);
-      const double area = std::sqrt(n.squaredNorm());
-      if (area > 0) normal[at(t[k])] += ieee_atan2(area, a.dot(b)) / area * n;
+      const Vec3& p = x[at(t[k])];
+      normal[at(t[k])] += corner_normal(x[at(t[(k + 1) % 3])] - p, x[at(t[(k + 2) % 3])] - p);
     }
   for (Vec3& n : normal)
     if (const double length = std::sqrt(n.squaredNorm()); length > 0) n /= length;

@@ -1,7 +1,7 @@
-// mesh/thicken.hpp: an open sheet as a closed slab.                                                               docs/scenes.md#mended
+// mesh/thicken.hpp: an open sheet as a closed slab.                                                               docs/scenes.md#open-sheets
 //
 // The sheet stays the front; behind each vertex lies another, at `thickness` along its normal, weighted by angles; a rim joins both.  Where the
-// sheet is bent towards its front more closely than that, the back passes through itself; the front never changes.
+// sheet is bent away from its front more closely than that, the back passes through itself; the front never changes.
 #pragma once
 #include "core/types.hpp"
 
